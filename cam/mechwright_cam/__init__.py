@@ -1,0 +1,1 @@
+"""From parts to proven programs: planning, posts, interpreter, proof and exporters."""

@@ -1,0 +1,235 @@
+"""A job: one part, its stock, its holding and its cutters, in work coordinates.
+
+Glossary
+--------
+work coordinates
+    Those of the work offset: x and y from the origin that the design file names, z = 0 on top of the stock.
+target
+    The finished part seen from above.
+keep
+    What must stay at a height: the target, and below the top of the tabs the tabs as well.
+cut
+    What the cutters leave of the target's surroundings: the target with the corners filled that a round
+    cutter cannot enter.
+
+Planner and proof both start from a job and from nothing else, so that the proof does not depend on the plan.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import shapely
+
+from mechwright.errors import DesignError, GeometryError
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.tooling import CamSettings, Tool, ToolKind
+
+TAB_REACH = 1.0
+"""How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
+
+
+@dataclass(frozen=True)
+class Tab:
+    """A bridge from the part to the frame: its plan view and its upper side (below 0), work coordinates."""
+
+    shape: shapely.Polygon
+    top: float
+
+
+@dataclass(frozen=True)
+class Clamp:
+    """A round clamp on the part that the cutter and its holder must go around or over."""
+
+    centre: Point
+    diameter: float
+    top: float
+
+
+@dataclass(frozen=True)
+class Job:
+    """Everything that planning and proof need to know.
+
+    Parameters
+    ----------
+    part
+        A plate part.
+    settings
+        The table ``[cam]``.
+    tools
+        The cutters that may be used.
+    origin
+        Where X0 Y0 lies in the part's own coordinates, mm.
+    stock
+        Least x, least y, greatest x, greatest y of the plate, work coordinates, mm.
+    tabs
+        Bridges that hold the part; empty if a clamp does.
+    clamp
+        The bore clamp, if that holds the part.
+    """
+
+    part: Part
+    settings: CamSettings
+    tools: tuple[Tool, ...]
+    origin: Point
+    stock: tuple[float, float, float, float]
+    tabs: tuple[Tab, ...] = ()
+    clamp: Clamp | None = None
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of part and stock, mm: the underside is at z = -thickness."""
+        return self.part.thickness
+
+    @property
+    def floor(self) -> float:
+        """Depth of through cuts, z in mm."""
+        return -self.thickness - self.settings.breakthrough
+
+    @cached_property
+    def target(self) -> shapely.Polygon:
+        """The finished part seen from above."""
+        assert self.part.outline is not None  # noqa: S101 - make_job refuses the others
+        return shapely.transform(
+            self.part.outline.polygon(), lambda points: points - (self.origin[0], self.origin[1])
+        )
+
+    @cached_property
+    def features(self) -> tuple[Feature, ...]:
+        """The part's features in work coordinates."""
+        x, y = -self.origin[0], -self.origin[1]
+        moved: list[Feature] = []
+        for feature in self.part.features:
+            match feature:
+                case Bore():
+                    centre = (feature.centre[0] + x, feature.centre[1] + y)
+                    moved.append(replace(feature, centre=centre))
+                case Profile():
+                    sites = tuple(((site[0] + x, site[1] + y), width) for site, width in feature.tab_sites)
+                    moved.append(replace(feature, loop=feature.loop.moved(x, y), tab_sites=sites))
+                case Pocket():
+                    islands = tuple(loop.moved(x, y) for loop in feature.islands)
+                    moved.append(replace(feature, boundary=feature.boundary.moved(x, y), islands=islands))
+        return tuple(moved)
+
+    @property
+    def end_mills(self) -> tuple[Tool, ...]:
+        """The end mills, largest first."""
+        mills = [tool for tool in self.tools if tool.kind is ToolKind.END_MILL]
+        return tuple(sorted(mills, key=lambda tool: -tool.diameter))
+
+
+def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
+    """Lay a plate part into its stock and decide how it is held.
+
+    Raises
+    ------
+    GeometryError
+        The part is no plate.
+    DesignError
+        The stock is too small, or the part has no bore to be held by.
+    """
+    if part.outline is None:
+        raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
+    x0, y0, x1, y1 = part.outline.bounds
+    widest = max((tool.diameter for tool in tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    wanted = settings.stock
+    if wanted.length is not None and wanted.width is not None:
+        mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2
+    else:
+        # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
+        mx = my = widest + 3.0 if wanted.margin is None else wanted.margin
+    if min(mx, my) < 0:
+        raise DesignError(
+            f"cam.stock: the part {part.name} is {x1 - x0:.1f} x {y1 - y0:.1f} mm and does not fit into "
+            f"{wanted.length:g} x {wanted.width:g} mm; take a larger plate"
+        )
+    stock = (x0 - mx, y0 - my, x1 + mx, y1 + my)
+    origin = {
+        "axis": (0.0, 0.0),
+        "corner": (stock[0], stock[1]),
+        "centre": ((stock[0] + stock[2]) / 2, (stock[1] + stock[3]) / 2),
+    }[settings.origin]
+    placed = Job(
+        part,
+        settings,
+        tuple(tools),
+        origin,
+        (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
+    )
+    if settings.hold.method == "bore":
+        return replace(placed, clamp=_clamp(placed))
+    return replace(placed, tabs=_tabs(placed, max(mx, my)))
+
+
+def _clamp(job: Job) -> Clamp:
+    bores = [feature for feature in job.features if isinstance(feature, Bore)]
+    openings = [f for f in job.features if isinstance(f, Profile) and f.side == "inside"]
+    if bores:
+        centre = max(bores, key=lambda bore: bore.diameter).centre
+    elif openings:
+        middle = shapely.Polygon(openings[0].loop.flatten()).centroid
+        centre = (middle.x, middle.y)
+    else:
+        raise DesignError(
+            f"cam.hold.method: part {job.part.name} has no bore to be held by; use method = \"tabs\""
+        )
+    hold = job.settings.hold
+    return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
+
+
+def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
+    hold = job.settings.hold
+    if hold.tab_height >= job.thickness:
+        raise DesignError(
+            f"cam.hold.tab_height: {hold.tab_height:g} mm is not below the thickness of {job.thickness:g} mm"
+        )
+    tabs = []
+    for feature in job.features:
+        if isinstance(feature, Profile) and feature.side == "outside":
+            ring = shapely.LinearRing(feature.loop.flatten())
+            for at in _tab_places(feature, ring, hold.tabs, hold.tab_width):
+                tabs.append(Tab(_tab_shape(ring, at, hold.tab_width, reach), -job.thickness + hold.tab_height))
+    return tuple(tabs)
+
+
+def _tab_places(feature: Profile, ring: shapely.LinearRing, count: int, width: float) -> list[float]:
+    """Distances along the ring at which the tabs stand: near equal steps, on the sites if there are any."""
+    even = [ring.length * i / count for i in range(count)]
+    if not feature.tab_sites:
+        return even
+    fit = [ring.project(shapely.Point(site)) for site, longest in feature.tab_sites if longest >= width]
+    if len(fit) < count:
+        widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
+        at_most = widest[min(count, len(widest)) - 1]
+        raise DesignError(
+            f"cam.hold.tab_width: {count} tabs of {width:g} mm do not fit on {feature.name}; "
+            f"use at most {at_most:.2f} mm, or fewer than {count} of cam.hold.tabs"
+        )
+    chosen: list[float] = []
+    for wish in even:
+        free = [at for at in fit if at not in chosen]
+        chosen.append(min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2)))
+    return sorted(chosen)
+
+
+def _tab_shape(ring: shapely.LinearRing, at: float, width: float, reach: float) -> shapely.Polygon:
+    """A rectangle across the wall: TAB_REACH inwards, ``reach`` outwards, ``width`` wide."""
+    step = min(width / 2, ring.length / 100)
+    a = ring.interpolate((at - step) % ring.length)
+    b = ring.interpolate((at + step) % ring.length)
+    middle = ring.interpolate(at)
+    length = a.distance(b)
+    tx, ty = (b.x - a.x) / length, (b.y - a.y) / length
+    nx, ny = ty, -tx  # outwards of a counter-clockwise ring
+    corners = [
+        (middle.x + along * tx + out * nx, middle.y + along * ty + out * ny)
+        for along, out in (
+            (-width / 2, -TAB_REACH),
+            (width / 2, -TAB_REACH),
+            (width / 2, reach),
+            (-width / 2, reach),
+        )
+    ]
+    return shapely.Polygon(corners)

@@ -1,0 +1,85 @@
+"""The contract of a mechanism family."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
+
+from mechwright.errors import DesignError
+from mechwright.findings import Finding
+from mechwright.parameters import Parameters
+
+if TYPE_CHECKING:
+    import shapely
+
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+
+P = TypeVar("P", bound=Parameters)
+
+HOOK_API = 1
+"""Version of the contracts in this package; a family, post or exporter states the one it was written for."""
+
+
+class Family(ABC, Generic[P]):
+    """A mechanism family: parameters in, findings, motion and parts out.
+
+    A family is stateless. Its methods take validated parameters and never touch files. Heavy imports
+    (scipy, shapely, cadquery) belong at the top of the modules that need them, and those modules are
+    imported inside the method that uses them, so that listing families stays fast.
+
+    Every parameter that ``Params`` accepts changes some result.
+    """
+
+    api: ClassVar[int] = HOOK_API
+    name: ClassVar[str]
+    """Lower-case name with hyphens, as design files say it."""
+    title: ClassVar[str]
+    """A few words, as a heading."""
+    summary: ClassVar[str]
+    """One sentence."""
+    Params: type[P]
+    """The table ``[parameters]``."""
+
+    @abstractmethod
+    def check(self, params: P) -> Sequence[Finding]:
+        """Everything that an engineer would object to, and the figures worth knowing."""
+
+    @abstractmethod
+    def solve(self, params: P, samples: int) -> "Motion":
+        """The motion over one period of the input, ``samples`` of them, both ends included."""
+
+    @abstractmethod
+    def parts(self, params: P) -> "Sequence[Part]":
+        """The parts to make.
+
+        Raises
+        ------
+        MechwrightError
+            The parameters describe no part; ``check`` says why.
+        """
+
+    def check_cut(
+        self,
+        params: P,  # noqa: ARG002 - used by families whose parts mate
+        cut: "Mapping[str, shapely.Polygon]",  # noqa: ARG002
+    ) -> Sequence[Finding]:
+        """Judge the parts as the chosen cutters leave them.
+
+        Parameters
+        ----------
+        params
+            The design.
+        cut
+            Part name to its outline, mm, with the corners that no chosen cutter reaches still filled.
+
+        Returns
+        -------
+        findings
+            An error where the remainder spoils the function (gears that no longer mesh). The default
+            finds nothing: the remainder is reported by the proof all the same.
+        """
+        return ()
+
+    def synthesise(self, requirement: Mapping[str, object], limit: int) -> Sequence[P]:  # noqa: ARG002
+        """Find designs that meet a requirement, best first; a family that cannot says so."""
+        raise DesignError(f"family {self.name} has no synthesis")

@@ -1,0 +1,212 @@
+"""The outline: the single truth about a plate part.
+
+An outline is one outer loop (counter-clockwise) and any number of inner loops (clockwise), with the largest
+deviation of its segments from the exact curve. The solid is its extrusion, the drawing its segments, the
+toolpath its offset and the mass its area.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Arc, Line, Point, Segment, circle
+from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
+
+if TYPE_CHECKING:
+    import shapely
+
+# Gauss points per smooth piece: exact for the area of a spline of degree 12, rounding for quarter arcs.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A closed chain of segments.
+
+    Parameters
+    ----------
+    segments
+        Each starts where the one before ends, the first where the last ends, within the closure tolerance.
+
+    Raises
+    ------
+    GeometryError
+        Two neighbours do not meet; the message gives the place and the gap.
+
+    Examples
+    --------
+    >>> round(Loop((circle((0, 0), 1.0),)).area, 9)
+    3.141592654
+    """
+
+    segments: tuple[Segment, ...]
+
+    def __post_init__(self) -> None:
+        if not self.segments:
+            raise GeometryError("a loop needs at least one segment")
+        for one, two in zip(self.segments, (*self.segments[1:], self.segments[0]), strict=True):
+            gap = float(np.hypot(one.end[0] - two.start[0], one.end[1] - two.start[1]))
+            if not gap <= TOLERANCES.closure:
+                raise GeometryError(
+                    f"the outline is open at ({one.end[0]:.6f}, {one.end[1]:.6f}): "
+                    f"a gap of {gap:.3g} mm, the limit is {TOLERANCES.closure:g} mm"
+                )
+
+    @classmethod
+    def polygon(cls, points: Iterable[Point], tag: str = "") -> "Loop":
+        """The loop of straight lines through these corners, mm."""
+        corners = [(float(x), float(y)) for x, y in points]
+        return cls(tuple(Line(a, b, tag) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)))
+
+    @property
+    def is_circle(self) -> bool:
+        """Whether the loop is one whole circle."""
+        return len(self.segments) == 1 and isinstance(self.segments[0], Arc)
+
+    def flatten(self, tolerance: float = TOLERANCES.flatten) -> Array:
+        """Corners (n, 2), mm, of a polygon within ``tolerance`` of the loop; the first is not repeated."""
+        return np.concatenate([segment.flatten(tolerance)[:-1] for segment in self.segments])
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Loop":
+        """The loop turned about the origin, then shifted."""
+        return Loop(tuple(segment.moved(x, y, angle) for segment in self.segments))
+
+    def reversed(self) -> "Loop":
+        """The same loop run the other way."""
+        return Loop(tuple(segment.reversed() for segment in self.segments[::-1]))
+
+    @cached_property
+    def moments(self) -> Array:
+        """Integrals (6,) of 1, x, y, x², y², xy over the inside, by Green's theorem; negative if clockwise."""
+        points, rates = [], []
+        for segment in self.segments:
+            breaks = segment.breaks()
+            half = np.diff(breaks) / 2
+            t = ((breaks[:-1] + half)[:, None] + half[:, None] * _NODES).ravel()
+            points.append(segment.at(t))
+            rates.append(segment.derivative(t) * (half[:, None] * _WEIGHTS).ravel()[:, None])
+        x, y = np.concatenate(points).T
+        dx, dy = np.concatenate(rates).T
+        return np.array(
+            [
+                (x @ dy - y @ dx) / 2,
+                (x * x) @ dy / 2,
+                -(y * y) @ dx / 2,
+                (x**3) @ dy / 3,
+                -(y**3) @ dx / 3,
+                (x * x * y) @ dy / 2,
+            ]
+        )
+
+    @property
+    def area(self) -> float:
+        """Signed area, mm²: positive if counter-clockwise."""
+        return float(self.moments[0])
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least x, least y, greatest x, greatest y, mm, to the flattening tolerance."""
+        points = self.flatten()
+        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        return float(x0), float(y0), float(x1), float(y1)
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A plate part seen from above, mm.
+
+    Parameters
+    ----------
+    outer
+        The outside, counter-clockwise.
+    inner
+        The openings, clockwise each.
+    deviation
+        Largest distance of any segment from the exact curve, mm.
+
+    Raises
+    ------
+    GeometryError
+        A loop runs the wrong way.
+    """
+
+    outer: Loop
+    inner: tuple[Loop, ...] = ()
+    deviation: float = 0.0
+    _polygons: dict[float, "shapely.Polygon"] = field(
+        default_factory=dict, init=False, repr=False, compare=False, hash=False
+    )
+
+    def __post_init__(self) -> None:
+        if self.outer.area <= 0:
+            raise GeometryError("the outer loop of an outline runs counter-clockwise")
+        if any(loop.area >= 0 for loop in self.inner):
+            raise GeometryError("the inner loops of an outline run clockwise")
+
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """The outer loop, then the inner ones."""
+        return (self.outer, *self.inner)
+
+    @property
+    def moments(self) -> Array:
+        """Integrals (6,) of 1, x, y, x², y², xy over the material."""
+        total: Array = np.sum([loop.moments for loop in self.loops], axis=0)
+        return total
+
+    @property
+    def area(self) -> float:
+        """Area of the material, mm²."""
+        return float(self.moments[0])
+
+    @property
+    def centroid(self) -> Point:
+        """Centre of area, mm."""
+        m = self.moments
+        return float(m[1] / m[0]), float(m[2] / m[0])
+
+    @property
+    def polar_moment(self) -> float:
+        """Second moment of area about the origin, mm⁴."""
+        m = self.moments
+        return float(m[3] + m[4])
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least x, least y, greatest x, greatest y, mm."""
+        return self.outer.bounds
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Outline":
+        """The outline turned about the origin, then shifted."""
+        return Outline(
+            self.outer.moved(x, y, angle),
+            tuple(loop.moved(x, y, angle) for loop in self.inner),
+            self.deviation,
+        )
+
+    def polygon(self, tolerance: float = TOLERANCES.flatten) -> "shapely.Polygon":
+        """The outline as a polygon within ``tolerance``, mm.
+
+        Raises
+        ------
+        GeometryError
+            The outline cuts itself.
+        """
+        if tolerance not in self._polygons:
+            import shapely
+
+            polygon = shapely.Polygon(
+                self.outer.flatten(tolerance), [loop.flatten(tolerance) for loop in self.inner]
+            )
+            if not polygon.is_valid:
+                raise GeometryError(f"the outline cuts itself: {shapely.is_valid_reason(polygon)}")
+            self._polygons[tolerance] = polygon
+        return self._polygons[tolerance]
+
+
+__all__ = ["Loop", "Outline", "circle"]

@@ -1,0 +1,331 @@
+"""The three kinds of curve an outline is made of.
+
+Glossary
+--------
+segment
+    A directed piece of plane curve with a parameter t in [0, 1].
+tag
+    What the segment is on the part (``"flank"``, ``"root"``, ``"tip"``); empty if it has no name.
+span
+    A polynomial piece of a B-spline, between two different knots.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mechwright.errors import GeometryError
+from mechwright.motion import Array
+
+Point = tuple[float, float]
+
+
+class Segment(Protocol):
+    """What every segment can do; lengths in mm, angles in rad."""
+
+    @property
+    def tag(self) -> str:
+        """What the segment is on the part."""
+        ...
+
+    @property
+    def start(self) -> Point:
+        """First point."""
+        ...
+
+    @property
+    def end(self) -> Point:
+        """Last point."""
+        ...
+
+    def at(self, t: ArrayLike) -> Array:
+        """Points (n, 2) at parameters t (n,) in [0, 1]."""
+        ...
+
+    def derivative(self, t: ArrayLike) -> Array:
+        """First derivative (n, 2) with respect to t."""
+        ...
+
+    def flatten(self, tolerance: float) -> Array:
+        """Points (n, 2) from start to end whose chords stay within ``tolerance`` of the curve."""
+        ...
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Segment":
+        """The segment turned by ``angle`` about the origin, then shifted."""
+        ...
+
+    def reversed(self) -> "Segment":
+        """The same curve run the other way."""
+        ...
+
+    def breaks(self) -> Array:
+        """Parameters between which the curve is smooth, 0 and 1 included."""
+        ...
+
+
+def _turned(points: Array, x: float, y: float, angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    turned: Array = points @ np.array([[c, s], [-s, c]]) + (x, y)
+    return turned
+
+
+def _point(row: Array) -> Point:
+    return float(row[0]), float(row[1])
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight segment between two points, mm."""
+
+    start: Point
+    end: Point
+    tag: str = ""
+
+    def at(self, t: ArrayLike) -> Array:
+        """Points (n, 2), mm, at parameters t (n,) in [0, 1].
+
+        >>> Line((0, 0), (4, 2)).at([0.5]).tolist()
+        [[2.0, 1.0]]
+        """
+        t = np.atleast_1d(np.asarray(t, dtype=float))[:, None]
+        return (1 - t) * np.asarray(self.start) + t * np.asarray(self.end)
+
+    def derivative(self, t: ArrayLike) -> Array:
+        """First derivative (n, 2) with respect to t."""
+        return np.tile(np.subtract(self.end, self.start).astype(float), (np.size(t), 1))
+
+    def flatten(self, tolerance: float) -> Array:  # noqa: ARG002 - a line is its own chord
+        """The two end points, (2, 2)."""
+        return np.array([self.start, self.end], dtype=float)
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Line":
+        """The line turned about the origin, then shifted."""
+        a, b = _turned(np.array([self.start, self.end], dtype=float), x, y, angle)
+        return replace(self, start=_point(a), end=_point(b))
+
+    def reversed(self) -> "Line":
+        """The same line run the other way."""
+        return replace(self, start=self.end, end=self.start)
+
+    def breaks(self) -> Array:
+        """Smooth throughout."""
+        return np.array([0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A circular arc.
+
+    Parameters
+    ----------
+    centre
+        mm.
+    radius
+        Above 0, mm.
+    start_angle
+        Direction from the centre to the start, rad.
+    sweep
+        Signed turn, rad: positive is counter-clockwise, ±2π is a full circle.
+    """
+
+    centre: Point
+    radius: float
+    start_angle: float
+    sweep: float
+    tag: str = ""
+
+    def __post_init__(self) -> None:
+        if not (self.radius > 0 and 0 < abs(self.sweep) <= math.tau + 1e-12):
+            raise GeometryError(f"an arc needs a radius above 0 and a sweep up to a full turn, not {self}")
+
+    @property
+    def is_circle(self) -> bool:
+        """Whether the arc is a whole circle."""
+        return abs(abs(self.sweep) - math.tau) < 1e-12
+
+    @property
+    def start(self) -> Point:
+        """First point, mm."""
+        return _point(self.at(0.0)[0])
+
+    @property
+    def end(self) -> Point:
+        """Last point, mm; the very start for a circle."""
+        return self.start if self.is_circle else _point(self.at(1.0)[0])
+
+    def at(self, t: ArrayLike) -> Array:
+        """Points (n, 2), mm, at parameters t (n,) in [0, 1]."""
+        angle = self.start_angle + self.sweep * np.atleast_1d(np.asarray(t, dtype=float))
+        return np.column_stack(
+            (self.centre[0] + self.radius * np.cos(angle), self.centre[1] + self.radius * np.sin(angle))
+        )
+
+    def derivative(self, t: ArrayLike) -> Array:
+        """First derivative (n, 2) with respect to t."""
+        angle = self.start_angle + self.sweep * np.atleast_1d(np.asarray(t, dtype=float))
+        return self.radius * self.sweep * np.column_stack((-np.sin(angle), np.cos(angle)))
+
+    def flatten(self, tolerance: float) -> Array:
+        """Points on the arc whose chords stay within ``tolerance`` of it."""
+        step = 2 * math.acos(max(0.0, 1 - min(tolerance / self.radius, 1.0)))
+        count = max(1 if abs(self.sweep) < 1 else 3, math.ceil(abs(self.sweep) / max(step, 1e-6)))
+        points = self.at(np.linspace(0, 1, count + 1))
+        if self.is_circle:
+            points[-1] = points[0]
+        return points
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Arc":
+        """The arc turned about the origin, then shifted."""
+        centre = _turned(np.array([self.centre], dtype=float), x, y, angle)[0]
+        return replace(self, centre=_point(centre), start_angle=self.start_angle + angle)
+
+    def reversed(self) -> "Arc":
+        """The same arc run the other way."""
+        return replace(self, start_angle=self.start_angle + self.sweep, sweep=-self.sweep)
+
+    def breaks(self) -> Array:
+        """Smooth throughout, but cut to quarter turns so that quadrature is exact to rounding."""
+        return np.linspace(0, 1, max(1, math.ceil(abs(self.sweep) / (math.pi / 2))) + 1)
+
+
+def circle(centre: Point, radius: float, *, clockwise: bool = False, tag: str = "") -> Arc:
+    """A whole circle that starts at angle 0.
+
+    >>> circle((1.0, 0.0), 2.0).start
+    (3.0, 0.0)
+    """
+    return Arc(centre, radius, 0.0, -math.tau if clockwise else math.tau, tag)
+
+
+@dataclass(frozen=True)
+class BSpline:
+    """A clamped, non-rational B-spline.
+
+    Parameters
+    ----------
+    degree
+        1 to 25.
+    knots
+        Non-decreasing, from 0 to 1, ``len(points) + degree + 1`` of them, end knots ``degree + 1`` fold.
+    points
+        Control points, mm.
+    """
+
+    degree: int
+    knots: tuple[float, ...]
+    points: tuple[Point, ...]
+    tag: str = ""
+
+    def __post_init__(self) -> None:
+        clamped = self.degree + 1
+        good = (
+            1 <= self.degree <= 25
+            and len(self.knots) == len(self.points) + clamped
+            and all(a <= b for a, b in zip(self.knots, self.knots[1:], strict=False))
+            and self.knots[:clamped] == (0.0,) * clamped
+            and self.knots[-clamped:] == (1.0,) * clamped
+        )
+        if not good:
+            raise GeometryError(f"a B-spline of degree {self.degree} needs clamped knots from 0 to 1")
+
+    @classmethod
+    def bezier(cls, points: ArrayLike, tag: str = "") -> "BSpline":
+        """The single-span spline with these control points (n, 2), mm."""
+        rows = [_point(row) for row in np.asarray(points, dtype=float)]
+        return cls(len(rows) - 1, (0.0,) * len(rows) + (1.0,) * len(rows), tuple(rows), tag)
+
+    @property
+    def start(self) -> Point:
+        """First point, mm."""
+        return self.points[0]
+
+    @property
+    def end(self) -> Point:
+        """Last point, mm."""
+        return self.points[-1]
+
+    @cached_property
+    def _net(self) -> Array:
+        return np.asarray(self.points, dtype=float)
+
+    @property
+    def is_bezier(self) -> bool:
+        """Whether there is a single span."""
+        return len(self.points) == self.degree + 1
+
+    def at(self, t: ArrayLike) -> Array:
+        """Points (n, 2), mm, at parameters t (n,) in [0, 1].
+
+        >>> BSpline.bezier([(0, 0), (1, 2), (2, 0)]).at([0.5]).tolist()
+        [[1.0, 1.0]]
+        """
+        t = np.atleast_1d(np.asarray(t, dtype=float))
+        if self.is_bezier:
+            return _bernstein(self.degree, t) @ self._net
+        from scipy.interpolate import BSpline as Spline  # 0.7 s to import: only multi-span curves pay it
+
+        values: Array = Spline(np.asarray(self.knots), self._net, self.degree)(t)
+        return values
+
+    def derivative(self, t: ArrayLike) -> Array:
+        """First derivative (n, 2) with respect to t."""
+        t = np.atleast_1d(np.asarray(t, dtype=float))
+        if self.is_bezier:
+            return _bernstein(self.degree - 1, t) @ (self.degree * np.diff(self._net, axis=0))
+        from scipy.interpolate import BSpline as Spline
+
+        values: Array = Spline(np.asarray(self.knots), self._net, self.degree)(t, 1)
+        return values
+
+    def flatten(self, tolerance: float) -> Array:
+        """Points on the curve, uniform in t, whose chords stay within ``tolerance`` of it.
+
+        The chord error of a span h is at most h² max|P''| / 8; the second derivative is bounded by the
+        second differences of the control net, so the count needs no iteration.
+        """
+        pieces = []
+        for a, b, bound in self._spans():
+            count = max(1, math.ceil((b - a) * math.sqrt(bound / (8 * tolerance))))
+            pieces.append(np.linspace(a, b, count + 1)[:-1])
+        points = self.at(np.append(np.concatenate(pieces), 1.0))
+        points[0], points[-1] = self.start, self.end
+        return points
+
+    def _spans(self) -> list[tuple[float, float, float]]:
+        if self.is_bezier:
+            second = np.diff(self._net, n=2, axis=0)
+            bound = self.degree * (self.degree - 1) * np.hypot(second[:, 0], second[:, 1]).max(initial=0.0)
+            return [(0.0, 1.0, float(bound))]
+        from scipy.interpolate import BSpline as Spline
+
+        inner = np.unique(np.asarray(self.knots))
+        curve = Spline(np.asarray(self.knots), self._net, self.degree)
+        # Sampled, with a margin: the second derivative of a span is a polynomial of degree k - 2.
+        return [
+            (a, b, 1.2 * float(np.hypot(*curve(np.linspace(a, b, 2 * self.degree + 3), 2).T).max()))
+            for a, b in zip(inner[:-1].tolist(), inner[1:].tolist(), strict=True)
+        ]
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "BSpline":
+        """The spline turned about the origin, then shifted."""
+        return replace(self, points=tuple(_point(row) for row in _turned(self._net, x, y, angle)))
+
+    def reversed(self) -> "BSpline":
+        """The same spline run the other way."""
+        return replace(self, knots=tuple(1 - k for k in self.knots[::-1]), points=self.points[::-1])
+
+    def breaks(self) -> Array:
+        """The distinct knots."""
+        return np.unique(np.asarray(self.knots))
+
+
+def _bernstein(degree: int, t: Array) -> Array:
+    """Bernstein polynomials of one degree at t (n,): (n, degree + 1)."""
+    k = np.arange(degree + 1)
+    binomial = np.array([math.comb(degree, i) for i in k], dtype=float)
+    values: Array = binomial * t[:, None] ** k * (1 - t[:, None]) ** (degree - k)
+    return values

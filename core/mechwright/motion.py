@@ -1,0 +1,86 @@
+"""How a mechanism moves: named channels over the input angle, and the pose of every body."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A sampled quantity: ``values`` (n,) float in ``unit`` (SI with millimetres: mm, rad, rad/s, mm/s^2)."""
+
+    values: Array
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A single figure and its unit."""
+
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """Where a body is at each sample: a body point p stands at ``rotation @ p + position``.
+
+    Parameters
+    ----------
+    position
+        (n, 3) float, mm.
+    rotation
+        (n, 3, 3) float, proper orthogonal.
+    """
+
+    position: Array
+    rotation: Array
+
+    @classmethod
+    def planar(cls, x: Array | float, y: Array | float, angle: Array, z: float = 0.0) -> "Poses":
+        """Poses of a body that turns about z; ``angle`` (n,) rad, ``x`` and ``y`` (n,) or a constant, mm."""
+        angle = np.asarray(angle, dtype=float)
+        c, s = np.cos(angle), np.sin(angle)
+        position = np.empty((angle.size, 3))
+        position[:, 0], position[:, 1], position[:, 2] = x, y, z
+        rotation = np.zeros((angle.size, 3, 3))
+        rotation[:, 0, 0], rotation[:, 0, 1] = c, -s
+        rotation[:, 1, 0], rotation[:, 1, 1] = s, c
+        rotation[:, 2, 2] = 1.0
+        return cls(position, rotation)
+
+    def transform(self, points: Array) -> Array:
+        """Move body points (k, 3), mm, to every pose: (n, k, 3), mm."""
+        moved: Array = np.einsum("nij,kj->nki", self.rotation, points) + self.position[:, None, :]
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The motion of a mechanism.
+
+    Parameters
+    ----------
+    input_name
+        Name of the channel that drives (``"theta2"``); it is one of ``channels``.
+    channels
+        Name to channel; all of one length n, in the order they are printed.
+    poses
+        Body name to its poses, n samples each, for every body that a part is an instance of.
+    scalars
+        Figures of the whole motion (maxima, ratios), name to value and unit.
+    """
+
+    input_name: str
+    channels: Mapping[str, Channel]
+    poses: Mapping[str, Poses] = field(default_factory=dict)
+    scalars: Mapping[str, Scalar] = field(default_factory=dict)
+
+    @property
+    def samples(self) -> int:
+        """Number of samples n."""
+        return int(self.channels[self.input_name].values.size)

@@ -1,0 +1,58 @@
+"""Contracts of what writes files: posts and exporters."""
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.family import HOOK_API
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+    from mechwright.program import Program
+    from mechwright.tooling import Tool
+
+
+class Post(ABC):
+    """Turns a program into the text that one control reads."""
+
+    api: ClassVar[int] = HOOK_API
+    name: ClassVar[str]
+    """Name in design files (``"linuxcnc"``)."""
+    title: ClassVar[str]
+    """Name for people."""
+    suffix: ClassVar[str] = ".nc"
+    """Ending of program files."""
+
+    @abstractmethod
+    def write(self, program: "Program") -> str:
+        """The program text, lines ended by a line feed."""
+
+    @abstractmethod
+    def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:
+        """File name and text of the control's tool table; two empty strings if it has none."""
+
+
+class Exporter(ABC):
+    """Writes parts in one file format. The same parts give the same bytes."""
+
+    api: ClassVar[int] = HOOK_API
+    name: ClassVar[str]
+    """Name on the command line (``"step"``)."""
+    suffix: ClassVar[str]
+    """Ending of its files."""
+
+    @abstractmethod
+    def part(self, part: "Part") -> bytes:
+        """One part by itself, in its own coordinates."""
+
+    def assembly(
+        self,
+        name: str,  # noqa: ARG002 - used by formats that hold assemblies
+        parts: "Sequence[Part]",  # noqa: ARG002
+        motion: "Motion",  # noqa: ARG002
+        sample: int = 0,  # noqa: ARG002
+    ) -> bytes | None:
+        """All instances in their poses at one sample of the motion; None if the format holds single parts."""
+        return None

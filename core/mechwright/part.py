@@ -1,0 +1,139 @@
+"""Parts, and the features that machining sees on them.
+
+Heights are measured downwards from the part's top face, so a feature that starts at the top and goes through
+a 10 mm plate has ``top = 0`` and ``depth = 10``. The solid stands on z = 0 and reaches up to the thickness.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from mechwright.errors import DesignError, GeometryError
+from mechwright.geometry import Arc, Loop, Outline
+from mechwright.geometry.segments import Point
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+Colour = tuple[float, float, float]
+_NAME = re.compile(r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?")
+
+
+def check_name(name: str, what: str = "name") -> str:
+    """Give ``name`` back if it can be a file name anywhere, else raise DesignError.
+
+    >>> check_name("gear-2")
+    'gear-2'
+    """
+    if not _NAME.fullmatch(name):
+        raise DesignError(
+            f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, a letter or digit at both ends"
+        )
+    return name
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A wall through or into the plate, along a loop.
+
+    ``side`` says where the cutter runs. ``tab_sites`` are points on the loop where a holding tab does least
+    harm, mm, each with the longest tab that fits there; empty if any place will do.
+    """
+
+    name: str
+    loop: Loop
+    side: Literal["outside", "inside"]
+    top: float
+    depth: float
+    tab_sites: tuple[tuple[Point, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Bore:
+    """A round hole."""
+
+    name: str
+    centre: Point
+    diameter: float
+    top: float
+    depth: float
+
+
+@dataclass(frozen=True)
+class Pocket:
+    """A flat-bottomed recess inside ``boundary``, around ``islands``."""
+
+    name: str
+    boundary: Loop
+    islands: tuple[Loop, ...]
+    top: float
+    depth: float
+
+
+Feature = Profile | Bore | Pocket
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One copy of a part: the body it belongs to in the motion, and how high its underside stands, mm."""
+
+    body: str
+    z: float = 0.0
+
+
+@dataclass(frozen=True)
+class Part:
+    """A thing to make.
+
+    Parameters
+    ----------
+    name
+        Also the stem of its files.
+    outline
+        The plate seen from above, origin on the part's own axis; None for a part built as a solid.
+    thickness
+        mm; 0 for a part built as a solid.
+    material
+        A name of the material table (``"aluminium"``, ``"steel"``, ``"brass"``, ``"pom"``).
+    instances
+        Where copies stand in the mechanism.
+    colour
+        Red, green, blue, each 0 to 1.
+    machined
+        Features in the order of the drawing; empty means: those of the outline.
+    build
+        Makes the solid of a part that is no plate.
+    """
+
+    name: str
+    outline: Outline | None
+    thickness: float
+    material: str
+    instances: tuple[Instance, ...] = ()
+    colour: Colour = (0.7, 0.7, 0.72)
+    machined: tuple[Feature, ...] = ()
+    build: "Callable[[], cq.Solid] | None" = None
+
+    def __post_init__(self) -> None:
+        check_name(self.name, "part name")
+        if (self.outline is None) == (self.build is None):
+            raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
+        if self.outline is not None and not self.thickness > 0:
+            raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
+
+    @cached_property
+    def features(self) -> tuple[Feature, ...]:
+        """What machining has to cut: every loop once, openings first."""
+        if self.machined or self.outline is None:
+            return self.machined
+        features: list[Feature] = []
+        for number, loop in enumerate(self.outline.inner, start=1):
+            segment = loop.segments[0]
+            if loop.is_circle and isinstance(segment, Arc):
+                features.append(Bore(f"bore-{number}", segment.centre, 2 * segment.radius, 0, self.thickness))
+            else:
+                features.append(Profile(f"opening-{number}", loop, "inside", 0, self.thickness))
+        features.append(Profile("outside", self.outline.outer, "outside", 0, self.thickness))
+        return tuple(features)

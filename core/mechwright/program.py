@@ -1,0 +1,116 @@
+"""A machining program that no control has touched yet: what a post turns into text.
+
+Coordinates are those of the work offset, mm: x and y from the origin the setup sheet names, z = 0 on top of
+the stock. Feeds are mm/min.
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from mechwright.tooling import Tool
+
+
+@dataclass(frozen=True, slots=True)
+class Rapid:
+    """A positioning move; an axis that is None stays where it is."""
+
+    x: float | None = None
+    y: float | None = None
+    z: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Feed:
+    """A straight cut; an axis that is None stays where it is."""
+
+    x: float | None
+    y: float | None
+    z: float | None
+    feed: float
+
+
+@dataclass(frozen=True, slots=True)
+class FeedArc:
+    """A circular cut in XY, a helix where z differs from the present one.
+
+    ``i`` and ``j`` lead from the start to the centre. An end equal to the start is a full turn.
+    """
+
+    x: float
+    y: float
+    z: float | None
+    i: float
+    j: float
+    ccw: bool
+    feed: float
+
+
+@dataclass(frozen=True, slots=True)
+class Drill:
+    """A hole: rapid to ``retract``, feed to ``bottom``, rapid out; pecks of ``peck`` mm if not None."""
+
+    x: float
+    y: float
+    bottom: float
+    retract: float
+    feed: float
+    peck: float | None = None
+    dwell: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """The machine stops until the operator goes on, at a safe height with spindle and coolant off."""
+
+    message: str
+
+
+Move = Rapid | Feed | FeedArc | Drill | Pause
+
+
+@dataclass(frozen=True)
+class Operation:
+    """A named run of moves with one tool, for comments, setup sheet and proof."""
+
+    name: str
+    moves: tuple[Move, ...]
+
+
+@dataclass(frozen=True)
+class ToolSection:
+    """Everything between two tool changes. The first move is a Rapid with x and y."""
+
+    tool: Tool
+    spindle: float
+    coolant: Literal["flood", "mist", "off"]
+    operations: tuple[Operation, ...]
+
+
+@dataclass(frozen=True)
+class Program:
+    """A whole program.
+
+    Parameters
+    ----------
+    name
+        Stem of its file.
+    work_offset
+        ``"G54"`` to ``"G59.3"``.
+    clearance
+        Height of rapid moves, mm.
+    notes
+        Lines for the head: part, material, stock, origin.
+    sections
+        In cutting order.
+    """
+
+    name: str
+    work_offset: str
+    clearance: float
+    sections: tuple[ToolSection, ...]
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def tools(self) -> tuple[Tool, ...]:
+        """The tools in order of first use, each once."""
+        return tuple({section.tool.number: section.tool for section in self.sections}.values())

@@ -1,0 +1,34 @@
+"""Every numerical limit of the program, each with its reason, in one frozen object."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """Limits in millimetres unless the name says otherwise."""
+
+    closure: float = 1e-7
+    """Gap between consecutive segments of a loop: the CAD kernel's own vertex tolerance."""
+
+    outline: float = 0.001
+    """Deviation of a fitted outline from the exact curve: a tenth of what a good mill holds."""
+
+    flatten: float = 0.0005
+    """Chord error when an outline becomes a polygon: half of ``outline``, so it never dominates."""
+
+    arc_fit: float = 0.002
+    """Deviation of a toolpath arc from the exact path; also the arc consistency the proof demands.
+    LinuxCNC rejects end radii 0.0283 mm apart, Grbl 0.005 mm; this stays clear of both."""
+
+    gouge: float = 0.005
+    """Deepest cut into the finished part that the proof lets pass."""
+
+    leftover: float = 0.010
+    """Thickest stock left on a wall that a chosen cutter could have reached."""
+
+    angle_rad: float = 1e-9
+    """Two directions closer than this are the same: a metre of lever moves a nanometre."""
+
+
+TOLERANCES = Tolerances()
+"""The tolerances in force."""

@@ -1,0 +1,130 @@
+"""Cutters, machines, stock and holding: the tables under ``[cam]`` of a design file, and the tool library."""
+
+from enum import StrEnum
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, MetresPerMin, Millimetres, MillimetresPerMin, Ratio, RevPerMin
+
+
+class ToolKind(StrEnum):
+    """Kinds of cutter that the program can use."""
+
+    END_MILL = "end-mill"
+    DRILL = "drill"
+    SPOT_DRILL = "spot-drill"
+
+
+class CuttingData(Parameters):
+    """How a tool cuts one material."""
+
+    cutting_speed: MetresPerMin = Field(gt=0, le=2000, description="Speed of the cutting edge.")
+    chip_load: Millimetres = Field(gt=0, le=2, description="Feed per tooth; per lip for a drill.")
+    step_down: Ratio = Field(
+        0.5, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
+    )
+    step_over: Ratio = Field(0.4, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+
+
+class Tool(Parameters):
+    """A cutter in its holder."""
+
+    name: str = Field(min_length=1, max_length=40, pattern=r"^[a-z0-9][a-z0-9_.-]*$", description="Its name.")
+    number: int = Field(ge=1, le=9999, description="T number; the length offset H is the same.")
+    kind: ToolKind = Field(description="What it is.")
+    diameter: Millimetres = Field(gt=0, le=100, description="Cutting diameter.")
+    flutes: int = Field(2, ge=1, le=12, description="Number of cutting edges.")
+    flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
+    centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
+    point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
+    cutting: dict[str, CuttingData] = Field(default_factory=dict, description="Material name to cutting data.")
+
+    @property
+    def radius(self) -> float:
+        """Half the diameter, mm."""
+        return self.diameter / 2
+
+
+class Machine(Parameters):
+    """A three-axis mill."""
+
+    name: str = Field("three-axis mill", max_length=60, description="Its name on the setup sheet.")
+    travel_x: Millimetres = Field(500.0, gt=0, le=10000, description="Travel of X.")
+    travel_y: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Y.")
+    travel_z: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Z.")
+    rapid: MillimetresPerMin = Field(10000.0, gt=0, le=200000, description="Speed of a rapid move.")
+    max_feed: MillimetresPerMin = Field(5000.0, gt=0, le=100000, description="Fastest feed.")
+    spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
+    spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
+    acceleration: Ratio = Field(
+        1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
+    )
+    tool_change: Annotated[Ratio, Field(ge=0, le=3600)] = Field(12.0, description="Time of a tool change in s.")
+
+    @model_validator(mode="after")
+    def _spindle(self) -> Self:
+        if self.spindle_min >= self.spindle_max:
+            raise ValueError("spindle_min must be below spindle_max")
+        return self
+
+
+class Stock(Parameters):
+    """The plate that the part is cut from; as thick as the part.
+
+    Its size is the part's plus the margin all round, unless length and width are given.
+    """
+
+    margin: Millimetres | None = Field(
+        None, ge=0, le=200, description="Stock around the part; by default the roughing cutter and 3 mm."
+    )
+    length: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in X.")
+    width: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in Y.")
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if (self.length is None) != (self.width is None):
+            raise ValueError("give both length and width, or neither")
+        if self.length is not None and self.margin is not None:
+            raise ValueError("give length and width, or margin, not both")
+        return self
+
+
+class Hold(Parameters):
+    """How the part is held while its outside is cut."""
+
+    method: Literal["tabs", "bore"] = Field("tabs", description="Tabs to the frame, or a clamp through the bore.")
+    tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
+    tab_width: Millimetres = Field(2.0, gt=0, le=50, description="Width of a tab along the contour.")
+    tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
+    clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
+    clamp_height: Millimetres = Field(15.0, gt=0, le=200, description="Height of the bore clamp above the part.")
+
+
+WorkOffset = Annotated[str, Field(pattern=r"^G5(4|5|6|7|8|9|9\.[123])$")]
+
+
+class CamSettings(Parameters):
+    """The table ``[cam]`` of a design file."""
+
+    control: str = Field("linuxcnc", min_length=1, max_length=40, description="Control that reads the program.")
+    work_offset: WorkOffset = Field("G54", description="Work offset, G54 to G59.3.")
+    origin: Literal["axis", "corner", "centre"] = Field(
+        "axis", description="X and Y zero: the part's axis, the stock's lower left corner, or its centre."
+    )
+    tools: tuple[str, ...] = Field((), description="Names of the cutters to use; empty: chosen from the library.")
+    tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
+    machine: Machine = Field(Machine(), description="The mill.")
+    stock: Stock = Field(Stock(), description="The plate.")
+    hold: Hold = Field(Hold(), description="How the part is held.")
+    climb: bool = Field(True, description="Climb milling; false cuts conventionally.")
+    coolant: Literal["flood", "mist", "off"] = Field("flood", description="Coolant while cutting.")
+    clearance: Millimetres = Field(5.0, gt=0, le=200, description="Height of rapids over stock and clamp.")
+    breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
+    stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
+    spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
+    finish_step: Ratio = Field(
+        2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters."
+    )
+    ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")

@@ -1,0 +1,1 @@
+"""Elliptic gears that turn about their foci."""
