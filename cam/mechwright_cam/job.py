@@ -20,7 +20,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import shapely
-
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
@@ -173,7 +172,7 @@ def _clamp(job: Job) -> Clamp:
         centre = (middle.x, middle.y)
     else:
         raise DesignError(
-            f"cam.hold.method: part {job.part.name} has no bore to be held by; use method = \"tabs\""
+            f'cam.hold.method: part {job.part.name} has no bore to be held by; use method = "tabs"'
         )
     hold = job.settings.hold
     return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
@@ -190,7 +189,9 @@ def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
         if isinstance(feature, Profile) and feature.side == "outside":
             ring = shapely.LinearRing(feature.loop.flatten())
             for at in _tab_places(feature, ring, hold.tabs, hold.tab_width):
-                tabs.append(Tab(_tab_shape(ring, at, hold.tab_width, reach), -job.thickness + hold.tab_height))
+                tabs.append(
+                    Tab(_tab_shape(ring, at, hold.tab_width, reach), -job.thickness + hold.tab_height)
+                )
     return tuple(tabs)
 
 
@@ -210,7 +211,9 @@ def _tab_places(feature: Profile, ring: shapely.LinearRing, count: int, width: f
     chosen: list[float] = []
     for wish in even:
         free = [at for at in fit if at not in chosen]
-        chosen.append(min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2)))
+        chosen.append(
+            min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2))
+        )
     return sorted(chosen)
 
 

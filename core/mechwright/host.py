@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import EntryPoint, distributions
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 import pluggy
 
@@ -32,7 +32,7 @@ class Broken:
 
 
 @dataclass(frozen=True, slots=True)
-class Registered[T]:
+class Registered(Generic[T]):
     """A registered class and the distribution it comes from."""
 
     item: T
@@ -106,13 +106,13 @@ class Host:
     def _add_class(
         self,
         cls: Any,
-        base: type,
+        base: type[Any],
         items: dict[str, Registered[Any]],
         distribution: str,
         plugin: str,
         fail: Callable[[str], None],
     ) -> None:
-        if not (isinstance(cls, type) and issubclass(cls, base)):
+        if not _is_subclass(cls, base):
             fail(f"{cls!r} is no subclass of {base.__name__}")
         elif getattr(cls, "api", None) != HOOK_API:
             fail(f"{cls.__name__} was written for hook API {getattr(cls, 'api', None)}; this is {HOOK_API}")
@@ -120,12 +120,19 @@ class Host:
             fail(f"{cls.__name__} has no name")
         elif cls.name in items:
             other = items[cls.name]
-            fail(f"{base.__name__.lower()} {cls.name!r} is already registered by {other.plugin} of {other.distribution}")
+            fail(
+                f"{base.__name__.lower()} {cls.name!r} is already registered by "
+                f"{other.plugin} of {other.distribution}"
+            )
         else:
             try:
                 items[cls.name] = Registered(cls(), distribution, plugin)
             except Exception as error:  # noqa: BLE001,RUF100 - a plugin may fail in any way
                 fail(_reason(error))
+
+
+def _is_subclass(cls: Any, base: type[Any]) -> bool:
+    return isinstance(cls, type) and issubclass(cls, base)
 
 
 def _reason(error: BaseException) -> str:

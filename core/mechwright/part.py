@@ -29,7 +29,8 @@ def check_name(name: str, what: str = "name") -> str:
     """
     if not _NAME.fullmatch(name):
         raise DesignError(
-            f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, a letter or digit at both ends"
+            f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
+            "a letter or digit at both ends"
         )
     return name
 

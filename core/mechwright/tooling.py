@@ -39,7 +39,9 @@ class Tool(Parameters):
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
     centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
     point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
-    cutting: dict[str, CuttingData] = Field(default_factory=dict, description="Material name to cutting data.")
+    cutting: dict[str, CuttingData] = Field(
+        default_factory=dict, description="Material name to cutting data."
+    )
 
     @property
     def radius(self) -> float:
@@ -61,7 +63,9 @@ class Machine(Parameters):
     acceleration: Ratio = Field(
         1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
     )
-    tool_change: Annotated[Ratio, Field(ge=0, le=3600)] = Field(12.0, description="Time of a tool change in s.")
+    tool_change: Annotated[Ratio, Field(ge=0, le=3600)] = Field(
+        12.0, description="Time of a tool change in s."
+    )
 
     @model_validator(mode="after")
     def _spindle(self) -> Self:
@@ -94,12 +98,16 @@ class Stock(Parameters):
 class Hold(Parameters):
     """How the part is held while its outside is cut."""
 
-    method: Literal["tabs", "bore"] = Field("tabs", description="Tabs to the frame, or a clamp through the bore.")
+    method: Literal["tabs", "bore"] = Field(
+        "tabs", description="Tabs to the frame, or a clamp through the bore."
+    )
     tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
     tab_width: Millimetres = Field(2.0, gt=0, le=50, description="Width of a tab along the contour.")
     tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
-    clamp_height: Millimetres = Field(15.0, gt=0, le=200, description="Height of the bore clamp above the part.")
+    clamp_height: Millimetres = Field(
+        15.0, gt=0, le=200, description="Height of the bore clamp above the part."
+    )
 
 
 WorkOffset = Annotated[str, Field(pattern=r"^G5(4|5|6|7|8|9|9\.[123])$")]
@@ -108,12 +116,16 @@ WorkOffset = Annotated[str, Field(pattern=r"^G5(4|5|6|7|8|9|9\.[123])$")]
 class CamSettings(Parameters):
     """The table ``[cam]`` of a design file."""
 
-    control: str = Field("linuxcnc", min_length=1, max_length=40, description="Control that reads the program.")
+    control: str = Field(
+        "linuxcnc", min_length=1, max_length=40, description="Control that reads the program."
+    )
     work_offset: WorkOffset = Field("G54", description="Work offset, G54 to G59.3.")
     origin: Literal["axis", "corner", "centre"] = Field(
         "axis", description="X and Y zero: the part's axis, the stock's lower left corner, or its centre."
     )
-    tools: tuple[str, ...] = Field((), description="Names of the cutters to use; empty: chosen from the library.")
+    tools: tuple[str, ...] = Field(
+        (), description="Names of the cutters to use; empty: chosen from the library."
+    )
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
     machine: Machine = Field(Machine(), description="The mill.")
     stock: Stock = Field(Stock(), description="The plate.")
@@ -124,7 +136,5 @@ class CamSettings(Parameters):
     breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
-    finish_step: Ratio = Field(
-        2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters."
-    )
+    finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")

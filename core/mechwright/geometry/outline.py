@@ -82,7 +82,10 @@ class Loop:
 
     @cached_property
     def moments(self) -> Array:
-        """Integrals (6,) of 1, x, y, x², y², xy over the inside, by Green's theorem; negative if clockwise."""
+        """Integrals (6,) of 1, x, y, x², y², xy over the inside, by Green's theorem.
+
+        All change sign where the loop runs clockwise.
+        """
         points, rates = [], []
         for segment in self.segments:
             breaks = segment.breaks()

@@ -92,7 +92,8 @@ class Line:
         [[2.0, 1.0]]
         """
         t = np.atleast_1d(np.asarray(t, dtype=float))[:, None]
-        return (1 - t) * np.asarray(self.start) + t * np.asarray(self.end)
+        points: Array = (1 - t) * np.asarray(self.start) + t * np.asarray(self.end)
+        return points
 
     def derivative(self, t: ArrayLike) -> Array:
         """First derivative (n, 2) with respect to t."""

@@ -1,0 +1,16 @@
+"""What the CAM stage registers: posts and exporters."""
+
+from mechwright.hookspecs import hookimpl
+from mechwright.output import Exporter, Post
+
+
+@hookimpl
+def mechwright_register_posts() -> list[type[Post]]:
+    """The controls that programs can be written for."""
+    return []
+
+
+@hookimpl
+def mechwright_register_exporters() -> list[type[Exporter]]:
+    """The file formats that parts can be written in."""
+    return []

@@ -1,0 +1,12 @@
+"""What this plugin registers."""
+
+from typing import Any
+
+from mechwright.family import Family
+from mechwright.hookspecs import hookimpl
+
+
+@hookimpl
+def mechwright_register_families() -> list[type[Family[Any]]]:
+    """The mechanism families."""
+    return []
