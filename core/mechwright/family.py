@@ -4,7 +4,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
-from mechwright.errors import DesignError
 from mechwright.findings import Finding
 from mechwright.parameters import Parameters
 
@@ -79,7 +78,3 @@ class Family(ABC, Generic[P]):
             finds nothing: the remainder is reported by the proof all the same.
         """
         return ()
-
-    def synthesise(self, requirement: Mapping[str, object], limit: int) -> Sequence[P]:  # noqa: ARG002
-        """Find designs that meet a requirement, best first; a family that cannot says so."""
-        raise DesignError(f"family {self.name} has no synthesis")

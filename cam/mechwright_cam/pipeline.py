@@ -1,0 +1,126 @@
+"""From a design to drawings and proven programs: the order in which the CAM stage works."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import shapely
+from mechwright.design import Design
+from mechwright.errors import ProofError
+from mechwright.files import Output
+from mechwright.findings import Finding, errors
+from mechwright.host import Host
+from mechwright.output import Post
+from mechwright.part import Part
+from mechwright.program import Program
+
+from mechwright_cam.exporters.dxf import DxfExporter
+from mechwright_cam.job import Job, make_job
+from mechwright_cam.library import check_tools, choose_tools, load_library
+from mechwright_cam.planning import plan
+from mechwright_cam.proof import Proof, prove
+from mechwright_cam.reach import cut_outline
+from mechwright_cam.setup_sheet import setup_html
+
+
+@dataclass(frozen=True)
+class Machined:
+    """A part with its program and the proof of it."""
+
+    job: Job
+    program: Program
+    text: str
+    proof: Proof
+
+
+def plates(parts: Sequence[Part]) -> list[Part]:
+    """The parts that are milled from a plate."""
+    return [part for part in parts if part.outline is not None]
+
+
+def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[Job]]:
+    """Choose cutters and lay the parts into their stock.
+
+    Returns
+    -------
+    findings
+        What the cutters cannot do, and what the family says of the parts as they leave them.
+    jobs
+        One for each part; fewer if a finding is an error.
+    """
+    library = load_library(design.tool_library)
+    findings: list[Finding] = []
+    jobs = []
+    for part in parts:
+        tools = choose_tools(part, design.cam, library)
+        found = check_tools(part, design.cam, tools)
+        findings += found
+        if not errors(found):
+            jobs.append(make_job(part, design.cam, tools))
+    if len(jobs) == len(parts):
+        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
+        findings += design.family.check_cut(design.params, cut)
+    return findings, jobs
+
+
+def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
+    return shapely.transform(polygon, lambda points: points + job.origin)
+
+
+def check(design: Design, host: Host) -> list[Finding]:
+    """Find out whether the chosen cutters can make the parts, and what they leave."""
+    host.post(design.cam.control)
+    return prepare(design, plates(design.family.parts(design.params)))[0]
+
+
+def machine(job: Job, post: Post) -> Machined:
+    """Plan a program, post it, and prove the posted text.
+
+    Raises
+    ------
+    ToolError
+        A cutter that the work needs is not there.
+    ProofError
+        The program would not cut the right part.
+    """
+    program = plan(job)
+    text = post.write(program)
+    proof = prove(text, job)
+    if not proof.ok:
+        more = f" (and {len(proof.failures) - 1} more)" if len(proof.failures) > 1 else ""
+        raise ProofError(
+            f"the program for {job.part.name} failed its proof and was not written: {proof.failures[0]}{more}"
+        )
+    return Machined(job, program, text, proof)
+
+
+def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
+    """Add drawing, program, tool table, setup sheet and proof of every plate part to ``output``.
+
+    Findings come back; nothing is added if one of them is an error.
+    """
+    post = host.post(design.cam.control)
+    drawing = DxfExporter(curves)
+    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    if errors(findings):
+        return findings
+    made = [machine(job, post) for job in jobs]
+    for item in made:
+        name = item.job.part.name
+        output.add(f"{name}{drawing.suffix}", drawing.part(item.job.part))
+        output.add(f"{name}{post.suffix}", item.text)
+    tools = {tool.number: tool for item in made for tool in item.program.tools}
+    table, text = post.tool_table([tools[number] for number in sorted(tools)])
+    if table:
+        output.add(table, text)
+    proofs = {item.program.name: item.proof.as_dict() for item in made}
+    output.add("proof.json", json.dumps(proofs, indent=2) + "\n")
+    output.add("setup.html", setup_html([(item.job, item.program, item.proof.as_dict()) for item in made]))
+    return findings
+
+
+def verify(design: Design, part: Part, text: str) -> Proof:
+    """Prove a program that came from anywhere, with every cutter of the library at hand."""
+    library = load_library(design.tool_library)
+    job = make_job(part, design.cam, choose_tools(part, design.cam, library))
+    return prove(text, replace(job, tools=tuple(library.values())))

@@ -1,0 +1,5 @@
+"""``python -m mechwright``."""
+
+from mechwright.cli import main
+
+main()

@@ -1,0 +1,170 @@
+"""The commands that work on a design file."""
+
+import json
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, NoReturn
+
+import typer
+
+from mechwright import __version__
+from mechwright.cli.listing import warn_broken
+from mechwright.cli.progress import progress
+from mechwright.design import SIZE_LIMIT, Design, load, read_text
+from mechwright.errors import DesignError
+from mechwright.files import Output, write_folder
+from mechwright.findings import Finding, Severity, errors
+from mechwright.host import Host, host
+from mechwright.output import Exporter
+
+PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
+"""Bytes: surfacing programs are long, but not longer than this."""
+
+
+def _open(path: Path) -> tuple[Design, Host]:
+    found = host()
+    warn_broken(found)
+    return load(path, found), found
+
+
+def _refuse(findings: list[Finding], path: Path) -> NoReturn:
+    for finding in errors(findings):
+        typer.echo(f"mechwright: {path}: {finding}", err=True)
+    raise typer.Exit(1)
+
+
+def _findings(design: Design, found: Host) -> list[Finding]:
+    """What the family says, then, if that allows it, what the cutters say."""
+    findings = list(design.family.check(design.params))
+    if not errors(findings):
+        from mechwright_cam import pipeline
+
+        findings += pipeline.check(design, found)
+    return findings
+
+
+def check(path: Path, as_json: bool) -> None:
+    """Print the findings."""
+    design, found = _open(path)
+    findings = _findings(design, found)
+    failed = bool(errors(findings))
+    if as_json:
+        typer.echo(
+            json.dumps(
+                {"design": design.name, "ok": not failed, "findings": [f.as_dict() for f in findings]},
+                indent=2,
+            )
+        )
+    else:
+        order = list(Severity)
+        for finding in sorted(findings, key=lambda finding: order.index(finding.severity)):
+            typer.echo(str(finding))
+        typer.echo(f"{path}: " + ("cannot be built" if failed else "can be built"))
+    raise typer.Exit(1 if failed else 0)
+
+
+def write(
+    path: Path, folder: Path, command: str, *, samples: int = 2, also: str = "", curves: str = "spline"
+) -> None:
+    """Run ``solve``, ``model``, ``cam`` or ``build`` and write its files."""
+    design, found = _open(path)
+    exporters = _more_formats(found, also)
+    output = Output()
+    with progress(6) as step:
+        step("checking")
+        findings = list(design.family.check(design.params))
+        if errors(findings):
+            _refuse(findings, path)
+        if command in {"solve", "build"}:
+            from mechwright.motion_files import motion_csv, summary_json
+
+            step("motion")
+            motion = design.family.solve(design.params, samples)
+            output.add("motion.csv", motion_csv(motion))
+            output.add("summary.json", summary_json(motion))
+        if command in {"cam", "build"}:
+            from mechwright_cam import pipeline
+
+            step("drawings and programs")
+            made = pipeline.write_programs(design, found, output, curves)
+            findings += made
+            if errors(made):
+                _refuse(made, path)
+        if command in {"model", "build"}:
+            step("solids")
+            _write_solids(design, found, output, exporters)
+        step("writing")
+        write_folder(folder, output, command, _facts(design, found))
+    for finding in findings:
+        if finding.severity is Severity.WARNING:
+            typer.echo(f"mechwright: {path}: {finding}", err=True)
+    typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
+
+
+def _more_formats(found: Host, also: str) -> list[Exporter]:
+    names = [name.strip() for name in also.split(",") if name.strip()]
+    return [found.exporter(name) for name in dict.fromkeys(names) if name != "step"]
+
+
+def _write_solids(design: Design, found: Host, output: Output, more: list[Exporter]) -> None:
+    parts = design.family.parts(design.params)
+    motion = design.family.solve(design.params, 2)
+    for exporter in [found.exporter("step"), *more]:
+        for part in parts:
+            output.add(part.name + exporter.suffix, exporter.part(part))
+        assembly = exporter.assembly(design.name, parts, motion)
+        if assembly is not None:
+            output.add("assembly" + exporter.suffix, assembly)
+
+
+def _facts(design: Design, found: Host) -> dict[str, Any]:
+    family = found.families[design.family.name]
+    inputs = {design.path.name: design.digest}
+    if design.tool_library is not None:
+        inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
+    return {
+        "design": design.name,
+        "family": design.family.name,
+        "inputs_sha256": inputs,
+        "versions": {
+            "mechwright": __version__,
+            "python": ".".join(map(str, sys.version_info[:3])),
+            **{name: _version(name) for name in ("cadquery", "ezdxf", "numpy", "scipy", "shapely")},
+            **(
+                {}
+                if family.distribution == "mechwright"
+                else {family.distribution: _version(family.distribution)}
+            ),
+        },
+    }
+
+
+def _version(distribution: str) -> str:
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
+    """Prove a program that came from anywhere."""
+    from mechwright_cam import pipeline
+
+    design, _ = _open(path)
+    text, _ = read_text(program, PROGRAM_SIZE_LIMIT)
+    findings = list(design.family.check(design.params))
+    if errors(findings):
+        _refuse(findings, path)
+    parts = {part.name: part for part in design.family.parts(design.params)}
+    if part_name not in parts:
+        raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
+    proof = pipeline.verify(design, parts[part_name], text)
+    if as_json:
+        typer.echo(json.dumps(proof.as_dict(), indent=2))
+    else:
+        for line in proof.report():
+            typer.echo(line)
+        for failure in proof.failures:
+            typer.echo(f"mechwright: {program}: {failure}", err=True)
+    raise typer.Exit(0 if proof.ok else 1)

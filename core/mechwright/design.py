@@ -1,0 +1,250 @@
+"""Design files: TOML text in, a checked design out.
+
+A design file is data. It names a family, gives its parameters and says how the parts are made::
+
+    format = 1
+    family = "elliptic-gears"
+    name = "elliptic-pair"
+
+    [parameters]
+    eccentricity = 0.4
+
+    [cam]
+    work_offset = "G54"
+"""
+
+import difflib
+import hashlib
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from mechwright.errors import DesignError, OutputError
+from mechwright.family import Family
+from mechwright.host import Host
+from mechwright.parameters import Parameters
+from mechwright.part import check_name
+from mechwright.tooling import CamSettings
+
+T = TypeVar("T", bound=BaseModel)
+
+FORMAT = 1
+"""Version of the design file's own layout."""
+
+SIZE_LIMIT = 1_000_000
+"""Bytes: a design file is some lines; anything larger was given by mistake."""
+
+_KEYS = ("format", "family", "name", "parameters", "cam")
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design file that has been read and found well-formed.
+
+    Parameters
+    ----------
+    name
+        Of the design; also a file name.
+    family
+        The family that it names.
+    params
+        The table ``[parameters]``.
+    cam
+        The table ``[cam]``.
+    path
+        The file.
+    digest
+        SHA-256 of its bytes.
+    """
+
+    name: str
+    family: Family[Any]
+    params: Parameters
+    cam: CamSettings
+    path: Path
+    digest: str
+
+    @property
+    def tool_library(self) -> Path | None:
+        """The design's own tool library; it lies in or below the design file's folder."""
+        if not self.cam.tool_library:
+            return None
+        folder = self.path.resolve().parent
+        library = (folder / self.cam.tool_library).resolve()
+        if not library.is_relative_to(folder):
+            raise DesignError(
+                f"{self.path}: cam.tool_library: {self.cam.tool_library!r} leads out of the folder of the "
+                "design file; put the library beside it"
+            )
+        return library
+
+
+def read_text(path: Path, limit: int = SIZE_LIMIT) -> tuple[str, str]:
+    """Text and SHA-256 of a file; raises OutputError or DesignError that names it."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(limit + 1)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
+    if len(data) > limit:
+        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    try:
+        return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
+    except UnicodeDecodeError as error:
+        raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
+
+
+def read_toml(path: Path) -> tuple[dict[str, Any], str]:
+    """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
+    text, digest = read_text(path)
+    try:
+        return tomllib.loads(text), digest
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        reason = str(error) if isinstance(error, tomllib.TOMLDecodeError) else "nested too deep"
+        raise DesignError(f"{path}: is no valid TOML: {reason}") from error
+
+
+def load(path: Path, host: Host) -> Design:
+    """Read a design file.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be read.
+    DesignError
+        Something in it is wrong: one line for each wrong thing.
+    PluginError
+        Its family is not installed.
+    """
+    content, digest = read_toml(path)
+    for key in content:
+        if key not in _KEYS:
+            raise DesignError(f"{path}: {_unknown(key, _KEYS)}")
+    if content.get("format", FORMAT) != FORMAT:
+        raise DesignError(
+            f"{path}: format: {content['format']!r} is not known; this program reads format {FORMAT}"
+        )
+    family_name = content.get("family")
+    if not isinstance(family_name, str):
+        raise DesignError(f'{path}: family: is missing; write for example family = "elliptic-gears"')
+    name = content.get("name", path.stem)
+    if not isinstance(name, str):
+        raise DesignError(f"{path}: name: {name!r} is no text")
+    try:
+        check_name(name)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from error
+    family = host.family(family_name)
+    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+    cam = read_table(CamSettings, content.get("cam", {}), str(path), "cam")
+    design = Design(name, family, params, cam, path, digest)
+    _ = design.tool_library  # a path that leads out is refused before any work
+    return design
+
+
+def read_table(model: type[T], table: object, source: str, where: str) -> T:
+    """Validate one table; raises DesignError with a line for each wrong key."""
+    if not isinstance(table, Mapping):
+        raise DesignError(f"{source}: {where}: is {table!r}; write a table [{where}]")
+    try:
+        return model.model_validate(dict(table))
+    except ValidationError as error:
+        lines = [f"{source}: {line}" for line in _explain(error, model, where)]
+        raise DesignError("\n".join(lines)) from None
+
+
+def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iterator[str]:
+    for item in error.errors(include_url=False):
+        keys = [str(key) for key in item["loc"]]
+        place = ".".join([where, *keys])
+        if item["type"] == "extra_forbidden":
+            fields = tuple(_table_at(model, keys[:-1]).model_fields)
+            yield f"{'.'.join([where, *keys[:-1]])}: {_unknown(keys[-1], fields)}"
+        elif item["type"] == "missing":
+            yield f"{place}: is missing"
+        else:
+            message = item["msg"].removeprefix("Value error, ").removeprefix("Input ")
+            value = item.get("input")
+            if isinstance(value, (str, int, float)) and item["type"] != "unit" and keys:
+                message = f"{value!r} {message}"
+            yield f"{place}: {message}"
+
+
+def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:
+    for key in keys:
+        field = model.model_fields.get(key)
+        if (
+            field is not None
+            and isinstance(field.annotation, type)
+            and issubclass(field.annotation, BaseModel)
+        ):
+            model = field.annotation
+    return model
+
+
+def _unknown(key: str, known: tuple[str, ...]) -> str:
+    close = difflib.get_close_matches(key, known, 1)
+    hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
+    return f"unknown key {key!r}; {hint}"
+
+
+def template(family: Family[Any], name: str) -> str:
+    """A commented design file of a family that builds as it is."""
+    lines = [
+        f"# {family.title}: {family.summary}",
+        '# Lengths in mm, angles in degrees, speeds in rev/min; a text may carry another unit: "2 in".',
+        f"format = {FORMAT}",
+        f"family = {json.dumps(family.name)}",
+        f"name = {json.dumps(name)}",
+        "",
+        *_table_lines(family.Params, "parameters"),
+        "",
+        *_table_lines(CamSettings, "cam"),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _table_lines(model: type[BaseModel], where: str) -> list[str]:
+    lines, tables = [f"[{where}]"], []
+    schema = model.model_json_schema()["properties"]
+    for key, field in model.model_fields.items():
+        default = field.get_default(call_default_factory=True)
+        if isinstance(default, BaseModel):
+            tables += ["", *_table_lines(type(default), f"{where}.{key}")]
+            continue
+        text = f"{field.description or ''}{_limits(schema[key])}"
+        if default is None:
+            lines.append(f"# {key} = ...  # {text}")
+        else:
+            lines.append(f"{key} = {_toml(default)}  # {text}")
+    return lines + tables
+
+
+def _limits(schema: dict[str, Any]) -> str:
+    options = [schema, *schema.get("anyOf", [])]
+    facts: dict[str, Any] = {}
+    for option in options:
+        facts = {**option, **facts}
+    said = [facts["unit"]] if facts.get("unit") else []
+    low = facts.get("minimum", facts.get("exclusiveMinimum"))
+    high = facts.get("maximum", facts.get("exclusiveMaximum"))
+    if low is not None and high is not None:
+        said.append(f"{low:g} to {high:g}")
+    if "enum" in facts:
+        said.append(" | ".join(str(value) for value in facts["enum"]))
+    return f" ({', '.join(said)})" if said else ""
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    if isinstance(value, str):
+        return json.dumps(str(value), ensure_ascii=False)
+    return repr(value)

@@ -1,0 +1,164 @@
+"""Writing output folders: all of the new files or all of the old ones, never a mixture."""
+
+import contextlib
+import ctypes
+import hashlib
+import json
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mechwright.errors import OutputError
+
+MANIFEST = "manifest.json"
+_AT_FDCWD, _RENAME_EXCHANGE = -100, 2
+
+
+@dataclass
+class Output:
+    """The files of one run, kept in memory until all of them are there."""
+
+    files: dict[str, bytes] = field(default_factory=dict)
+
+    def add(self, name: str, content: str | bytes) -> None:
+        """Add a file; ``name`` is a plain file name."""
+        if name != Path(name).name or name in {"", ".", ".."}:
+            raise OutputError(f"{name!r} is no plain file name")
+        self.files[name] = content.encode() if isinstance(content, str) else content
+
+
+def write_folder(target: Path, output: Output, command: str, facts: Mapping[str, Any]) -> None:
+    """Put the files of a run into ``target`` in one step, with a manifest beside them.
+
+    The folder is new, empty, or one that an earlier run has written: its other files stay, but for those that
+    the same command wrote before and no longer writes.
+
+    Parameters
+    ----------
+    target
+        The folder; its parent exists or is made.
+    output
+        The files.
+    command
+        The command that wrote them, for the manifest.
+    facts
+        What else the manifest says: inputs and versions.
+
+    Raises
+    ------
+    OutputError
+        The folder holds files of somebody else, or cannot be written. Nothing has changed then.
+    """
+    target = Path(os.path.abspath(target))  # noqa: PTH100 - a symbolic link stays one
+    try:
+        old = _earlier_run(target)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        staging = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+    except OSError as error:
+        raise _refusal(target, error) from error
+    try:
+        staging.chmod(0o755)
+        stale = {name for name, entry in old.items() if command in {entry.get("command"), "build"}}
+        kept = {name: entry for name, entry in old.items() if name not in stale}
+        if target.exists():
+            _carry_over(target, staging, stale | {MANIFEST} | set(output.files))
+        entries = {name: entry for name, entry in kept.items() if (staging / name).exists()}
+        for name, content in output.files.items():
+            (staging / name).write_bytes(content)
+            entries[name] = {"command": command, "sha256": hashlib.sha256(content).hexdigest()}
+        manifest = {**facts, "outputs": dict(sorted(entries.items()))}
+        (staging / MANIFEST).write_text(
+            json.dumps(manifest, indent=2, sort_keys=True) + "\n", encoding="utf-8"
+        )
+        _swap(staging, target)
+    except OSError as error:
+        raise _refusal(target, error) from error
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _refusal(target: Path, error: OSError) -> OutputError:
+    if isinstance(error, OutputError):
+        return error
+    return OutputError(f"{target}: cannot be written: {error.strerror or error}; nothing was changed")
+
+
+def _earlier_run(target: Path) -> dict[str, dict[str, str]]:
+    """What the manifest in the folder lists; empty for a new or empty folder."""
+    if not target.exists() or (target.is_dir() and not any(target.iterdir())):
+        return {}
+    if not target.is_dir():
+        raise OutputError(f"{target}: is no folder; give a new or an empty one with -o")
+    try:
+        outputs = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["outputs"]
+        return {str(name): dict(entry) for name, entry in outputs.items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        raise OutputError(
+            f"{target}: holds files that this program has not written; give a new or an empty folder with -o"
+        ) from None
+
+
+def _carry_over(target: Path, staging: Path, leave: set[str]) -> None:
+    for entry in sorted(target.iterdir()):
+        if entry.name in leave and not entry.is_dir():
+            continue
+        if entry.is_dir() and not entry.is_symlink():
+            shutil.copytree(entry, staging / entry.name, symlinks=True, copy_function=_link)
+        else:
+            _link(str(entry), str(staging / entry.name))
+
+
+def _link(source: str, target: str) -> None:
+    try:
+        os.link(source, target, follow_symlinks=False)
+    except OSError:
+        shutil.copy2(source, target, follow_symlinks=False)
+
+
+def _swap(staging: Path, target: Path) -> None:
+    """Put ``staging`` in the place of ``target``; then ``staging`` holds what was there, if anything."""
+    if not target.exists():
+        staging.rename(target)
+        return
+    if _exchange(staging, target):
+        return
+    # No atomic exchange on this system: two renames, undone if the second fails.
+    backup = staging.with_name(staging.name + "-old")
+    target.rename(backup)
+    try:
+        staging.rename(target)
+    except BaseException:
+        backup.rename(target)
+        raise
+    shutil.rmtree(backup, ignore_errors=True)
+
+
+def _exchange(one: Path, two: Path) -> bool:
+    """Exchange two folders atomically where the system can (Linux's renameat2)."""
+    if not sys.platform.startswith("linux"):
+        return False
+    try:
+        call = ctypes.CDLL(None, use_errno=True).renameat2
+    except (OSError, AttributeError):
+        return False
+    done: int = call(_AT_FDCWD, os.fsencode(one), _AT_FDCWD, os.fsencode(two), _RENAME_EXCHANGE)
+    return done == 0
+
+
+def write_new(path: Path, text: str, *, replace: bool = False) -> None:
+    """Write ``text`` to ``path`` in one step; refuses to replace a file unless told to."""
+    if path.exists() and not replace:
+        raise OutputError(f"{path}: is there already; give another name, or --force to replace it")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_text(text, encoding="utf-8")
+        temporary.replace(path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
