@@ -119,7 +119,8 @@ def _write_solids(design: Design, found: Host, output: Output, more: list[Export
 
 
 def _facts(design: Design, found: Host) -> dict[str, Any]:
-    family = found.families[design.family.name]
+    origin = found.families[design.family.name].distribution
+    packages = {"cadquery", "ezdxf", "numpy", "scipy", "shapely", origin} - {"mechwright"}
     inputs = {design.path.name: design.digest}
     if design.tool_library is not None:
         inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
@@ -130,12 +131,7 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
         "versions": {
             "mechwright": __version__,
             "python": ".".join(map(str, sys.version_info[:3])),
-            **{name: _version(name) for name in ("cadquery", "ezdxf", "numpy", "scipy", "shapely")},
-            **(
-                {}
-                if family.distribution == "mechwright"
-                else {family.distribution: _version(family.distribution)}
-            ),
+            **{name: _version(name) for name in sorted(packages)},
         },
     }
 

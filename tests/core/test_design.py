@@ -1,0 +1,163 @@
+"""Design files: what is read, and how every kind of mistake is refused in one line."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from mechwright.design import load, template
+from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
+from mechwright.family import Family
+from mechwright.host import Host, Registered
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, Millimetres
+from pydantic import Field
+
+
+class DiscParams(Parameters):
+    diameter: Millimetres = Field(40.0, gt=1, le=500, description="Diameter of the disc.")
+    holes: int = Field(6, ge=0, le=24, description="Number of holes.")
+    lead: Degrees = Field(0.0, ge=-90, le=90, description="First hole.")
+    boss: Millimetres | None = Field(None, gt=0, le=100, description="Boss, if any.")
+
+
+class Disc(Family[DiscParams]):
+    name = "disc"
+    title = "Disc"
+    summary = "A disc."
+    Params = DiscParams
+
+    def check(self, params: DiscParams) -> list[Any]:
+        return []
+
+    def solve(self, params: DiscParams, samples: int) -> Any:
+        raise NotImplementedError
+
+    def parts(self, params: DiscParams) -> list[Any]:
+        return []
+
+
+@pytest.fixture
+def host() -> Host:
+    return Host(families={"disc": Registered(Disc(), "here", "disc")})
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "a.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_units_are_converted_and_defaults_filled(tmp_path: Path, host: Host) -> None:
+    path = write(tmp_path, 'family = "disc"\n[parameters]\ndiameter = "2 in"\nlead = "0.5 rad"\n')
+    design = load(path, host)
+    assert design.name == "a"
+    assert design.params.model_dump() == {
+        "diameter": pytest.approx(50.8),
+        "holes": 6,
+        "lead": pytest.approx(28.64788975654116),
+        "boss": None,
+    }
+    assert design.cam.work_offset == "G54"
+
+
+def test_the_template_is_a_design_file_with_the_defaults(tmp_path: Path, host: Host) -> None:
+    text = template(Disc(), "disc")
+    design = load(write(tmp_path, text), host)
+    assert design.params == DiscParams()
+    assert "Diameter of the disc. (mm, 1 to 500)" in text
+    tables = tomllib.loads(text)
+    assert set(tables["cam"]) >= {"machine", "stock", "hold"}
+
+
+PREFIX = 'family = "disc"\n'
+
+MISTAKES = {
+    "unknown key": (
+        PREFIX + "[parameters]\ndiametr = 3\n",
+        "parameters: unknown key 'diametr'; did you mean 'diameter'?",
+    ),
+    "unknown nested key": (
+        PREFIX + "[cam.hold]\nmethd = 'bore'\n",
+        "cam.hold: unknown key 'methd'; did you mean 'method'?",
+    ),
+    "unknown table": (PREFIX + "[camera]\n", "unknown key 'camera'; did you mean 'cam'?"),
+    "wrong kind of unit": (
+        PREFIX + "[parameters]\ndiameter = '3 kg'\n",
+        "parameters.diameter: '3 kg' cannot be read in mm",
+    ),
+    "no number": (
+        PREFIX + "[parameters]\ndiameter = 'wide'\n",
+        "parameters.diameter: 'wide' cannot be read in mm",
+    ),
+    "out of bounds": (
+        PREFIX + "[parameters]\nholes = 25\n",
+        "parameters.holes: 25 should be less than or equal to 24",
+    ),
+    "bounds after conversion": (
+        PREFIX + "[parameters]\ndiameter = '1 m'\n",
+        "should be less than or equal to 500",
+    ),
+    "not finite": (PREFIX + "[parameters]\ndiameter = nan\n", "parameters.diameter:"),
+    "true is no number": (
+        PREFIX + "[parameters]\nholes = true\n",
+        "parameters.holes: True true and false are no numbers",
+    ),
+    "fraction of a count": (PREFIX + "[parameters]\nholes = 2.5\n", "parameters.holes: 2.5"),
+    "no table": (PREFIX + "parameters = 3\n", "write a table [parameters]"),
+    "broken TOML": ("family = \n", "is no valid TOML"),
+    "no family": ("[parameters]\n", "family: is missing"),
+    "other format": ("format = 7\n" + PREFIX, "format: 7 is not known"),
+    "name leads away": (PREFIX + 'name = "../x"\n', "cannot be a file name"),
+    "name is a path": (PREFIX + 'name = "a/b"\n', "cannot be a file name"),
+    "library leads away": (PREFIX + "[cam]\ntool_library = '../t.toml'\n", "leads out of the folder"),
+    "absolute library": (PREFIX + "[cam]\ntool_library = '/etc/passwd'\n", "leads out of the folder"),
+    "work offset": (PREFIX + "[cam]\nwork_offset = 'G53'\n", "cam.work_offset: 'G53'"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), MISTAKES.values(), ids=MISTAKES.keys())
+def test_a_mistake_is_one_line_that_names_file_and_place(
+    tmp_path: Path, host: Host, text: str, said: str
+) -> None:
+    path = write(tmp_path, text)
+    with pytest.raises(DesignError) as caught:
+        load(path, host)
+    assert said in str(caught.value)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+def test_two_mistakes_are_two_lines(tmp_path: Path, host: Host) -> None:
+    with pytest.raises(DesignError) as caught:
+        load(write(tmp_path, PREFIX + "[parameters]\nholes = -1\ndiameter = 0\n"), host)
+    assert [line.split(": ")[1] for line in str(caught.value).splitlines()] == [
+        "parameters.diameter",
+        "parameters.holes",
+    ]
+
+
+def test_what_cannot_be_read_is_named(tmp_path: Path, host: Host) -> None:
+    with pytest.raises(OutputError, match="cannot be read"):
+        load(tmp_path / "none.toml", host)
+    with pytest.raises(OutputError, match="cannot be read"):
+        load(tmp_path, host)
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(DesignError, match="no UTF-8"):
+        load(tmp_path / "binary.toml", host)
+    (tmp_path / "huge.toml").write_bytes(b"#" * 1_000_001)
+    with pytest.raises(DesignError, match="larger than"):
+        load(tmp_path / "huge.toml", host)
+    with pytest.raises(PluginError, match="'dsic' is not installed; known: disc"):
+        load(write(tmp_path, 'family = "dsic"\n'), host)
+
+
+def test_deep_nesting_is_refused_without_a_crash(tmp_path: Path, host: Host) -> None:
+    with pytest.raises(MechwrightError):
+        load(write(tmp_path, "x = " + "[" * 50_000 + "]" * 50_000), host)
+
+
+def test_a_byte_order_mark_is_ignored(tmp_path: Path, host: Host) -> None:
+    path = tmp_path / "bom.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + PREFIX.encode())
+    assert load(path, host).params == DiscParams()
