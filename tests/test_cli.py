@@ -1,0 +1,216 @@
+"""The command line as a person meets it: exit codes, one-line errors, what is written and what is not."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from mechwright.cli import main
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Call the command line in this process: exit code, standard output, standard error."""
+
+    def call(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["mechwright", *map(str, arguments)])
+        capsys.readouterr()
+        try:
+            main()
+            code = 0
+        except SystemExit as stop:
+            code = int(stop.code or 0)
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return call
+
+
+def child(code: str) -> str:
+    return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+
+
+HEAVY = {"numpy", "scipy", "shapely", "cadquery", "OCP", "ezdxf", "pydantic"}
+
+
+def test_help_imports_nothing_heavy() -> None:
+    loaded = child(
+        "import sys\nsys.argv = ['mechwright', '--help']\nfrom mechwright.cli import main\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "print('MODULES', *{m.split('.')[0] for m in sys.modules})"
+    )
+    assert "build" in loaded
+    assert not HEAVY & set(loaded.split("MODULES")[1].split())
+
+
+@pytest.mark.parametrize("command", ["families", "check", "solve", "cam"])
+def test_only_solids_import_the_cad_kernel(command: str, tmp_path: Path) -> None:
+    arguments = {
+        "families": ["families"],
+        "check": ["check", str(EXAMPLE)],
+        "solve": ["solve", str(EXAMPLE), "-o", str(tmp_path / "o")],
+        "cam": ["cam", str(EXAMPLE), "-o", str(tmp_path / "o")],
+    }[command]
+    loaded = child(
+        f"import sys\nsys.argv = ['mechwright', *{arguments!r}]\nfrom mechwright.cli import main\n"
+        "try:\n    main()\nexcept SystemExit as stop:\n    assert not stop.code, stop.code\n"
+        "print('MODULES', *{m.split('.')[0] for m in sys.modules})"
+    )
+    assert not {"cadquery", "OCP"} & set(loaded.split("MODULES")[1].split())
+
+
+def test_families_are_listed_with_their_distribution(run: Run) -> None:
+    code, out, err = run("families")
+    assert (code, err) == (0, "")
+    assert "elliptic-gears  (mechwright)" in out
+    assert "linuxcnc" in out
+    code, out, _ = run("families", "--json")
+    listing = json.loads(out)
+    assert code == 0
+    assert [family["name"] for family in listing["families"]] == ["elliptic-gears"]
+    assert {"step", "dxf", "stl", "3mf", "glb"} <= set(listing["formats"])
+
+
+def test_a_new_design_file_builds_as_it_is(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "pair.toml"
+    assert run("new", "elliptic-gears", "-o", path)[0] == 0
+    code, out, err = run("check", path)
+    assert (code, err) == (0, "")
+    assert "can be built" in out
+    code, _, err = run("new", "elliptic-gears", "-o", path)
+    assert code == 2
+    assert "is there already" in err
+    assert run("new", "elliptic-gears")[1] == path.read_text()
+
+
+def test_check_gives_every_finding_as_json(run: Run) -> None:
+    code, out, _ = run("check", EXAMPLE, "--json")
+    result = json.loads(out)
+    assert code == 0
+    assert result["ok"] is True
+    assert {finding["severity"] for finding in result["findings"]} == {"note"}
+
+
+def test_a_finding_of_severity_error_is_exit_code_1_and_writes_nothing(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "undercut.toml"
+    path.write_text(EXAMPLE.read_text().replace("teeth = 25", "teeth = 13"))
+    code, out, _ = run("check", path)
+    assert code == 1
+    assert "gear.undercut" in out
+    assert "cannot be built" in out
+    for command in ("solve", "model", "cam", "build"):
+        code, _, err = run(command, path, "-o", tmp_path / "out")
+        assert code == 1
+        assert "gear.undercut" in err
+        assert not (tmp_path / "out").exists()
+
+
+BAD = {
+    "unknown key": ("teeth = 25", "tooth = 25", "unknown key 'tooth'; did you mean 'teeth'?"),
+    "wrong unit": ("semi_major = 50", "semi_major = '50 kg'", "'50 kg' cannot be read in mm"),
+    "out of bounds": ("eccentricity = 0.4", "eccentricity = 1.5", "parameters.eccentricity: 1.5"),
+    "broken TOML": ("teeth = 25", "teeth = ", "is no valid TOML"),
+    "missing tool": ("[cam]", "[cam]\ntools = ['end-mill-7']", "end-mill-7"),
+    "missing library": ("[cam]", "[cam]\ntool_library = 'none.toml'", "none.toml: cannot be read"),
+    "unknown control": ("linuxcnc", "heidenhain", "control 'heidenhain' is not installed; known: linuxcnc"),
+    "unknown family": ("elliptic-gears", "eliptic-gears", "family 'eliptic-gears' is not installed"),
+    "unknown material": ("aluminium", "cheese", "'cheese'"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "said"), BAD.values(), ids=BAD.keys())
+def test_bad_input_is_one_line_exit_code_2_and_nothing_written(
+    run: Run, tmp_path: Path, old: str, new: str, said: str
+) -> None:
+    path = tmp_path / "bad.toml"
+    assert old in EXAMPLE.read_text()
+    path.write_text(EXAMPLE.read_text().replace(old, new, 1))
+    code, out, err = run("build", path, "-o", tmp_path / "out")
+    assert code == 2
+    assert said in err
+    assert len(err.splitlines()) == 1
+    assert out == ""
+    assert {entry.name for entry in tmp_path.iterdir()} == {"bad.toml"}
+
+
+def test_an_unwritable_folder_is_one_line(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("x")
+    code, _, err = run("solve", EXAMPLE, "-o", tmp_path / "file" / "below")
+    assert code == 2
+    assert "cannot be written" in err
+    assert len(err.splitlines()) == 1
+    code, _, err = run("solve", EXAMPLE, "-o", tmp_path)
+    assert code == 2
+    assert "has not written" in err
+    assert (tmp_path / "file").read_text() == "x"
+
+
+def test_solve_honours_the_number_of_samples(run: Run, tmp_path: Path) -> None:
+    assert run("solve", EXAMPLE, "-o", tmp_path / "o", "--samples", 9)[0] == 0
+    lines = (tmp_path / "o" / "motion.csv").read_text().splitlines()
+    assert len(lines) == 10
+    assert lines[0].startswith("time [s],") or lines[0].startswith("theta2 [rad],")
+    summary = json.loads((tmp_path / "o" / "summary.json").read_text())
+    assert all({"value", "unit"} == set(entry) for entry in summary.values())
+
+
+def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -> None:
+    for folder in ("one", "two"):
+        code, _, err = run("build", EXAMPLE, "-o", tmp_path / folder)
+        assert (code, err) == (0, "")
+    one, two = tmp_path / "one", tmp_path / "two"
+    names = sorted(path.name for path in one.iterdir())
+    assert names == sorted(
+        [
+            "motion.csv",
+            "summary.json",
+            "gear.step",
+            "assembly.step",
+            "gear.dxf",
+            "gear.nc",
+            "tool.tbl",
+            "proof.json",
+            "setup.html",
+            "manifest.json",
+        ]
+    )
+    for name in names:
+        assert (one / name).read_bytes() == (two / name).read_bytes(), name
+    proof = json.loads((one / "proof.json").read_text())["gear"]
+    assert proof["gouge_max_mm"] <= 0.005
+    assert proof["leftover_reachable_max_mm"] <= 0.010
+    assert proof["rapids_in_stock"] == 0
+    assert all(check["passed"] for check in proof["checks"].values())
+    assert proof["time_estimate_s"] > 60
+
+
+def test_verify_accepts_the_program_it_has_written(run: Run, tmp_path: Path) -> None:
+    assert run("cam", EXAMPLE, "-o", tmp_path / "o")[0] == 0
+    program = tmp_path / "o" / "gear.nc"
+    code, out, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    assert (code, err) == (0, "")
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "wheel")
+    assert code == 2
+    assert "'wheel' is no part" in err
+    assert "gear" in err
+    code, _, err = run("verify", tmp_path / "none.nc", "--design", EXAMPLE, "--part", "gear")
+    assert code == 2
+    assert "cannot be read" in err
+
+
+def test_the_real_command_in_a_pipe_shows_no_progress_bar(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "mechwright", "solve", str(EXAMPLE), "-o", str(tmp_path / "o")],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONWARNINGS": "error"},
+    )
+    assert done.stderr == ""
+    assert "motion.csv" in done.stdout
