@@ -193,7 +193,7 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
 def test_verify_accepts_the_program_it_has_written(run: Run, tmp_path: Path) -> None:
     assert run("cam", EXAMPLE, "-o", tmp_path / "o")[0] == 0
     program = tmp_path / "o" / "gear.nc"
-    code, out, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
     assert (code, err) == (0, "")
     code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "wheel")
     assert code == 2
