@@ -47,6 +47,7 @@ def _parse(symbol: str) -> Any:
         raise ValueError(f"'{symbol}' is no unit") from error
 
 
+@cache
 def kind(symbol: str) -> str:
     """Give the kind of quantity a unit measures, in root units; an angle is a kind of its own.
 

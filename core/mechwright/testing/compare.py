@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     import shapely
 
 DERIVATIVE = 1e-7
-"""Part of its largest value by which a rate may miss the difference quotient: the rounding of a quotient over a
-thousand samples stays a hundred times below."""
+"""Part of its largest value by which a rate may miss the difference quotient: the rounding of a quotient
+over a thousand samples stays a hundred times below."""
 
 _SIXTH = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60
 _FOURTH = np.array([0, 1, -8, 0, 8, -1, 0]) / 12

@@ -230,9 +230,6 @@ def _toml(value: Any) -> str:
         case list():
             return f"[{', '.join(map(_toml, value))}]"
         case dict():
-            return (
-                "{"
-                + ", ".join(f"{json.dumps(k) if '.' in k else k} = {_toml(v)}" for k, v in value.items())
-                + "}"
-            )
+            pairs = ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items())
+            return f"{{{pairs}}}"
     raise TypeError(f"TOML cannot say {value!r}")
