@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from mechwright.errors import KinematicsError
+
 Array = NDArray[np.float64]
 
 
@@ -73,12 +75,31 @@ class Motion:
         Body name to its poses, n samples each, for every body that a part is an instance of.
     scalars
         Figures of the whole motion (maxima, ratios), name to value and unit.
+
+    Raises
+    ------
+    KinematicsError
+        The input is no channel, or a channel or body has another number of samples than the input.
     """
 
     input_name: str
     channels: Mapping[str, Channel]
     poses: Mapping[str, Poses] = field(default_factory=dict)
     scalars: Mapping[str, Scalar] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.input_name not in self.channels:
+            raise KinematicsError(f"the input {self.input_name!r} of the motion is none of its channels")
+        n = self.samples
+        shapes: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
+            f"channel {name}": (channel.values.shape, (n,)) for name, channel in self.channels.items()
+        }
+        for body, poses in self.poses.items():
+            shapes[f"positions of body {body}"] = (poses.position.shape, (n, 3))
+            shapes[f"rotations of body {body}"] = (poses.rotation.shape, (n, 3, 3))
+        for what, (shape, wanted) in shapes.items():
+            if shape != wanted:
+                raise KinematicsError(f"{what}: shape {shape}; the input has {n} samples, so {wanted}")
 
     @property
     def samples(self) -> int:

@@ -6,12 +6,25 @@ holds the declared unit, exactly as the file says it; everything computed from i
 and seconds.
 """
 
+import math
+import re
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+# A number, then units multiplied and divided, each with a one-digit power. Nothing else reaches pint, whose
+# parser would also work out arithmetic, and "9**9**9 mm" would keep it busy for ever.
+_UNIT = r"[^\W\d_]+(?:_[^\W\d_]+)*|[°%]"
+_POWER = r"(?:(?:\^|\*\*)-?\d|[²³])?"
+_TERM = rf"(?:{_UNIT}|1){_POWER}"
+_UNITS = re.compile(rf"{_TERM}(?:\s*[*/·]\s*{_TERM}|\s+{_TERM})*")
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*?)\s*")
+
+_SIGNIFICANT = 15
+"""Digits a converted value keeps: every decimal of 15 digits survives, the rounding of a factor does not."""
 
 
 @cache
@@ -20,6 +33,38 @@ def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+@cache
+def _parse(symbol: str) -> Any:
+    """The unit of pint with this symbol; raises ValueError if it is none."""
+    if symbol and not _UNITS.fullmatch(symbol):
+        raise ValueError(f"'{symbol}' is no unit")
+    try:
+        return _registry().parse_units(symbol.replace("·", "*"))
+    except Exception as error:
+        # pint lets a tokenizer's, a parser's and its own errors through: one meaning for the caller.
+        raise ValueError(f"'{symbol}' is no unit") from error
+
+
+@cache
+def kind(symbol: str) -> str:
+    """Give the kind of quantity a unit measures, in root units; an angle is a kind of its own.
+
+    Two units convert into each other if and only if their kinds are equal. That keeps ``"Hz"`` out of
+    ``rpm`` and ``"%"`` out of degrees, which a comparison of dimensions alone would let through.
+
+    Raises
+    ------
+    ValueError
+        There is no such unit.
+
+    Examples
+    --------
+    >>> kind("mm/min") == kind("m/s"), kind("Hz") == kind("rpm"), kind("deg")
+    (True, False, 'radian')
+    """
+    return str((1.0 * _parse(symbol)).to_root_units().units)
 
 
 def convert(text: str, unit: str) -> float:
@@ -48,21 +93,30 @@ def convert(text: str, unit: str) -> float:
     ...
     ValueError: '2 kg' cannot be read in mm
     """
+    wrong = ValueError(f"'{text}' cannot be read in {unit or 'a plain number'}")
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
-        pass
-    registry = _registry()
+        value = _quantity(text, unit, wrong)
+    if not math.isfinite(value):
+        raise wrong
+    return value
+
+
+def _quantity(text: str, unit: str, wrong: ValueError) -> float:
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise wrong
+    number, symbol = match.groups()
     try:
-        quantity = registry.Quantity(text)
-        if quantity.dimensionless != (unit == "") and unit not in {"deg", "rpm"}:
-            raise ValueError(text)
-        if unit in {"deg", "rpm"} and quantity.unitless:
-            raise ValueError(text)
-        return round(float(quantity.to(unit or "dimensionless").magnitude), 12)
-    except Exception as error:
-        # pint lets a tokenizer's, a parser's and its own errors through: one meaning for the user.
-        raise ValueError(f"'{text}' cannot be read in {unit or 'a plain number'}") from error
+        if kind(symbol) != kind(unit):
+            raise wrong
+        quantity = _registry().Quantity(float(number), _parse(symbol))
+        return float(f"{quantity.to(_parse(unit)).magnitude:.{_SIGNIFICANT}g}")
+    except ValueError:
+        raise wrong from None
+    except Exception as error:  # noqa: BLE001,RUF100 - offset and logarithmic units fail in their own ways
+        raise wrong from error
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +134,8 @@ class Unit:
         return {**handler(schema), "unit": self.symbol}
 
     def _read(self, value: Any) -> Any:
+        if isinstance(value, bool):
+            raise PydanticCustomError("unit", "a truth value is no number; write a number", {})
         if not isinstance(value, str):
             return value
         try:
@@ -102,6 +158,8 @@ MillimetresPerMin = Annotated[float, Unit("mm/min")]
 """A feed rate."""
 MetresPerMin = Annotated[float, Unit("m/min")]
 """A cutting speed."""
+Newtons = Annotated[float, Unit("N")]
+"""A force."""
 Seconds = Annotated[float, Unit("s")]
 """A time."""
 Ratio = Annotated[float, Unit("")]

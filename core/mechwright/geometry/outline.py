@@ -20,7 +20,8 @@ from mechwright.tolerances import TOLERANCES
 if TYPE_CHECKING:
     import shapely
 
-# Gauss points per smooth piece: exact for the area of a spline of degree 12, rounding for quarter arcs.
+# Gauss points per smooth piece. Twenty are exact for polynomials of degree 39: second moments of splines
+# up to degree 10 (4 k - 1), their area up to degree 20 (2 k - 1); for quarter arcs the rest is rounding.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
@@ -146,10 +147,17 @@ class Outline:
     )
 
     def __post_init__(self) -> None:
-        if self.outer.area <= 0:
-            raise GeometryError("the outer loop of an outline runs counter-clockwise")
-        if any(loop.area >= 0 for loop in self.inner):
-            raise GeometryError("the inner loops of an outline run clockwise")
+        if not self.outer.area > 0:
+            raise GeometryError(
+                f"the outer loop has a signed area of {self.outer.area:.6g} mm²; it must run "
+                "counter-clockwise around an area above 0: reverse it"
+            )
+        for number, loop in enumerate(self.inner, start=1):
+            if not loop.area < 0:
+                raise GeometryError(
+                    f"inner loop {number} has a signed area of {loop.area:.6g} mm²; it must run clockwise "
+                    "around an area below 0: reverse it"
+                )
 
     @property
     def loops(self) -> tuple[Loop, ...]:

@@ -23,6 +23,12 @@ from mechwright.motion import Array
 
 Point = tuple[float, float]
 
+_FULL_TURN_SLACK = 1e-12
+"""A sweep this near to 2π, rad, is a full turn: thousands of times its rounding, far below a closure gap."""
+
+_MAX_DEGREE = 25
+"""Degree limit of a B-spline: what the CAD kernel takes."""
+
 
 class Segment(Protocol):
     """What every segment can do; lengths in mm, angles in rad."""
@@ -140,13 +146,14 @@ class Arc:
     tag: str = ""
 
     def __post_init__(self) -> None:
-        if not (self.radius > 0 and 0 < abs(self.sweep) <= math.tau + 1e-12):
+        good = 0 < self.radius < math.inf and 0 < abs(self.sweep) <= math.tau + _FULL_TURN_SLACK
+        if not (good and math.isfinite(self.start_angle) and all(map(math.isfinite, self.centre))):
             raise GeometryError(f"an arc needs a radius above 0 and a sweep up to a full turn, not {self}")
 
     @property
     def is_circle(self) -> bool:
         """Whether the arc is a whole circle."""
-        return abs(abs(self.sweep) - math.tau) < 1e-12
+        return abs(abs(self.sweep) - math.tau) <= _FULL_TURN_SLACK
 
     @property
     def start(self) -> Point:
@@ -172,8 +179,10 @@ class Arc:
 
     def flatten(self, tolerance: float) -> Array:
         """Points on the arc whose chords stay within ``tolerance`` of it."""
-        step = 2 * math.acos(max(0.0, 1 - min(tolerance / self.radius, 1.0)))
-        count = max(1 if abs(self.sweep) < 1 else 3, math.ceil(abs(self.sweep) / max(step, 1e-6)))
+        # The sagitta of a step is 2 r sin²(step / 4); this form does not cancel for a large radius.
+        step = 4 * math.asin(math.sqrt(min(tolerance / (2 * self.radius), 0.5)))
+        # Three chords at least for what turns noticeably, so that a circle never becomes a line.
+        count = max(1 if abs(self.sweep) < 1 else 3, math.ceil(abs(self.sweep) / step))
         points = self.at(np.linspace(0, 1, count + 1))
         if self.is_circle:
             points[-1] = points[0]
@@ -211,7 +220,8 @@ class BSpline:
     degree
         1 to 25.
     knots
-        Non-decreasing, from 0 to 1, ``len(points) + degree + 1`` of them, end knots ``degree + 1`` fold.
+        Non-decreasing, from 0 to 1, ``len(points) + degree + 1`` of them, end knots ``degree + 1`` fold,
+        inner ones at most ``degree`` fold (one more would tear the curve).
     points
         Control points, mm.
     """
@@ -222,16 +232,25 @@ class BSpline:
     tag: str = ""
 
     def __post_init__(self) -> None:
-        clamped = self.degree + 1
+        k = self.degree
+        clamped = k + 1
         good = (
-            1 <= self.degree <= 25
+            1 <= k <= _MAX_DEGREE
+            and len(self.points) >= clamped
             and len(self.knots) == len(self.points) + clamped
             and all(a <= b for a, b in zip(self.knots, self.knots[1:], strict=False))
             and self.knots[:clamped] == (0.0,) * clamped
             and self.knots[-clamped:] == (1.0,) * clamped
+            and all(a < b for a, b in zip(self.knots[1:-clamped], self.knots[clamped:-1], strict=True))
         )
         if not good:
-            raise GeometryError(f"a B-spline of degree {self.degree} needs clamped knots from 0 to 1")
+            raise GeometryError(
+                f"a B-spline of degree {k} with {len(self.points)} points needs {len(self.points) + clamped} "
+                f"knots from 0 to 1, {clamped}-fold at both ends and at most {k}-fold between, "
+                f"and a degree from 1 to {_MAX_DEGREE}"
+            )
+        if not np.isfinite(self._net).all():
+            raise GeometryError("a B-spline needs finite control points")
 
     @classmethod
     def bezier(cls, points: ArrayLike, tag: str = "") -> "BSpline":
@@ -253,6 +272,10 @@ class BSpline:
     def _net(self) -> Array:
         return np.asarray(self.points, dtype=float)
 
+    @cached_property
+    def _knots(self) -> Array:
+        return np.asarray(self.knots, dtype=float)
+
     @property
     def is_bezier(self) -> bool:
         """Whether there is a single span."""
@@ -267,26 +290,22 @@ class BSpline:
         t = np.atleast_1d(np.asarray(t, dtype=float))
         if self.is_bezier:
             return _bernstein(self.degree, t) @ self._net
-        from scipy.interpolate import BSpline as Spline  # 0.7 s to import: only multi-span curves pay it
-
-        values: Array = Spline(np.asarray(self.knots), self._net, self.degree)(t)
-        return values
+        return _de_boor(self.degree, self._knots, self._net, t)
 
     def derivative(self, t: ArrayLike) -> Array:
         """First derivative (n, 2) with respect to t."""
         t = np.atleast_1d(np.asarray(t, dtype=float))
         if self.is_bezier:
             return _bernstein(self.degree - 1, t) @ (self.degree * np.diff(self._net, axis=0))
-        from scipy.interpolate import BSpline as Spline
-
-        values: Array = Spline(np.asarray(self.knots), self._net, self.degree)(t, 1)
-        return values
+        return _de_boor(
+            self.degree - 1, self._knots[1:-1], _hodograph(self.degree, self._knots, self._net), t
+        )
 
     def flatten(self, tolerance: float) -> Array:
-        """Points on the curve, uniform in t, whose chords stay within ``tolerance`` of it.
+        """Points on the curve, uniform in t on each span, whose chords stay within ``tolerance`` of it.
 
-        The chord error of a span h is at most h² max|P''| / 8; the second derivative is bounded by the
-        second differences of the control net, so the count needs no iteration.
+        The chord error of a step h is at most h² max|P''| / 8, and the second derivative lies in the convex
+        hull of its control points, so the count needs no iteration.
         """
         pieces = []
         for a, b, bound in self._spans():
@@ -297,19 +316,15 @@ class BSpline:
         return points
 
     def _spans(self) -> list[tuple[float, float, float]]:
-        if self.is_bezier:
-            second = np.diff(self._net, n=2, axis=0)
-            bound = self.degree * (self.degree - 1) * np.hypot(second[:, 0], second[:, 1]).max(initial=0.0)
-            return [(0.0, 1.0, float(bound))]
-        from scipy.interpolate import BSpline as Spline
-
-        inner = np.unique(np.asarray(self.knots))
-        curve = Spline(np.asarray(self.knots), self._net, self.degree)
-        # Sampled, with a margin: the second derivative of a span is a polynomial of degree k - 2.
-        return [
-            (a, b, 1.2 * float(np.hypot(*curve(np.linspace(a, b, 2 * self.degree + 3), 2).T).max()))
-            for a, b in zip(inner[:-1].tolist(), inner[1:].tolist(), strict=True)
-        ]
+        """Start, end and a bound of the second derivative of every span."""
+        k, knots = self.degree, self._knots
+        first = np.flatnonzero(knots[:-1] < knots[1:])
+        if k == 1:
+            return [(float(knots[i]), float(knots[i + 1]), 0.0) for i in first]
+        second = _hodograph(k - 1, knots[1:-1], _hodograph(k, knots, self._net))
+        size = np.hypot(second[:, 0], second[:, 1])
+        # Over knots[i] to knots[i + 1] the curve of degree k - 2 depends on k - 1 of its points.
+        return [(float(knots[i]), float(knots[i + 1]), float(size[i - k : i - 1].max())) for i in first]
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "BSpline":
         """The spline turned about the origin, then shifted."""
@@ -330,3 +345,28 @@ def _bernstein(degree: int, t: Array) -> Array:
     binomial = np.array([math.comb(degree, i) for i in k], dtype=float)
     values: Array = binomial * t[:, None] ** k * (1 - t[:, None]) ** (degree - k)
     return values
+
+
+def _de_boor(degree: int, knots: Array, net: Array, t: Array) -> Array:
+    """Points (m, 2) of a B-spline at t (m,) by de Boor's algorithm.
+
+    C. de Boor, A Practical Guide to Splines, chapter X. Our own, because scipy.interpolate takes 0.7 s to
+    import and this is the only thing that the machining side would need it for.
+    """
+    span = np.clip(np.searchsorted(knots, t, side="right") - 1, degree, len(net) - 1)
+    column = span[:, None] + np.arange(-degree, 1)
+    values: Array = net[column]
+    for level in range(1, degree + 1):
+        low = knots[column[:, level:]]
+        high = knots[column[:, level:] + degree + 1 - level]
+        share = ((t[:, None] - low) / (high - low))[:, :, None]
+        values = (1 - share) * values[:, :-1] + share * values[:, 1:]
+    return values[:, 0]
+
+
+def _hodograph(degree: int, knots: Array, net: Array) -> Array:
+    """Control points of the derivative of a B-spline; its knots are those of the curve without the ends."""
+    width = (knots[degree + 1 : -1] - knots[1 : -degree - 1])[:, None]
+    # A knot of full multiplicity leaves an empty span, whose control point nothing depends on.
+    points: Array = degree * np.diff(net, axis=0) / np.where(width > 0, width, np.inf)
+    return points

@@ -1,0 +1,311 @@
+"""What every family must do; a family's own tests subclass :class:`FamilyContract`.
+
+Glossary
+--------
+table
+    The ``[parameters]`` of a design file as plain data, before validation.
+example
+    A table that is a design to be built without an objection; ``{}`` is the design of all defaults.
+result
+    What a design leads to: findings, motion and parts.
+"""
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, event, given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from mechwright.errors import MechwrightError, PluginError
+from mechwright.family import HOOK_API, Family
+from mechwright.findings import Finding, errors
+from mechwright.host import host
+from mechwright.materials import material
+from mechwright.motion import Motion
+from mechwright.parameters import Parameters
+from mechwright.part import Part
+from mechwright.testing import rules
+from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
+from mechwright.testing.imports import heavy_imports
+from mechwright.testing.results import difference
+from mechwright.testing.strategies import tables
+from mechwright.testing.variations import variations
+
+_REFINED = 1e-9
+"""Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
+
+
+class FamilyContract:
+    """Tests of one family; subclass it and set :attr:`family`.
+
+    Examples
+    --------
+    ::
+
+        class TestScotchYoke(FamilyContract):
+            family = ScotchYoke
+            examples = ({}, {"crank_radius": "1 in"})
+            refused = (({"slot": 0.0}, "slot"),)
+            derivatives = (("x", "velocity"),)
+            input_rate = "omega"
+    """
+
+    family: ClassVar[type[Family[Any]]]
+    """The class under test."""
+    examples: ClassVar[Sequence[Mapping[str, Any]]] = ({},)
+    """Tables of designs that build without an error finding."""
+    refused: ClassVar[Sequence[tuple[Mapping[str, Any], str]]] = ()
+    """Tables that must not build, each with the parameter that the refusal has to name."""
+    variations: ClassVar[Mapping[str, Sequence[Any]]] = {}
+    """Field to values worth trying, where a step from the example is not enough to change a result."""
+    derivatives: ClassVar[Sequence[tuple[str, str]]] = ()
+    """Channel and the channel of its rate over time, for each rate that the motion gives."""
+    input_rate: ClassVar[str] = ""
+    """Channel of the input's own rate over time; empty where the input is the time."""
+    samples: ClassVar[int] = 361
+    """Samples of the motions under test; more where the motion has sharp turns."""
+    max_examples: ClassVar[int] = 30
+    """Random designs to try."""
+
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
+        """Run every test that takes a ``design`` once for each example."""
+        if "design" in metafunc.fixturenames:
+            metafunc.parametrize("design", self.examples, ids=[_title(table) for table in self.examples])
+
+    def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
+        """Random tables; by default every field anywhere inside its bounds."""
+        return tables(self.family.Params)
+
+    def params(self, table: Mapping[str, Any]) -> Parameters:
+        """The parameters of a table."""
+        params: Parameters = self.family.Params.model_validate(dict(table))
+        return params
+
+    def _motion(self, design: Mapping[str, Any], samples: int | None = None) -> Motion:
+        return self.family().solve(self.params(design), samples or self.samples)
+
+    def _parts(self, design: Mapping[str, Any]) -> Sequence[Part]:
+        return self.family().parts(self.params(design))
+
+    # The class
+
+    def test_names(self) -> None:
+        """The family can be chosen and listed."""
+        family = self.family
+        assert family.api == HOOK_API
+        assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", family.name), f"name {family.name!r}"
+        assert family.title.strip() == family.title != ""
+        assert not family.title.endswith("."), "a title is a heading, without a full stop"
+        assert re.fullmatch(r"[A-Z].*\.", family.summary), "a summary is one sentence on one line"
+
+    def test_import_is_light(self) -> None:
+        """Importing the family brings in no heavy library, so that listing families stays fast."""
+        assert heavy_imports(self.family.__module__) == []
+
+    def test_schema(self) -> None:
+        """Every field has a description, and every number bounds and a unit."""
+        assert rules.schema_faults(self.family.Params) == []
+
+    # One design
+
+    def test_design_builds(self, design: Mapping[str, Any]) -> None:
+        """An example has no error finding, moves, and consists of parts."""
+        assert errors(self.family().check(self.params(design))) == []
+        assert self._motion(design).samples == self.samples
+        assert len(self._parts(design)) > 0
+
+    def test_design_round_trips(self, design: Mapping[str, Any]) -> None:
+        """Parameters written as TOML and read again are the same parameters."""
+        params = self.params(design)
+        text = rules.toml(params.model_dump(mode="json", exclude_none=True))
+        assert self.params(tomllib.loads(text)) == params
+
+    def test_findings(self, design: Mapping[str, Any]) -> None:
+        """Findings are well formed, in all examples and refusals."""
+        assert self._finding_faults(self.family().check(self.params(design))) == []
+
+    def test_channels(self, design: Mapping[str, Any]) -> None:
+        """Channels are finite, in known units, and driven by an input that goes one way."""
+        assert rules.motion_faults(self._motion(design)) == []
+        motion = self._motion(design)
+        assert_monotone(motion.channels[motion.input_name].values, f"input {motion.input_name}")
+
+    def test_samples(self, design: Mapping[str, Any]) -> None:
+        """As many samples as asked for, both ends included: twice as fine meets the coarse ones."""
+        coarse, fine = self._motion(design, 46), self._motion(design, 91)
+        assert (coarse.samples, fine.samples) == (46, 91)
+        for name, channel in coarse.channels.items():
+            scale = np.abs(channel.values).max(initial=0.0)
+            np.testing.assert_allclose(
+                fine.channels[name].values[::2],
+                channel.values,
+                rtol=0,
+                atol=_REFINED * max(scale, 1.0),
+                err_msg=f"channel {name} depends on the number of samples",
+            )
+
+    def test_poses(self, design: Mapping[str, Any]) -> None:
+        """Bodies move rigidly, and every instance of a part belongs to one."""
+        motion = self._motion(design)
+        for body, poses in motion.poses.items():
+            assert np.isfinite(poses.position).all(), f"body {body}"
+            assert_rotations(poses.rotation, f"body {body}")
+        missing = {
+            instance.body
+            for part in self._parts(design)
+            for instance in part.instances
+            if instance.body not in motion.poses
+        }
+        assert not missing, f"no poses of {sorted(missing)}"
+
+    def test_derivatives(self, design: Mapping[str, Any]) -> None:
+        """Each rate is the derivative of its quantity over time, and has the unit of one."""
+        if not self.derivatives:
+            pytest.skip("the attribute derivatives is empty")
+        motion = self._motion(design)
+        drive = motion.channels[motion.input_name].values
+        factor = motion.channels[self.input_rate].values if self.input_rate else 1.0
+        for name, rate in self.derivatives:
+            one, two = motion.channels[name], motion.channels[rate]
+            assert_derivative(two.values, one.values, drive, factor, what=f"channel {rate}")
+            assert rules.is_rate(two.unit, one.unit), f"{rate} [{two.unit}] is no rate of {name} [{one.unit}]"
+
+    def test_parts(self, design: Mapping[str, Any]) -> None:
+        """Parts have names of their own, known materials, and outlines that close and hold material."""
+        parts = self._parts(design)
+        names = [part.name for part in parts]
+        assert len(set(names)) == len(names), f"part names are not unique: {names}"
+        for part in parts:
+            assert material(part.material).density > 0
+            assert all(0 <= channel <= 1 for channel in part.colour)
+            assert rules.outline_faults(part) == []
+
+    def test_features(self, design: Mapping[str, Any]) -> None:
+        """Features lie inside the plate, and what they leave is the outline."""
+        for part in self._parts(design):
+            assert rules.feature_faults(part) == []
+
+    def test_solids(self, design: Mapping[str, Any]) -> None:
+        """The CAD kernel makes every part, and the same file each time."""
+        try:
+            step = host().exporter("step")
+        except PluginError as error:
+            pytest.skip(str(error))
+        for part, again in zip(self._parts(design), self._parts(design), strict=True):
+            data = step.part(part)
+            assert data.startswith(b"ISO-10303-21;"), f"part {part.name} is no STEP file"
+            assert data == step.part(again), f"part {part.name} is not the same file twice"
+
+    def test_deterministic(self, design: Mapping[str, Any]) -> None:
+        """The same parameters give the same result, whoever computed what before."""
+        assert difference(self.family(), self.params(design), self.family(), self.params(design)) == ""
+
+    # All designs
+
+    def test_every_parameter_counts(self) -> None:
+        """Every field of the parameters changes some result of some example."""
+        idle = {
+            name: field for name, field in self.family.Params.model_fields.items() if not self._counts(name)
+        }
+        assert not idle, (
+            f"no result depends on {', '.join(idle)}; where a step from the examples is too small to show, "
+            "add an example or an entry of the attribute variations"
+        )
+
+    def _counts(self, name: str) -> bool:
+        family = self.family()
+        for table in self.examples:
+            start = self.params(table)
+            for value in (*self.variations.get(name, ()), *variations(start, name)):
+                try:
+                    changed = self.params({**start.model_dump(mode="json", exclude_none=True), name: value})
+                except ValidationError:
+                    continue
+                # Validation may complete one field from another: the rest has to be as it was.
+                if changed != start and difference(family, start, family, changed):
+                    return True
+        return False
+
+    def test_refused(self) -> None:
+        """What must not build is refused by validation or by an error finding that names the parameter."""
+        if not self.refused:
+            pytest.skip("the attribute refused is empty")
+        for table, parameter in self.refused:
+            named = self._refusal(table)
+            assert named, f"{dict(table)} builds"
+            assert parameter in " ".join(named), f"{dict(table)} is refused for {named}, not for {parameter}"
+
+    def _refusal(self, table: Mapping[str, Any]) -> list[str]:
+        """What a refusal is about: parameters, or the words of a rule; empty for a design to be built."""
+        try:
+            params = self.params(table)
+        except ValidationError as error:
+            return [self._subject(detail) for detail in error.errors(include_url=False)]
+        findings = self.family().check(params)
+        assert self._finding_faults(findings) == []
+        return [finding.parameter for finding in errors(findings)]
+
+    def _subject(self, detail: Mapping[str, Any]) -> str:
+        """The field that a validation error is about, or its words where a rule ties several fields."""
+        where = ".".join(map(str, detail["loc"]))
+        words = str(detail["msg"])
+        assert where or any(name in words for name in self.family.Params.model_fields), (
+            f"a rule refuses without naming a parameter: {words!r}"
+        )
+        return where or words
+
+    def test_random_designs_build_or_are_refused(self) -> None:
+        """Any table inside the bounds is built or refused by name; nothing else is ever raised."""
+        built = 0
+
+        # Inside the method: hypothesis wants one test function for each class that inherits this one.
+        @settings(
+            max_examples=self.max_examples,
+            deadline=None,
+            suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+        )
+        @given(self.strategy())
+        def build_or_refuse(table: Mapping[str, Any]) -> None:
+            nonlocal built
+            refusal = self._refusal(table)
+            event("refused" if refusal else "built")
+            if refusal:
+                self._fails_politely(table)
+                return
+            motion = self._motion(table)
+            assert rules.motion_faults(motion) == []
+            parts = self._parts(table)
+            assert len(parts) > 0
+            for part in parts:
+                assert rules.outline_faults(part) == []
+                assert rules.feature_faults(part) == []
+            built += 1
+
+        build_or_refuse()
+        assert built, "no random table is a design to be built; override strategy with a likelier one"
+
+    def _fails_politely(self, table: Mapping[str, Any]) -> None:
+        """A refused design may still be asked for its motion and parts: an answer or an expected error."""
+        try:
+            params = self.params(table)
+        except ValidationError:
+            return
+        for ask in (self.family().parts, lambda asked: self.family().solve(asked, 9)):
+            try:
+                ask(params)
+            except MechwrightError as error:
+                assert str(error).strip(), f"{type(error).__name__} without a message"  # noqa: PT017
+
+    def _finding_faults(self, findings: Sequence[Finding]) -> list[str]:
+        return [fault for finding in findings for fault in rules.finding_faults(finding, self.family.Params)]
+
+
+def _title(table: Mapping[str, Any]) -> str:
+    """Name of an example in the list of tests."""
+    return json.dumps(dict(table), default=str)[1:-1][:60] if table else "defaults"

@@ -1,0 +1,69 @@
+"""Whether two designs lead to different results."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mechwright.errors import MechwrightError
+from mechwright.family import Family
+from mechwright.parameters import Parameters
+from mechwright.part import Part
+
+_SAMPLES = 13
+"""Samples of the motions that are compared: a whole turn in steps of 30 degrees shows any change."""
+
+
+def difference(one: Family[Any], a: Parameters, other: Family[Any], b: Parameters) -> str:
+    """Name the first result that differs, cheap ones first: motion, parts, findings; empty if none does."""
+    results: dict[str, Callable[[Family[Any], Parameters], object]] = {
+        "motion": _motion,
+        "parts": _parts,
+        "findings": lambda family, params: [finding.as_dict() for finding in family.check(params)],
+    }
+    for name, give in results.items():
+        if _ask(give, one, a) != _ask(give, other, b):
+            return name
+    return ""
+
+
+def _ask(
+    give: Callable[[Family[Any], Parameters], object], family: Family[Any], params: Parameters
+) -> object:
+    """The result, or the words in which it is refused."""
+    try:
+        return give(family, params)
+    except MechwrightError as error:
+        return str(error)
+
+
+def _motion(family: Family[Any], params: Parameters) -> object:
+    motion = family.solve(params, _SAMPLES)
+    channels = {name: (item.unit, item.values.tolist()) for name, item in motion.channels.items()}
+    scalars = {name: (item.unit, item.value) for name, item in motion.scalars.items()}
+    poses = {
+        body: np.concatenate((item.position[:, :, None], item.rotation), axis=2).tolist()
+        for body, item in motion.poses.items()
+    }
+    return motion.input_name, channels, scalars, poses
+
+
+def _parts(family: Family[Any], params: Parameters) -> object:
+    return [_part(part) for part in family.parts(params)]
+
+
+def _part(part: Part) -> object:
+    plain = (
+        part.name,
+        part.outline,
+        part.thickness,
+        part.material,
+        part.instances,
+        part.colour,
+        part.machined,
+    )
+    if part.build is None:
+        return plain
+    # Two functions that build the same solid are not equal, but their solids measure the same.
+    solid = part.build()
+    return *plain, solid.Volume(), solid.Area(), solid.Center().toTuple()

@@ -1,0 +1,235 @@
+"""The rules behind the family contract: each function lists what breaks its rule, nothing if all is well."""
+
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from mechwright.findings import Finding, Severity
+from mechwright.geometry import Outline
+from mechwright.motion import Motion
+from mechwright.parameters import Parameters
+from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.tolerances import TOLERANCES
+from mechwright.units import kind
+
+_CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(\.[a-z0-9]+(-[a-z0-9]+)*)+")
+_CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'-]*")
+
+
+def schema_faults(params: type[Parameters]) -> list[str]:
+    """Fields without a description, and numbers without bounds or a known unit, in nested tables as well."""
+    schema = params.model_json_schema()
+    found = []
+    for table, where in _tables(schema):
+        for name, field in table.get("properties", {}).items():
+            path = f"{where}{name}"
+            if not str(field.get("description", "")).strip():
+                found.append(f"{path} has no description")
+            for number in _numbers(field):
+                if not {"minimum", "exclusiveMinimum"} & number.keys():
+                    found.append(f"{path} has no least value")
+                if not {"maximum", "exclusiveMaximum"} & number.keys():
+                    found.append(f"{path} has no greatest value")
+                if "unit" in number:
+                    found += unit_faults(number["unit"], path)
+                elif number["type"] == "number":
+                    found.append(f"{path} has no unit; use a type of mechwright.units")
+    return found
+
+
+def _tables(schema: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], str]]:
+    yield schema, ""
+    for name, table in schema.get("$defs", {}).items():
+        yield table, f"{name}."
+
+
+def _numbers(node: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    """The nodes of a field's schema that take a number; tables it refers to are looked at by themselves."""
+    if node.get("type") in {"number", "integer"} and not {"enum", "const"} & node.keys():
+        yield node
+    for key in ("anyOf", "oneOf", "allOf", "prefixItems"):
+        for inner in node.get(key, ()):
+            yield from _numbers(inner)
+    for key in ("items", "additionalProperties"):
+        if isinstance(node.get(key), Mapping):
+            yield from _numbers(node[key])
+
+
+def has_parameter(params: type[Parameters], path: str) -> bool:
+    """Whether a dotted path leads to a field: of the parameters, or of the table ``[cam]``."""
+    head, _, rest = path.partition(".")
+    if head == "cam":
+        return bool(rest)
+    field = params.model_fields.get(head)
+    if field is None or not rest:
+        return field is not None
+    inner = field.annotation
+    return isinstance(inner, type) and issubclass(inner, Parameters) and has_parameter(inner, rest)
+
+
+def unit_faults(unit: str, where: str) -> list[str]:
+    """A unit that does not exist."""
+    try:
+        kind(unit)
+    except ValueError:
+        return [f"{where}: unit {unit!r} is not known"]
+    return []
+
+
+def is_rate(rate: str, quantity: str) -> bool:
+    """Whether the unit ``rate`` is ``quantity`` per second.
+
+    >>> is_rate("mm/s^2", "mm/s"), is_rate("rad/s", "rad"), is_rate("mm", "mm/s")
+    (True, True, False)
+    """
+    # A pure number in the numerator has no symbol to write.
+    return kind(rate) == kind(f"{quantity or '1'}/s")
+
+
+def finding_faults(finding: Finding, params: type[Parameters]) -> list[str]:
+    """A finding that a person or a program could not use."""
+    where, found = f"finding {finding.code!r}", []
+    if not _CODE.fullmatch(finding.code):
+        found.append(f"{where}: a code is lower-case words with dots, such as 'gear.undercut'")
+    if finding.severity not in set(Severity):
+        found.append(f"{where}: severity {finding.severity!r}")
+    if not finding.message.strip() or "\n" in finding.message + finding.remedy:
+        found.append(f"{where}: the message is one line, not {finding.message!r}")
+    if finding.severity is not Severity.NOTE and not (finding.remedy.strip() and finding.parameter):
+        found.append(f"{where}: an {finding.severity} names a parameter and says what to do")
+    if finding.parameter and not has_parameter(params, finding.parameter):
+        found.append(f"{where}: there is no parameter {finding.parameter!r}")
+    found += unit_faults(finding.unit, where)
+    try:
+        json.dumps(finding.as_dict(), allow_nan=False)
+    except (TypeError, ValueError) as error:
+        found.append(f"{where}: cannot be written as JSON: {error}")
+    return found
+
+
+def motion_faults(motion: Motion) -> list[str]:
+    """Channels and scalars that cannot be printed or computed with."""
+    found = []
+    for name, channel in motion.channels.items():
+        where = f"channel {name}"
+        if not _CHANNEL.fullmatch(name):
+            found.append(f"{where}: a name is letters, digits, - and _, a letter first")
+        if channel.values.dtype != np.float64:
+            found.append(f"{where}: values are {channel.values.dtype}, not float64")
+        if not np.isfinite(channel.values).all():
+            found.append(
+                f"{where}: not finite at sample {int(np.flatnonzero(~np.isfinite(channel.values))[0])}"
+            )
+        found += unit_faults(channel.unit, where)
+    for name, scalar in motion.scalars.items():
+        if not math.isfinite(scalar.value):
+            found.append(f"scalar {name}: {scalar.value}")
+        found += unit_faults(scalar.unit, f"scalar {name}")
+    return found
+
+
+def outline_faults(part: Part) -> list[str]:
+    """An outline that holds no material or is further from the exact curve than it may be.
+
+    Raises
+    ------
+    GeometryError
+        The outline cuts itself.
+    """
+    if part.outline is None:
+        return []
+    found = []
+    if not part.outline.polygon().area > 0:
+        found.append(f"part {part.name} has no area")
+    if not 0 <= part.outline.deviation <= TOLERANCES.outline:
+        found.append(
+            f"part {part.name}: deviation {part.outline.deviation:g} mm, limit {TOLERANCES.outline:g} mm"
+        )
+    return found
+
+
+def feature_faults(part: Part) -> list[str]:
+    """Features that reach out of the plate, share a name, or do not leave the outline."""
+    if part.outline is None:
+        return []
+    names = [feature.name for feature in part.features]
+    found = [] if len(set(names)) == len(names) else [f"part {part.name}: feature names {names}"]
+    for feature in part.features:
+        where = f"feature {feature.name} of part {part.name}"
+        if not (feature.top >= 0 and feature.depth > 0):
+            found.append(f"{where}: top {feature.top} mm, depth {feature.depth} mm")
+        if feature.top + feature.depth > part.thickness + TOLERANCES.closure:
+            found.append(f"{where} is deeper than the plate of {part.thickness:g} mm")
+        if isinstance(feature, Bore) and not feature.diameter > 0:
+            found.append(f"{where}: diameter {feature.diameter} mm")
+    return found or _left_over(part, part.outline)
+
+
+def _left_over(part: Part, outline: Outline) -> list[str]:
+    """Compare what the through features leave with the outline."""
+    import shapely
+
+    left = shapely.union_all(
+        [
+            shapely.Polygon(feature.loop.flatten())
+            for feature in part.features
+            if isinstance(feature, Profile) and feature.side == "outside"
+        ]
+    )
+    for feature in part.features:
+        if feature.top + feature.depth < part.thickness - TOLERANCES.closure:
+            continue
+        match feature:
+            case Bore():
+                # 512 chords: 2e-5 of the radius off.
+                opening = shapely.Point(feature.centre).buffer(feature.diameter / 2, quad_segs=128)
+            case Pocket():
+                islands = [loop.flatten() for loop in feature.islands]
+                opening = shapely.Polygon(feature.boundary.flatten(), islands)
+            case Profile(side="inside"):
+                opening = shapely.Polygon(feature.loop.flatten())
+            case _:
+                continue
+        left = left.difference(opening)
+    target = outline.polygon()
+    # Either side is within its chord error all along the boundary; twice that for bores and for rounding.
+    allowed = 4 * TOLERANCES.flatten * target.length
+    wrong = left.symmetric_difference(target).area
+    if wrong > allowed:
+        return [
+            f"part {part.name}: features and outline differ by {wrong:.4g} mm², {allowed:.4g} mm² is rounding"
+        ]
+    return []
+
+
+def toml(table: Mapping[str, Any]) -> str:
+    """Write plain data as TOML, tables inside tables inline.
+
+    >>> print(toml({"teeth": 25, "hold": {"tabs": [1.5, 2]}}), end="")
+    teeth = 25
+    hold = {"tabs" = [1.5, 2]}
+
+    Raises
+    ------
+    TypeError
+        TOML has no way to say a value.
+    """
+    return "".join(f"{key} = {_toml(value)}\n" for key, value in table.items())
+
+
+def _toml(value: Any) -> str:
+    match value:
+        case bool() | str():
+            return json.dumps(value)
+        case int() | float():
+            return repr(value)
+        case list():
+            return f"[{', '.join(map(_toml, value))}]"
+        case dict():
+            pairs = ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items())
+            return f"{{{pairs}}}"
+    raise TypeError(f"TOML cannot say {value!r}")

@@ -1,0 +1,1 @@
+"""Scotch yokes: a crank pin in a straight slot."""

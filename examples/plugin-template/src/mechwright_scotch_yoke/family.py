@@ -1,0 +1,59 @@
+"""The family: parameters in, findings, motion and parts out."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+from mechwright.family import Family
+from mechwright.findings import Finding
+from mechwright.motion import Motion
+from mechwright.parameters import Parameters
+from mechwright.part import Part
+from mechwright.units import Millimetres, Newtons, RevPerMin
+from pydantic import Field
+
+Material = Literal["aluminium", "brass", "pom", "steel"]
+
+
+class ScotchYokeParams(Parameters):
+    """The table ``[parameters]`` of a Scotch yoke."""
+
+    crank_radius: Millimetres = Field(20.0, ge=1, le=500, description="Shaft to pin; half the stroke.")
+    speed: RevPerMin = Field(120.0, ge=0.1, le=3000, description="Speed of the crank, constant.")
+    shaft_diameter: Millimetres = Field(10.0, ge=2, le=200, description="Bore of the crank.")
+    pin_diameter: Millimetres = Field(8.0, ge=2, le=100, description="Dowel pin in the crank.")
+    clearance: Millimetres = Field(0.05, ge=0.005, le=1, description="Width of the slot beyond the pin.")
+    rim: Millimetres = Field(8.0, ge=1, le=200, description="Material around bores and slot.")
+    crank_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the crank.")
+    yoke_thickness: Millimetres = Field(6.0, ge=1, le=100, description="Thickness of the yoke.")
+    stem_width: Millimetres = Field(14.0, ge=2, le=500, description="Width of the yoke's stem.")
+    stem_length: Millimetres = Field(80.0, ge=5, le=2000, description="Length of the stem from the head.")
+    load: Newtons = Field(100.0, ge=0, le=1e6, description="Largest force that the stem pushes with.")
+    crank_material: Material = Field("steel", description="Material of the crank.")
+    yoke_material: Material = Field("brass", description="Material of the yoke.")
+
+
+class ScotchYoke(Family[ScotchYokeParams]):
+    """A pin on a turning crank drives a slotted yoke to and fro."""
+
+    name = "scotch-yoke"
+    title = "Scotch yoke"
+    summary = "A crank pin in a straight slot turns rotation into a pure sine stroke."
+    Params = ScotchYokeParams
+
+    def check(self, params: ScotchYokeParams) -> Sequence[Finding]:
+        """Strength, room for the bores and the stem, lost motion."""
+        from mechwright_scotch_yoke import checks
+
+        return checks.check(params)
+
+    def solve(self, params: ScotchYokeParams, samples: int) -> Motion:
+        """One turn of the crank from the outer dead centre, at constant speed."""
+        from mechwright_scotch_yoke import kinematics
+
+        return kinematics.motion(params, samples)
+
+    def parts(self, params: ScotchYokeParams) -> Sequence[Part]:
+        """The crank and the yoke."""
+        from mechwright_scotch_yoke import plates
+
+        return plates.crank(params), plates.yoke(params)

@@ -1,0 +1,80 @@
+import math
+
+import numpy as np
+import pytest
+from mechwright.testing import FamilyContract, assert_points_close
+from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams
+
+
+class TestScotchYoke(FamilyContract):
+    family = ScotchYoke
+    examples = ({}, {"crank_radius": "2 in", "speed": "10 rad/s", "stem_width": 30, "pin_diameter": 12})
+    refused = (
+        ({"crank_radius": 9.0, "stem_width": 4}, "crank_radius"),
+        ({"stem_width": 40.0}, "stem_width"),
+        ({"load": 5000.0}, "pin_diameter"),
+        ({"clearance": 0.0}, "clearance"),
+        ({"colour": "red"}, "colour"),
+    )
+    derivatives = (
+        ("theta", "omega"),
+        ("x", "velocity"),
+        ("velocity", "acceleration"),
+        ("acceleration", "jerk"),
+    )
+    input_rate = "omega"
+
+
+def codes(**table: float) -> set[str]:
+    return {finding.code for finding in ScotchYoke().check(ScotchYokeParams(**table))}
+
+
+def test_the_dead_centres_are_a_stroke_apart():
+    x = ScotchYoke().solve(ScotchYokeParams(crank_radius=35), 3).channels["x"].values
+    np.testing.assert_allclose(x, [35, -35, 35])
+
+
+def test_the_pin_touches_nothing_but_the_flanks_of_the_slot():
+    import shapely
+
+    params = ScotchYokeParams()
+    _, yoke = ScotchYoke().parts(params)
+    motion = ScotchYoke().solve(params, 25)
+    pin = np.array([[params.crank_radius, 0.0, 0.0]])
+    seen = motion.poses["crank"].transform(pin)[:, 0] - motion.poses["yoke"].position
+    assert_points_close(seen[:, 0], np.zeros(25), 1e-12, "the pin is always in the middle of the slot")
+    slot = yoke.outline.polygon().interiors[0]
+    room = shapely.distance(shapely.points(seen[:, :2]), slot) - params.pin_diameter / 2
+    np.testing.assert_allclose(room, params.clearance / 2, atol=2e-3)
+
+
+def test_the_yoke_weighs_what_its_rectangles_and_rings_weigh():
+    params = ScotchYokeParams(rim=8, pin_diameter=8, clearance=0.05, stem_width=14, stem_length=80)
+    slot, head = 4.025, 12.025
+    ring = math.pi * (head**2 - slot**2) + 2 * 20 * 2 * (head - slot)
+    fillets = 2 * (1 - math.pi / 4) * 4**2
+    grams = (ring + 80 * 14 + fillets) * 6 / 1000 * 8.5
+    scalars = ScotchYoke().solve(params, 3).scalars
+    assert scalars["yoke_mass"].value == pytest.approx(grams / 1000, rel=1e-9)
+    assert scalars["peak_force"].value == pytest.approx(100 + grams / 1e6 * 20 * (4 * math.pi) ** 2, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("table", "code"),
+    [
+        ({"crank_radius": 10.99, "stem_width": 4}, "scotch-yoke.crank-web"),
+        ({"stem_width": 32.01}, "scotch-yoke.stem-width"),
+        ({"load": 3700.0}, "scotch-yoke.pin-bending"),
+        ({"load": 500.0}, "scotch-yoke.slot-pressure"),
+    ],
+)
+def test_each_limit_is_found_and_only_where_it_is_passed(table, code):
+    assert code in codes(**table)
+    assert code not in codes()
+
+
+def test_remedies_help():
+    params = ScotchYokeParams(load=5000, rim=20)
+    (bending,) = (f for f in ScotchYoke().check(params) if f.code == "scotch-yoke.pin-bending")
+    assert bending.value == pytest.approx(32 * 5000 * 3.5 / (math.pi * 8**3), rel=1e-2)
+    assert "scotch-yoke.pin-bending" not in codes(load=5000, pin_diameter=9.2)

@@ -1,0 +1,314 @@
+"""The plugin host: what is broken becomes a warning with a name, and the rest goes on."""
+
+import os
+import subprocess
+import sys
+from importlib.metadata import Distribution, EntryPoint
+from pathlib import Path
+
+import pytest
+from mechwright.errors import PluginError
+from mechwright.family import Family
+from mechwright.host import DISABLE, GROUP, _installed, load
+from mechwright.parameters import Parameters
+
+FAMILY = """
+from mechwright.family import Family
+from mechwright.hookspecs import hookimpl
+from mechwright.parameters import Parameters
+
+class Cam(Family[Parameters]):
+    name = "cam"
+    title = "Cam"
+    summary = "A cam."
+    Params = Parameters
+    def check(self, params): return []
+    def solve(self, params, samples): raise NotImplementedError
+    def parts(self, params): return []
+
+@hookimpl
+def mechwright_register_families():
+    return [Cam]
+"""
+
+OUTPUT = """
+from mechwright.hookspecs import hookimpl
+from mechwright.output import Exporter, Post
+
+class Mill(Post):
+    name, title = "mill", "Mill"
+    def write(self, program): return ""
+    def tool_table(self, tools): return "", ""
+
+class Stl(Exporter):
+    name, suffix = "stl", ".stl"
+    def part(self, part): return b""
+
+@hookimpl
+def mechwright_register_posts():
+    return (Mill,)
+
+@hookimpl
+def mechwright_register_exporters():
+    return iter([Stl])
+"""
+
+
+@pytest.fixture
+def plugin(tmp_path, monkeypatch):
+    """Write a plugin module, and give its distribution name and entry point."""
+    monkeypatch.syspath_prepend(tmp_path)
+    made = []
+
+    def make(source, name="cam", distribution="third-party"):
+        module = f"plugin_{tmp_path.name.replace('-', '_')}_{len(made)}"
+        made.append(module)
+        (tmp_path / f"{module}.py").write_text(source, encoding="utf-8")
+        return distribution, EntryPoint(name, module, GROUP)
+
+    yield make
+    for module in made:
+        sys.modules.pop(module, None)
+
+
+def reasons(host):
+    return [str(broken) for broken in host.broken]
+
+
+def test_what_is_registered_can_be_looked_up(plugin):
+    host = load([plugin(FAMILY), plugin(OUTPUT, "output")])
+    assert host.broken == []
+    assert isinstance(host.family("cam"), Family)
+    assert host.families["cam"].distribution == "third-party"
+    assert host.families["cam"].plugin == "cam"
+    assert host.post("mill").title == "Mill"
+    assert host.exporter("stl").suffix == ".stl"
+
+
+@pytest.mark.parametrize("what", ["family", "post", "exporter"])
+def test_what_is_not_installed_is_named_with_what_is(plugin, what):
+    host = load([plugin(FAMILY), plugin(OUTPUT, "output")])
+    known = {"family": "cam", "post": "mill", "exporter": "stl"}[what]
+    with pytest.raises(PluginError, match=f"'camm' is not installed; known: {known}"):
+        getattr(host, what)("camm")
+    with pytest.raises(PluginError, match="known: none is installed"):
+        getattr(load([]), what)("cam")
+
+
+@pytest.mark.parametrize(
+    ("source", "reason"),
+    [
+        ("import no_such_module", "ModuleNotFoundError: No module named 'no_such_module'"),
+        ("def f(:", "SyntaxError: invalid syntax"),
+        ("import sys; sys.exit('no licence')", "SystemExit: no licence"),
+        ("raise SystemExit", "SystemExit"),
+        ("raise RuntimeError('first line\\nsecond line')", "RuntimeError: first line"),
+        ("raise KeyError('colour')", "KeyError: 'colour'"),
+    ],
+)
+def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
+    host = load([plugin(source, "bad", "shaky"), plugin(FAMILY)])
+    (said,) = reasons(host)
+    assert said.startswith(f"plugin bad of shaky is not used: {reason}")
+    assert "second line" not in said
+    assert list(host.families) == ["cam"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        (
+            "mechwright_register_families",
+            "mechwright_register_family",
+            "there is no hook mechwright_register_family; do you mean mechwright_register_families?",
+        ),
+        (
+            "mechwright_register_families",
+            "mechwright_paint_it_black",
+            "there is no hook mechwright_paint_it_black",
+        ),
+        (
+            "@hookimpl\ndef mechwright_register_families",
+            "def mechwright_register_families",
+            "hook mechwright_register_families is not marked with mechwright.hookspecs.hookimpl",
+        ),
+        (
+            "@hookimpl\ndef mechwright_register_families",
+            "def mechwright_register_famlies",
+            "there is no hook mechwright_register_famlies; do you mean mechwright_register_families?",
+        ),
+        (
+            "def mechwright_register_families()",
+            "def mechwright_register_families(config)",
+            "Plugin 'cam' for hook 'mechwright_register_families' hookimpl definition",
+        ),
+        ("return [Cam]", "pass", "mechwright_register_families: TypeError: it returns nothing"),
+        ("return [Cam]", "return Cam", "it returns <class"),
+        ("return [Cam]", "return 7", "it returns 7; return a list of classes"),
+        ("return [Cam]", "return [Cam()]", "is no subclass of Family"),
+        ("return [Cam]", "return ['Cam']", "'Cam' is no subclass of Family"),
+        ("return [Cam]", "return [Family]", "Family has no name"),
+        ("return [Cam]", "raise ValueError('no')", "mechwright_register_families: ValueError: no"),
+        ("return [Cam]", "raise SystemExit(3)", "mechwright_register_families: SystemExit: 3"),
+        ('name = "cam"', 'name = "cam"; api = 2', "Cam was written for hook API 2; this is 1"),
+        ('name = "cam"', 'name = "cam"; api = None', "Cam was written for hook API None; this is 1"),
+        ('name = "cam"', "name = 7", "Cam has no name"),
+        ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
+        ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
+        ('title = "Cam"', "", "Cam has no title"),
+        ('summary = "A cam."', "summary = None", "Cam has no summary"),
+        (
+            "Params = Parameters",
+            "Params = dict",
+            "Params is no subclass of mechwright.parameters.Parameters",
+        ),
+        ("Params = Parameters", "", "Cam: Params is no subclass"),
+        ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
+        (
+            "def check(self",
+            "def __init__(self): 1 / 0\n    def check(self",
+            "Cam(): ZeroDivisionError",
+        ),
+        ("def check(self", "def __init__(self): exit()\n    def check(self", "Cam(): SystemExit"),
+    ],
+)
+def test_a_broken_registration_is_named_and_the_rest_goes_on(plugin, old, new, reason):
+    assert old in FAMILY
+    host = load([plugin(FAMILY.replace(old, new), "cam", "shaky"), plugin(OUTPUT, "output")])
+    (said,) = reasons(host)
+    assert said.startswith("plugin cam of shaky is not used: ")
+    assert reason in said
+    assert "\n" not in said
+    assert not host.families
+    assert list(host.posts) == ["mill"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ('".stl"', '"stl"', "Stl: suffix 'stl' is not a dot with lower-case letters and digits"),
+        ('".stl"', '"/../x"', "Stl: suffix '/../x' is not a dot"),
+        (', suffix = "stl", ".stl"', ' = "stl"', "Stl has no suffix"),
+        (', title = "mill", "Mill"', ' = "mill"', "Mill has no title"),
+    ],
+)
+def test_posts_and_exporters_are_looked_at_too(plugin, old, new, reason):
+    assert old in OUTPUT
+    host = load([plugin(OUTPUT.replace(old, new), "output")])
+    (said,) = reasons(host)
+    assert reason in said
+    assert len(host.posts) + len(host.exporters) == 1
+
+
+def test_one_bad_hook_does_not_take_the_good_ones_with_it(plugin):
+    misspelt = OUTPUT.replace("register_exporters", "register_exporter")
+    host = load([plugin(misspelt, "output")])
+    assert list(host.posts) == ["mill"]
+    assert "do you mean mechwright_register_exporters?" in reasons(host)[0]
+
+
+def test_a_lazy_attribute_that_fails_is_no_hook(plugin):
+    source = (
+        FAMILY
+        + "\ndef __getattr__(name): raise RuntimeError(name)\ndef __dir__(): return ['x', *globals()]\n"
+    )
+    host = load([plugin(source)])
+    assert host.broken == []
+    assert list(host.families) == ["cam"]
+
+
+def test_hookspecs_may_be_imported_by_name(plugin):
+    host = load([plugin("from mechwright.hookspecs import *\n" + OUTPUT, "output")])
+    assert host.broken == []
+
+
+def test_a_name_that_is_taken_names_both(plugin):
+    host = load([plugin(FAMILY, "cam", "first"), plugin(FAMILY, "other", "second")])
+    assert reasons(host) == [
+        "plugin other of second is not used: family 'cam' is already registered by cam of first"
+    ]
+    assert host.families["cam"].distribution == "first"
+
+
+def test_a_family_and_a_post_may_share_a_name(plugin):
+    host = load([plugin(FAMILY), plugin(OUTPUT.replace('"mill"', '"cam"'), "output")])
+    assert host.broken == []
+    assert host.family("cam").name == host.post("cam").name
+
+
+def test_plugins_are_switched_off_by_name(plugin, monkeypatch):
+    points = [plugin(FAMILY), plugin("raise ImportError", "bad"), plugin(OUTPUT, "output")]
+    monkeypatch.setenv(DISABLE, " bad, cam ,,")
+    host = load(points)
+    assert (host.families, host.broken, list(host.posts)) == ({}, [], ["mill"])
+    assert list(load(points, frozenset({"bad"})).families) == ["cam"]
+
+
+class Installed(Distribution):
+    """A distribution as it would be found on the path."""
+
+    def __init__(self, name, entry_points):
+        self.files_by_name = {
+            "METADATA": f"Name: {name}\n" if name else None,
+            "entry_points.txt": entry_points,
+        }
+
+    def read_text(self, filename):
+        return self.files_by_name.get(filename)
+
+    def locate_file(self, path):
+        return Path(path)
+
+
+def found(*distributions):
+    points, broken = _installed(distributions)
+    return [(name, point.name) for name, point in points], broken
+
+
+def test_built_in_plugins_go_first_and_the_order_is_that_of_names():
+    third = Installed("a-third-party", "[mechwright]\nzeta = z\nalpha = a\n")
+    own = Installed("mechwright", "[console_scripts]\nmechwright = m:main\n[mechwright]\ncam = c\n")
+    other = Installed("b", "[mechwright]\ncam = other\n")
+    wanted = [("mechwright", "cam"), ("a-third-party", "alpha"), ("a-third-party", "zeta"), ("b", "cam")]
+    assert found(other, third, own) == (wanted, [])
+    assert found(own, other, third) == (wanted, [])
+
+
+def test_an_editable_install_that_is_listed_twice_counts_once():
+    own = Installed("mechwright", "[mechwright]\ncam = c\n")
+    assert found(own, own) == ([("mechwright", "cam")], [])
+
+
+def test_distributions_without_entry_points_or_name():
+    assert found(Installed("a", None), Installed("b", "")) == ([], [])
+    assert found(Installed("", "[mechwright]\ncam = c\n"))[0] == [("unknown", "cam")]
+
+
+def test_entry_points_that_cannot_be_read_are_a_warning():
+    points, broken = found(
+        Installed("torn", "[mechwright]\nno equals sign\n"), Installed("b", "[mechwright]\nx = y\n")
+    )
+    assert points == [("b", "x")]
+    assert len(broken) == 1
+    assert str(broken[0]).startswith("plugin entry_points.txt of torn is not used: ")
+
+
+def test_broken_entry_points_of_others_are_none_of_our_business():
+    assert found(Installed("torn", "[console_scripts]\nno equals sign\n")) == ([], [])
+
+
+def test_the_host_needs_no_numbers():
+    code = "import sys, mechwright.host as h; h.host(); print(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, DISABLE: "cam,elliptic-gears"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert not {"numpy", "scipy", "shapely", "cadquery", "pint"} & set(done.stdout.split())
+
+
+def test_params_base_is_strict():
+    assert Parameters.model_config["extra"] == "forbid"
+    assert Parameters.model_config["frozen"] is True
