@@ -149,9 +149,7 @@ class _Machine:
         seconds: float = 0.0,
         arc: tuple[float, float, float, float] = (math.nan, math.nan, 0.0, 0.0),
     ) -> None:
-        self.rows.append(
-            (kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index)
-        )
+        self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
         self.x, self.y, self.z = x, y, z
 
     def _feed_to(self, line: int, x: float, y: float, z: float) -> None:
