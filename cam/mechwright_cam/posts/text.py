@@ -33,7 +33,7 @@ def rounded(value: float) -> float:
 
 
 def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
-    """Make text safe inside parentheses: ASCII, no parentheses of its own, short lines.
+    r"""Make text safe inside parentheses: ASCII, no parentheses of its own, short lines.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
 
     Examples
     --------
-    >>> comment_lines("bore Ø8 (H7)\\nM30")
+    >>> comment_lines("bore Ø8 (H7)\nM30")
     ['bore D8 [H7] M30']
     >>> comment_lines("logopen,/etc/passwd", active=("LOGOPEN",))
     ["'logopen,/etc/passwd"]
