@@ -1,10 +1,10 @@
 """How long a program takes.
 
 Each move is a speed trapezoid: the machine speeds up and slows down with the acceleration of an axis along
-the path, and passes from one move to the next at the speed that the corner allows. Along an arc the speed is also
-limited by the centripetal acceleration. Two things are estimates: a move to the machine's upper end, whose
-height the program does not know, is taken as half the travel of Z, and the time of a corner is that of an
-axis which may jump by CORNER. Stops for the operator are not counted.
+the path, and passes from one move to the next at the speed that the corner allows. Along an arc the speed is
+also limited by the centripetal acceleration. Two things are estimates: a move to the machine's upper end,
+whose height the program does not know, is taken as half the travel of Z, and the time of a corner is that of
+an axis which may jump by CORNER. Stops for the operator are not counted.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""A small workshop for tests: a plate, its cutters, and a program for it, made by hand from exact geometry."""
+"""A small workshop for tests: a plate, its cutters, and a program made by hand from exact geometry."""
 
 import math
 

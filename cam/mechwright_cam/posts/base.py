@@ -251,6 +251,7 @@ class GcodePost(Post):
         self.retract(out)
         self.message(out, move.message)
         out.line("M0")
+        out.motion = ""
         self.spindle(out, section)
         out.line(COOLANT[section.coolant])
 

@@ -43,6 +43,7 @@ class LinuxCncPost(GcodePost):
         out.line(out.program.work_offset, "S" + number(section.spindle, 0), "M3")
         out.feed = ""  # a section that is run by itself states its feed
         out.x = out.y = math.nan
+        out.motion = ""
 
     def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:
         """Turn on the tool's length offset, with the first move to z."""

@@ -9,6 +9,8 @@ goes below it, so the smaller of the two counts. A drill is as wide as its point
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
+from mechwright.motion import Array
 
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Boundary, Shape
@@ -31,7 +33,11 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
     edge = Boundary(keep)
-    gap = edge.distance(lines, within=float(radius.max()))
+    gap = np.full(len(pieces), np.inf)
+    for reach in np.unique(np.ceil(radius)):
+        # Looking no further than each cutter's own radius keeps the search short.
+        group = np.ceil(radius) == reach
+        gap[group] = edge.distance(lines[group], within=float(radius[group].max()))
     inside = edge.inside(lines)
     if inside.size:
         gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
@@ -62,12 +68,8 @@ def _distinct(paths: Paths, pieces: Pieces) -> Pieces:
     return pieces.only(index)
 
 
-def _depth_inside(
-    paths: Paths, pieces: Pieces, edge: Boundary
-) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
     """How far each piece goes inside the shape, measured at its corners."""
-    import shapely
-
     points, owner = paths.points(pieces)
     spots = shapely.points(points)
     within = shapely.intersects(edge.shape, spots)

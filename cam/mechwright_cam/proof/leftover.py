@@ -34,6 +34,8 @@ SPOTS = 40
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
+CLEARED = TOLERANCES.arc_fit
+"""A wall with no more stock than this is as clean as a path can make it, mm."""
 COARSE = 0.002
 """Accuracy of the area of stock away from walls, mm: a fifth of the leftover limit."""
 
@@ -50,11 +52,16 @@ class Remains:
 
 @dataclass(frozen=True, slots=True)
 class Sweep:
-    """Paths that reach a height, of one effective radius: lines for distances, chains for areas."""
+    """Paths that reach a height, of one effective radius: chains for areas, chords for distances."""
 
     radius: float
-    lines: Any
     chains: Any
+
+    def chords(self) -> Any:
+        """The straight pieces of all chains: short ones make a tree of them quick to ask."""
+        points, owner = shapely.get_coordinates(self.chains, return_index=True)
+        same = owner[:-1] == owner[1:]
+        return shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
 
 
 def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
@@ -65,7 +72,7 @@ def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
     groups = []
     for one in np.unique(radius[radius > NEAR]):
         group = pieces.only(radius == one)
-        groups.append(Sweep(float(one), paths.lines(group), paths.chains(group)))
+        groups.append(Sweep(float(one), paths.chains(group)))
     return groups
 
 
@@ -125,12 +132,16 @@ def _thickness(points: Array, groups: list[Sweep]) -> Array:
     spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
     for group in groups:
-        # A point that one cutter has cleared needs no other.
-        open_ = np.flatnonzero(thick > NEAR)
+        # A point that one cutter has cleared needs no other; the smallest, which comes first, clears most.
+        open_ = np.flatnonzero(thick > CLEARED)
         if open_.size == 0:
             break
-        (index, _), distance = shapely.STRtree(group.lines).query_nearest(
-            spots[open_], return_distance=True, all_matches=False
+        most = float(thick[open_].max()) + group.radius
+        (index, _), distance = shapely.STRtree(group.chords()).query_nearest(
+            spots[open_],
+            max_distance=most if np.isfinite(most) else None,
+            return_distance=True,
+            all_matches=False,
         )
         found = open_[index]
         thick[found] = np.minimum(thick[found], distance - group.radius)

@@ -254,14 +254,13 @@ def travel(scene: Scene) -> Check:
         return Check("travel", True, "no moves")
     pieces = paths.below(np.inf)
     points, owner = paths.points(pieces)
-    heights = np.where(np.isfinite(scene.run.start[:, 2]), scene.run.start[:, 2], scene.run.end[:, 2])[
-        paths.steps
-    ]
-    ends = np.concatenate((heights, scene.run.end[paths.steps, 2]))
+    heights = np.concatenate((scene.run.start[paths.steps, 2], scene.run.end[paths.steps, 2]))
+    at_rest = np.isinf(heights)
+    heights[at_rest] = np.median(heights[~at_rest]) if not at_rest.all() else 0.0
     for axis, values, limit in (
         ("X", points[:, 0], machine.travel_x),
         ("Y", points[:, 1], machine.travel_y),
-        ("Z", ends, machine.travel_z),
+        ("Z", heights, machine.travel_z),
     ):
         # Furthest from the middle: the move that a stray coordinate belongs to.
         extent = float(np.ptp(values))
