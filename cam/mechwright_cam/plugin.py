@@ -7,7 +7,9 @@ from mechwright.output import Exporter, Post
 @hookimpl
 def mechwright_register_posts() -> list[type[Post]]:
     """The controls that programs can be written for."""
-    return []
+    from mechwright_cam.posts import LinuxCncPost
+
+    return [LinuxCncPost]
 
 
 @hookimpl

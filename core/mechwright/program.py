@@ -9,6 +9,9 @@ from typing import Literal
 
 from mechwright.tooling import Tool
 
+OPERATION_COMMENT = "operation: "
+"""How a program's text names the operation that follows, in a comment; times are reported by that name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Rapid:

@@ -1,0 +1,10 @@
+"""Reads program text as a control would: text in, positions and machine state out.
+
+Nothing here knows how programs are planned or posted; the proof rests on that.
+"""
+
+from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
+from mechwright_cam.interpreter.machine import interpret
+from mechwright_cam.interpreter.run import Kind, Remark, Run, State
+
+__all__ = ["LINUXCNC", "Dialect", "Kind", "Remark", "Run", "State", "interpret"]

@@ -1,0 +1,52 @@
+"""Arcs as controls define them."""
+
+import math
+
+FULL = math.tau
+
+
+def sweep_of(
+    start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float], ccw: bool
+) -> float:
+    """Signed angle from start to end about the centre, rad; an end equal to the start is a full turn.
+
+    >>> round(sweep_of((1, 0), (0, 1), (0, 0), ccw=True), 6)
+    1.570796
+    >>> round(sweep_of((1, 0), (0, 1), (0, 0), ccw=False), 6)
+    -4.712389
+    """
+    first = math.atan2(start[1] - centre[1], start[0] - centre[0])
+    last = math.atan2(end[1] - centre[1], end[0] - centre[0])
+    if start == end:
+        return FULL if ccw else -FULL
+    sweep = last - first
+    if ccw:
+        return sweep if sweep > 0 else sweep + FULL
+    return sweep if sweep < 0 else sweep - FULL
+
+
+def centre_of(
+    start: tuple[float, float], end: tuple[float, float], radius: float, ccw: bool, slack: float
+) -> tuple[float, float]:
+    """Centre of the arc in radius form; a negative radius means the longer way round.
+
+    Raises
+    ------
+    ValueError
+        The ends coincide, or are further apart than the diameter by more than ``slack``; the text says which.
+
+    Examples
+    --------
+    >>> centre_of((1, 0), (-1, 0), 1.0, True, 0.0)
+    (0.0, 0.0)
+    """
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord = math.hypot(dx, dy)
+    if chord == 0:
+        raise ValueError("an arc with R ends where it starts; write I and J for a full circle")
+    if chord / 2 > abs(radius) + slack:
+        raise ValueError(f"R{radius:g} is less than half the distance of {chord:.4f} mm between the ends")
+    height = math.sqrt(max(radius * radius - chord * chord / 4, 0.0))
+    left = ccw == (radius > 0)
+    side = height / chord if left else -height / chord
+    return (start[0] + end[0]) / 2 - dy * side, (start[1] + end[1]) / 2 + dx * side

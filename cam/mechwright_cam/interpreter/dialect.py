@@ -1,0 +1,79 @@
+"""How controls differ in reading the same text."""
+
+from dataclasses import dataclass
+
+PECK_CLEARANCE = 0.254
+"""How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """What one control understands, and what it means by it.
+
+    Parameters
+    ----------
+    name
+        Name for messages.
+    g_codes, m_codes
+        Codes that are interpreted, G codes in tenths (``591`` is G59.1).
+    unsupported
+        G codes in tenths that the control knows and this interpreter refuses, each with what to do instead.
+    dwell_unit
+        Seconds per unit of P in G4.
+    absolute_centres
+        Whether I and J are absolute coordinates at the start of a program.
+    semicolon_comments
+        Whether ``;`` starts a comment that runs to the end of the line.
+    peck_clearance
+        How far above the last depth the next peck of G83 starts, and how far G73 draws back, mm.
+    arc_absolute, arc_relative
+        The control refuses an arc whose two radii differ by more than both, in mm and as a part of the
+        radius.
+    line_length
+        Longest line, characters.
+    change_stops_spindle
+        Whether M6 stops the spindle.
+    percent_ends
+        Whether a second ``%`` line ends the program as M2 does.
+    """
+
+    name: str
+    g_codes: frozenset[int]
+    m_codes: frozenset[int]
+    unsupported: tuple[tuple[int, str], ...] = ()
+    dwell_unit: float = 1.0
+    absolute_centres: bool = False
+    semicolon_comments: bool = True
+    peck_clearance: float = PECK_CLEARANCE
+    arc_absolute: float = 0.0283
+    arc_relative: float = 0.001
+    line_length: int = 255
+    change_stops_spindle: bool = True
+    percent_ends: bool = True
+
+
+_MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
+_PLANE_UNITS = {170, 200, 210}
+_OFFSETS = {400, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
+_MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
+
+LINUXCNC = Dialect(
+    name="LinuxCNC",
+    g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
+    m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
+    unsupported=(
+        (100, "write offsets at the control, not in the program"),
+        (180, "only the XY plane (G17) is read"),
+        (190, "only the XY plane (G17) is read"),
+        (300, "retract with G53 G0 Z0 or G28"),
+        (410, "post the path of the tool's centre (G40)"),
+        (420, "post the path of the tool's centre (G40)"),
+        (411, "post the path of the tool's centre (G40)"),
+        (421, "post the path of the tool's centre (G40)"),
+        (840, "tapping is not simulated"),
+        (920, "shift the origin with the work offset, G54 to G59.3"),
+        (930, "write feeds in units per minute (G94)"),
+        (950, "write feeds in units per minute (G94)"),
+    ),
+)
+"""LinuxCNC 2.9, three axes. The arc limits are those of its interpreter's source in millimetres."""

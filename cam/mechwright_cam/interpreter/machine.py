@@ -1,0 +1,504 @@
+"""The machine that runs the words.
+
+Order of execution within a line and the meaning of each code follow RS274/NGC (Kramer, Proctor, Messina:
+The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's documents.
+"""
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mechwright_cam.interpreter.arcs import centre_of, sweep_of
+from mechwright_cam.interpreter.blocks import NUMBER, Block, fail, read_block
+from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
+from mechwright_cam.interpreter.groups import CYCLES, GROUPS, M_GROUPS, spell
+from mechwright_cam.interpreter.run import Coolant, Kind, Remark, Run, State
+
+INCH = 25.4
+_AXES = "XYZ"
+# A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
+_PLAIN = re.compile(
+    r"(?:G0?([0-3]) ?)?"
+    + "".join(rf"(?:{letter}({NUMBER}) ?)?" for letter in "XYZIJ")
+    + rf"(?:F({NUMBER}) ?)?"
+)
+_COOLANT: dict[tuple[bool, bool], Coolant] = {
+    (False, False): "off",
+    (True, False): "mist",
+    (False, True): "flood",
+    (True, True): "both",
+}
+
+
+def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = False) -> Run:
+    r"""Run a program.
+
+    Parameters
+    ----------
+    text
+        The whole program.
+    dialect
+        The control that would read it.
+    block_delete
+        Whether lines that start with ``/`` are skipped.
+
+    Returns
+    -------
+    run
+        All steps, in work coordinates.
+
+    Raises
+    ------
+    ProgramError
+        The control would stop, or this interpreter would have to guess. The message names the line.
+
+    Examples
+    --------
+    >>> run = interpret("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG2 X10 I5 J0\nM2")
+    >>> run.end[-2].tolist(), run.ended
+    ([10.0, 0.0, -1.0], True)
+    """
+    machine = _Machine(dialect)
+    plain = _PLAIN.fullmatch
+    lines = text.replace("\r\n", "\n").split("\n")
+    percents = 0
+    for number, raw in enumerate(lines, start=1):
+        match = plain(raw)
+        if match is not None:
+            if not raw or machine.run_plain(number, match.groups()):
+                continue
+        elif raw.strip() == "%":
+            percents += 1
+            if percents == 2:
+                machine.ended = machine.ended or dialect.percent_ends
+                break
+            continue
+        block = read_block(number, raw, dialect)
+        if block.deleted and block_delete:
+            continue
+        machine.run(block)
+        if machine.ended:
+            break
+    return machine.result(len(lines))
+
+
+class _Machine:
+    """Positions and modes while a program runs; lengths in mm."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        self.dialect = dialect
+        self.x = self.y = self.z = math.nan
+        self.scale = 1.0
+        self.absolute = True
+        self.absolute_centres = dialect.absolute_centres
+        self.motion: int | None = None
+        self.feed = 0.0
+        self.selected: int | None = None
+        self.to_initial = True
+        self.sticky: dict[str, float] = {}
+        self.initial = math.nan
+        self.ended = False
+        self.states: list[State] = [State()]
+        self.state = State()
+        self.index = 0
+        self.rows: list[tuple[float, ...]] = []
+        self.remarks: list[Remark] = []
+
+    # -- motion lines -----------------------------------------------------------------------------------
+
+    def run_plain(self, line: int, words: tuple[Any, ...]) -> bool:
+        """Run a line of G0 to G3, X, Y, Z, I, J and F; False if it needs the general path."""
+        g, x, y, z, i, j, f = words
+        motion = self.motion if g is None else 10 * int(g)
+        if not self.absolute or motion is None or motion > 30 or (x is None and y is None and z is None):
+            return False
+        if motion >= 20:
+            if i is None or j is None or self.absolute_centres:
+                return False
+        elif i is not None or j is not None:
+            return False
+        scale = self.scale
+        if f is not None:
+            self.feed = float(f) * scale
+        self.motion = motion
+        x = self.x if x is None else float(x) * scale
+        y = self.y if y is None else float(y) * scale
+        z = self.z if z is None else float(z) * scale
+        if motion == 0:
+            self._row(Kind.RAPID, line, x, y, z)
+        elif motion == 10:
+            self._feed_to(line, x, y, z)
+        else:
+            centre = (self.x + float(i) * scale, self.y + float(j) * scale)
+            self._arc_to(line, x, y, z, centre, motion == 30)
+        return True
+
+    def _row(
+        self,
+        kind: Kind,
+        line: int,
+        x: float,
+        y: float,
+        z: float,
+        *,
+        feed: float = 0.0,
+        seconds: float = 0.0,
+        arc: tuple[float, float, float, float] = (math.nan, math.nan, 0.0, 0.0),
+    ) -> None:
+        self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
+        self.x, self.y, self.z = x, y, z
+
+    def _feed_to(self, line: int, x: float, y: float, z: float) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        self._row(Kind.FEED, line, x, y, z, feed=self.feed)
+
+    def _arc_to(
+        self, line: int, x: float, y: float, z: float, centre: tuple[float, float], ccw: bool, turns: int = 1
+    ) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
+            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+        cx, cy = centre
+        first = math.hypot(self.x - cx, self.y - cy)
+        error = abs(first - math.hypot(x - cx, y - cy))
+        if first == 0:
+            raise fail(line, "an arc of radius 0")
+        if error > self.dialect.arc_absolute and error > self.dialect.arc_relative * first:
+            raise fail(
+                line,
+                f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
+                f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
+            )
+        sweep = sweep_of((self.x, self.y), (x, y), centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(cx, cy, sweep, error))
+
+    # -- any line ---------------------------------------------------------------------------------------
+
+    def run(self, block: Block) -> None:
+        """Run one block."""
+        for comment in block.comments:
+            self.remarks.append(Remark(block.line, comment, len(self.rows)))
+        if not (block.g or block.m or block.words):
+            return
+        self._check_codes(block)
+        words = block.words
+        self._units(block)  # first, so that every length of this line is read in the units it states
+        self._speeds(block, words)
+        self._tool(block, words)
+        self._spindle_and_coolant(block)
+        if 40 in block.g:
+            seconds = self._take(block, "P", "G4 needs a time, P") * self.dialect.dwell_unit
+            if seconds < 0:
+                raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
+            self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
+        self._modes(block, words)
+        self._length_offset(block, words)
+        self._work_offset(block)
+        self._keep_state()
+        if 280 in block.g:
+            self._home(block, words)
+        self._move(block, words)
+        if words:
+            raise fail(block.line, f"{next(iter(words))} means nothing in this line")
+        self._stop(block)
+
+    def _check_codes(self, block: Block) -> None:
+        for code in block.g:
+            if code in self.dialect.g_codes:
+                continue
+            for refused, remedy in self.dialect.unsupported:
+                if code == refused:
+                    raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
+            raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
+        for code in block.m:
+            if code not in self.dialect.m_codes:
+                raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+
+    def _take(self, block: Block, letter: str, missing: str) -> float:
+        try:
+            return block.words.pop(letter)
+        except KeyError:
+            raise fail(block.line, missing) from None
+
+    def _set(self, **changes: Any) -> None:
+        self.state = replace(self.state, **changes)
+
+    def _state(self, group: str) -> None:
+        self._set(stated=self.state.stated | {group})
+
+    def _keep_state(self) -> None:
+        if self.state != self.states[self.index]:
+            self.states.append(self.state)
+            self.index = len(self.states) - 1
+
+    def _units(self, block: Block) -> None:
+        for code in block.g:
+            if code in GROUPS["units"]:
+                self.scale = INCH if code == 200 else 1.0
+                self._state("units")
+
+    def _speeds(self, block: Block, words: dict[str, float]) -> None:
+        if "F" in words:
+            self.feed = words.pop("F") * self.scale
+            if self.feed < 0:
+                raise fail(block.line, "F is below 0")
+        if "S" in words:
+            rpm = words.pop("S")
+            if rpm < 0:
+                raise fail(block.line, "S is below 0")
+            self._set(rpm=rpm)
+
+    def _tool(self, block: Block, words: dict[str, float]) -> None:
+        if "T" in words:
+            self.selected = self._whole(block, "T", words.pop("T"))
+        if 6 in block.m:
+            if self.selected is None:
+                raise fail(block.line, "M6 without a tool; write T before it")
+            self._set(tool=self.selected)
+            if self.dialect.change_stops_spindle:
+                self._set(spindle=0)
+            self._keep_state()
+            self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
+
+    def _whole(self, block: Block, letter: str, value: float) -> int:
+        if value < 0 or value != int(value):
+            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
+        return int(value)
+
+    def _spindle_and_coolant(self, block: Block) -> None:
+        for code in block.m:
+            if code in M_GROUPS["spindle"]:
+                self._set(spindle={3: 1, 4: -1, 5: 0}[code])
+        mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
+        if 9 in block.m:
+            if 7 in block.m or 8 in block.m:
+                raise fail(block.line, "M9 excludes M7 and M8 (coolant)")
+            mist = flood = False
+        self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
+
+    def _modes(self, block: Block, words: dict[str, float]) -> None:
+        for code in block.g:
+            if code in {900, 910}:
+                self.absolute = code == 900
+                self._state("distance")
+            elif code in {901, 911}:
+                self.absolute_centres = code == 901
+            elif code in {980, 990}:
+                self.to_initial = code == 980
+            elif code == 170:
+                self._state("plane")
+            elif code == 400:
+                self._state("cutter compensation")
+            elif code == 640:
+                words.pop("P", None)
+                words.pop("Q", None)
+
+    def _length_offset(self, block: Block, words: dict[str, float]) -> None:
+        offset = self.state.length_offset
+        if 430 in block.g:
+            offset = self._whole(block, "H", words.pop("H", self.state.tool))
+        elif 431 in block.g:
+            self._take(block, "Z", "G43.1 needs the length, Z")
+            offset = -1
+        elif 490 in block.g:
+            offset = 0
+        if offset != self.state.length_offset:
+            self._set(length_offset=offset)
+            if math.isfinite(self.z):
+                self.z = math.nan
+
+    def _work_offset(self, block: Block) -> None:
+        for code in block.g:
+            if code in GROUPS["work offset"] and spell(code) != self.state.work_offset:
+                self._set(work_offset=spell(code))
+                self.x = self.y = math.nan
+                if math.isfinite(self.z):
+                    self.z = math.nan
+
+    def _home(self, block: Block, words: dict[str, float]) -> None:
+        """G28: by way of a point in work coordinates to the machine's home; without axes all go."""
+        axes = [axis for axis in _AXES if axis in words] or list(_AXES)
+        if words.keys() & set(_AXES):
+            via = self._target(block, words)
+            here = (self.x, self.y, self.z)
+            if any(a != b and not (math.isnan(a) and math.isnan(b)) for a, b in zip(via, here, strict=True)):
+                self._row(Kind.RAPID, block.line, *via)
+        self._row(
+            Kind.HOME,
+            block.line,
+            math.nan if "X" in axes else self.x,
+            math.nan if "Y" in axes else self.y,
+            math.inf if "Z" in axes else self.z,
+        )
+
+    def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
+        here = {"X": self.x, "Y": self.y, "Z": self.z}
+        for axis in _AXES:
+            if axis not in words:
+                continue
+            value = words.pop(axis) * self.scale
+            if self.absolute:
+                here[axis] = value
+            elif value != 0:
+                if not math.isfinite(here[axis]):
+                    raise fail(block.line, f"{axis} moves by a distance (G91) from an unknown position")
+                here[axis] += value
+        return here["X"], here["Y"], here["Z"]
+
+    def _move(self, block: Block, words: dict[str, float]) -> None:
+        named = next((code for code in block.g if code in GROUPS["motion"]), None)
+        if named is not None:
+            if named == 800:
+                self.motion = None
+            elif named in CYCLES and named != self.motion:
+                self.sticky = {}
+                self.initial = self.z
+                self.motion = named
+            else:
+                self.motion = named
+        axes = words.keys() & set(_AXES)
+        centre = words.keys() & {"I", "J", "R"} if self.motion in {20, 30} else set()
+        if 530 in block.g:
+            self._machine_move(block, words)
+        elif axes or centre:
+            if self.motion is None:
+                raise fail(block.line, "an axis without a motion; write G0, G1, G2, G3 or a cycle")
+            if self.motion in CYCLES:
+                self._cycle(block, words, self.motion)
+            elif self.motion in {20, 30}:
+                self._arc(block, words)
+            else:
+                x, y, z = self._target(block, words)
+                if self.motion == 0:
+                    self._row(Kind.RAPID, block.line, x, y, z)
+                else:
+                    self._feed_to(block.line, x, y, z)
+        elif named in CYCLES | {20, 30}:
+            raise fail(block.line, f"{spell(named or 0)} without an axis")
+
+    def _machine_move(self, block: Block, words: dict[str, float]) -> None:
+        """G53: machine coordinates, whose place in the work the text does not know; Z0 is the upper end."""
+        if self.motion not in {0, 10}:
+            raise fail(block.line, "G53 needs G0 or G1")
+        axes = {axis: words.pop(axis) for axis in _AXES if axis in words}
+        if not axes:
+            raise fail(block.line, "G53 without an axis")
+        x = math.nan if "X" in axes else self.x
+        y = math.nan if "Y" in axes else self.y
+        z = self.z
+        if "Z" in axes:
+            z = math.inf if axes["Z"] >= 0 else math.nan
+        self._row(Kind.HOME, block.line, x, y, z)
+
+    def _arc(self, block: Block, words: dict[str, float]) -> None:
+        ccw = self.motion == 30
+        start = (self.x, self.y)
+        x, y, z = self._target(block, words)
+        turns = self._whole(block, "P", words.pop("P", 1.0))
+        if turns < 1:
+            raise fail(block.line, "P is the number of turns, 1 or more")
+        if "R" in words:
+            if words.keys() & {"I", "J"}:
+                raise fail(block.line, "an arc has either R, or I and J")
+            radius = words.pop("R") * self.scale
+            try:
+                centre = centre_of(start, (x, y), radius, ccw, self.dialect.arc_absolute)
+            except ValueError as error:
+                raise fail(block.line, str(error)) from None
+        elif words.keys() & {"I", "J"}:
+            if self.absolute_centres and not {"I", "J"} <= words.keys():
+                raise fail(block.line, "with G90.1 an arc needs both I and J")
+            i, j = words.pop("I", 0.0) * self.scale, words.pop("J", 0.0) * self.scale
+            centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
+        else:
+            raise fail(block.line, "an arc without a centre; write I and J, or R")
+        self._arc_to(block.line, x, y, z, centre, ccw, turns)
+
+    def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
+        line, name = block.line, spell(code)
+        if not self.absolute:
+            raise fail(line, f"{name} with distances (G91) is not supported; write G90")
+        for letter in "ZRQP":
+            if letter in words:
+                value = words.pop(letter)
+                self.sticky[letter] = value if letter == "P" else value * self.scale
+        here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
+        x, y = here.get("X", self.x), here.get("Y", self.y)
+        for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
+            if letter not in self.sticky:
+                raise fail(line, f"{name} needs {letter}")
+        bottom, plane = self.sticky["Z"], self.sticky["R"]
+        if plane < bottom:
+            raise fail(line, f"{name} has its R plane below the bottom of the hole")
+        if math.isnan(self.initial) or math.isnan(x + y):
+            raise fail(line, f"{name} from an unknown position; move to X, Y and Z first")
+        step = self.sticky.get("Q", math.inf) if code in {730, 830} else math.inf
+        if not step > 0:
+            raise fail(line, f"{name} needs Q above 0")
+        if self.z < plane:
+            self._rapid(line, self.x, self.y, plane)
+        self._rapid(line, x, y, self.z)
+        self._rapid(line, x, y, plane)
+        up = max(self.initial, plane) if self.to_initial else plane
+        self._drill(line, code, bottom, plane, step)
+        if code in {820, 890}:
+            seconds = self.sticky["P"] * self.dialect.dwell_unit
+            self._row(Kind.DWELL, line, x, y, self.z, seconds=seconds)
+        if code in {850, 890}:
+            self._feed_to(line, x, y, plane)
+        self._rapid(line, x, y, up)
+
+    def _rapid(self, line: int, x: float, y: float, z: float) -> None:
+        if (x, y, z) != (self.x, self.y, self.z):
+            self._row(Kind.RAPID, line, x, y, z)
+
+    def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
+        """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
+        x, y, gap = self.x, self.y, self.dialect.peck_clearance
+        depth = plane - step
+        while depth > bottom:
+            self._feed_to(line, x, y, depth)
+            if code == 830:
+                self._rapid(line, x, y, plane)
+            self._rapid(line, x, y, depth + gap)
+            depth -= step
+        self._feed_to(line, x, y, bottom)
+
+    def _stop(self, block: Block) -> None:
+        for code in block.m:
+            if code in {0, 1}:
+                self._row(Kind.STOP, block.line, self.x, self.y, self.z)
+            elif code in {2, 30}:
+                self._row(Kind.END, block.line, self.x, self.y, self.z)
+                self.ended = True
+
+    def result(self, lines: int) -> Run:
+        """The record of the whole run."""
+        table = np.array(self.rows, dtype=np.float64).reshape(-1, 15)
+        return Run(
+            kind=_whole(table[:, 0]),
+            line=_whole(table[:, 1]),
+            start=table[:, 2:5],
+            end=table[:, 5:8],
+            centre=table[:, 8:10],
+            sweep=table[:, 10],
+            arc_error=table[:, 11],
+            feed=table[:, 12],
+            seconds=table[:, 13],
+            state=_whole(table[:, 14]),
+            states=tuple(self.states),
+            remarks=tuple(self.remarks),
+            ended=self.ended,
+            lines=lines,
+        )
+
+
+def _whole(column: Iterable[float]) -> Any:
+    return np.asarray(column).astype(np.int64)

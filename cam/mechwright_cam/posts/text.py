@@ -1,0 +1,57 @@
+"""Numbers and comments as controls read them."""
+
+import textwrap
+import unicodedata
+
+DECIMALS = 4
+"""Decimals of coordinates, mm: a tenth of a micrometre keeps arcs consistent far below 2 µm."""
+
+COMMENT_WIDTH = 70
+"""Longest comment text: Grbl's line buffer of 80 characters is the shortest of the common controls."""
+
+_SPELLED = str.maketrans(
+    {"(": "[", ")": "]", "×": "x", "·": ".", "°": " deg", "ø": "D", "Ø": "D", "⌀": "D", "µ": "u", "μ": "u"}
+    | {"–": "-", "—": "-", "−": "-", "±": "+-", "≤": "<=", "≥": ">=", "²": "2", "³": "3", "ß": "ss"}
+)
+
+
+def number(value: float, decimals: int = DECIMALS) -> str:
+    """Write a number without needless zeros.
+
+    >>> number(12.30000), number(-0.00001), number(5.0)
+    ('12.3', '0', '5')
+    """
+    text = f"{value:.{decimals}f}"
+    if "." in text:
+        text = text.rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def rounded(value: float) -> float:
+    """The value that the control will read."""
+    return round(value, DECIMALS)
+
+
+def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
+    r"""Make text safe inside parentheses: ASCII, no parentheses of its own, short lines.
+
+    Parameters
+    ----------
+    text
+        Anything, from anywhere.
+    active
+        Words that the control obeys at the start of a comment (LinuxCNC's ``LOGOPEN`` opens a file). A
+        line that starts with one is quoted.
+
+    Examples
+    --------
+    >>> comment_lines("bore Ø8 (H7)\nM30")
+    ['bore D8 [H7] M30']
+    >>> comment_lines("logopen,/etc/passwd", active=("LOGOPEN",))
+    ["'logopen,/etc/passwd"]
+    """
+    plain = unicodedata.normalize("NFKD", text.translate(_SPELLED))
+    ascii_text = "".join(c for c in plain if not unicodedata.combining(c)).encode("ascii", "replace").decode()
+    printable = "".join(c if c.isprintable() else " " for c in ascii_text)
+    lines = textwrap.wrap(" ".join(printable.split()), COMMENT_WIDTH - 1)
+    return [f"'{line}" if line.upper().startswith(active) else line for line in lines] if active else lines

@@ -1,0 +1,79 @@
+"""Cuts into what must stay.
+
+A flat end mill whose tip is at z fills every height above z within its radius. Within a band of constant
+cross-section the depth of a cut is therefore the radius less the plan-view distance from the path below the
+band's top to the cross-section; there is no height map and no grid. Into a floor the depth is how far the tip
+goes below it, so the smaller of the two counts. A drill is as wide as its point is at the band's top.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+
+from mechwright_cam.proof.paths import NEAR, Paths, Pieces
+from mechwright_cam.proof.plane import Boundary, Shape
+
+
+@dataclass(frozen=True, slots=True)
+class Gouge:
+    """The deepest cut: its depth, mm, the step of the run, and the place."""
+
+    depth: float
+    step: int
+    at: tuple[float, float, float]
+
+
+def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
+    """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it."""
+    pieces = _distinct(paths, paths.below(top - NEAR))
+    if len(pieces) == 0 or keep.is_empty:
+        return None
+    radius = paths.radius_at(pieces, top)
+    lines = paths.lines(pieces)
+    edge = Boundary(keep)
+    gap = np.full(len(pieces), np.inf)
+    for reach in np.unique(np.ceil(radius)):
+        # Looking no further than each cutter's own radius keeps the search short.
+        group = np.ceil(radius) == reach
+        gap[group] = edge.distance(lines[group], within=float(radius[group].max()))
+    inside = edge.inside(lines)
+    if inside.size:
+        gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
+    depth = np.minimum(radius - gap, top - pieces.low)
+    worst = int(np.argmax(depth))
+    if depth[worst] <= 0:
+        return None
+    x, y = edge.nearest(lines[worst])
+    return Gouge(float(depth[worst]), int(pieces.step[worst]), (x, y, float(pieces.low[worst])))
+
+
+def _distinct(paths: Paths, pieces: Pieces) -> Pieces:
+    """Each plan-view piece once, at its lowest: passes repeat at every depth."""
+    pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
+    run, step = paths.run, pieces.step
+    table = np.column_stack(
+        (
+            paths.radius[step],
+            paths.start[step, :2],
+            paths.end[step, :2],
+            np.nan_to_num(run.centre[step]),
+            run.sweep[step],
+            pieces.first,
+            pieces.last,
+        )
+    )
+    _, index = np.unique(np.round(table / NEAR).astype(np.int64), axis=0, return_index=True)
+    return pieces.only(index)
+
+
+def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
+    """How far each piece goes inside the shape, measured at its corners."""
+    points, owner = paths.points(pieces)
+    spots = shapely.points(points)
+    within = shapely.intersects(edge.shape, spots)
+    deep = np.where(within, edge.distance(spots), 0.0)
+    out = np.zeros(len(pieces))
+    np.maximum.at(out, owner, deep)
+    return out

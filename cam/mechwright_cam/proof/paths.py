@@ -1,0 +1,169 @@
+"""Where the cutters go: the moves of a run as plan-view lines, cut at heights.
+
+Glossary
+--------
+piece
+    The part of one move that runs below a height.
+chain
+    Pieces that follow on each other with the same tool.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+from mechwright.tooling import Tool, ToolKind
+from numpy.typing import NDArray
+
+from mechwright_cam.interpreter import Kind, Run
+from mechwright_cam.interpreter.run import Ints
+
+CHORD = 0.0002
+"""Chord error of arcs, mm: a twenty-fifth of the gouge limit."""
+FAR_ABOVE = 1000.0
+"""Stands for the machine's upper end, mm: above any clamp or clearance."""
+NEAR = 1e-6
+"""Coordinates closer than this are the same, mm: far below the last decimal of any program."""
+
+Geometries = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Pieces of moves.
+
+    Parameters
+    ----------
+    step
+        (m,) index into the run.
+    first, last
+        (m,) the part of the move, from 0 to 1.
+    low
+        (m,) lowest z of the piece, mm.
+    """
+
+    step: Ints
+    first: Array
+    last: Array
+    low: Array
+
+    def __len__(self) -> int:
+        return int(self.step.size)
+
+    def only(self, which: NDArray[Any]) -> "Pieces":
+        """Some of the pieces, by mask or index."""
+        return Pieces(self.step[which], self.first[which], self.last[which], self.low[which])
+
+
+class Paths:
+    """The moves of a run whose position is known, and the tools that make them."""
+
+    def __init__(self, run: Run, tools: dict[int, Tool]) -> None:
+        self.run = run
+        self.tools = tools
+        known = np.array(sorted(tools), dtype=np.int64)
+        moving = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC))
+        self.start, self.end = run.start.copy(), run.end.copy()
+        for ends in (self.start, self.end):
+            height = ends[:, 2]
+            height[np.isposinf(height)] = FAR_ABOVE
+        placed = np.isfinite(self.start).all(axis=1) & np.isfinite(self.end).all(axis=1)
+        self.steps: Ints = np.flatnonzero(moving & placed & np.isin(run.tool, known))
+
+    @cached_property
+    def radius(self) -> Array:
+        """(n,) radius of the tool in the spindle, mm; NaN for an unknown one."""
+        return self._of_tool(lambda tool: tool.radius)
+
+    @cached_property
+    def cone(self) -> Array:
+        """(n,) growth of the radius with height above the tip; inf for a flat end mill."""
+        return self._of_tool(
+            lambda tool: (
+                np.inf
+                if tool.kind is ToolKind.END_MILL
+                else np.tan(np.radians(min(tool.point_angle, 179.9) / 2))
+            )
+        )
+
+    def _of_tool(self, value: Any) -> Array:
+        numbers = self.run.tool
+        out = np.full(numbers.size, np.nan)
+        for number, tool in self.tools.items():
+            out[numbers == number] = value(tool)
+        return out
+
+    def radius_at(self, pieces: Pieces, height: float) -> Array:
+        """(m,) largest radius at ``height`` over each piece, mm: a drill's point is thinner near its tip."""
+        above = np.maximum(height - pieces.low, 0.0)
+        cone = self.cone[pieces.step]
+        grown = np.where(np.isinf(cone), np.inf, np.where(np.isinf(cone), 0.0, cone) * above)
+        return np.minimum(self.radius[pieces.step], grown)
+
+    def below(self, height: float, *, steps: Ints | None = None) -> Pieces:
+        """The pieces that run at or below ``height``."""
+        steps = self.steps if steps is None else steps
+        z0, z1 = self.start[steps, 2], self.end[steps, 2]
+        reach = np.minimum(z0, z1) <= height
+        steps, z0, z1 = steps[reach], z0[reach], z1[reach]
+        drop = np.where(z0 == z1, 1.0, z0 - z1)
+        crossing = np.clip((z0 - height) / drop, 0.0, 1.0)
+        first = np.where(z0 > height, crossing, 0.0)
+        last = np.where(z1 > height, crossing, 1.0)
+        return Pieces(steps, first, last, np.minimum(z0, z1))
+
+    def points(self, pieces: Pieces) -> tuple[Array, Ints]:
+        """Corners (k, 2) of all pieces, mm, and the piece (k,) that each belongs to."""
+        run, step = self.run, pieces.step
+        turn = run.sweep[step] * (pieces.last - pieces.first)
+        arc = run.kind[step] == Kind.ARC
+        radius = np.where(arc, run.radius[step], 1.0)
+        largest = 2 * np.arccos(np.maximum(1 - CHORD / np.maximum(radius, CHORD), 0.0))
+        count = np.where(arc, np.ceil(np.abs(turn) / largest), 1).astype(np.int64) + 1
+        count = np.maximum(count, 2)
+        owner = np.repeat(np.arange(step.size), count)
+        offset = np.cumsum(count) - count
+        share = (np.arange(owner.size) - offset[owner]) / (count[owner] - 1)
+        t = pieces.first[owner] + (pieces.last - pieces.first)[owner] * share
+        at = step[owner]
+        flat = self.start[at, :2] + (self.end[at, :2] - self.start[at, :2]) * t[:, None]
+        bent = arc[owner]
+        if bent.any():
+            flat[bent] = self._on_arc(at[bent], t[bent])
+        return flat, owner
+
+    def _on_arc(self, step: Ints, t: Array) -> Array:
+        """Points (k, 2) on arcs; a small difference of the two radii is spread along the arc."""
+        centre = self.run.centre[step]
+        out = self.start[step, :2] - centre
+        last = np.hypot(*(self.end[step, :2] - centre).T)
+        first = np.hypot(*out.T)
+        angle = np.arctan2(out[:, 1], out[:, 0]) + self.run.sweep[step] * t
+        radius = (first + (last - first) * t)[:, None]
+        points: Array = centre + radius * np.column_stack((np.cos(angle), np.sin(angle)))
+        return points
+
+    def lines(self, pieces: Pieces) -> Geometries:
+        """One line per piece."""
+        if len(pieces) == 0:
+            return np.empty(0, dtype=object)
+        points, owner = self.points(pieces)
+        lines: Geometries = shapely.linestrings(points, indices=owner)
+        return lines
+
+    def chains(self, pieces: Pieces) -> Geometries:
+        """The pieces joined into chains, repeated passes once.
+
+        All pieces have to be of one tool.
+        """
+        if len(pieces) == 0:
+            return np.empty(0, dtype=object)
+        points, owner = self.points(pieces)
+        joined = (np.diff(pieces.step) == 1) & (pieces.last[:-1] == 1.0) & (pieces.first[1:] == 0.0)
+        chain = np.concatenate(([0], np.cumsum(~joined)))[owner]
+        lines: Geometries = shapely.linestrings(points, indices=chain)
+        distinct = {line.wkb: line for line in lines}
+        return np.array(list(distinct.values()), dtype=object)

@@ -1,0 +1,87 @@
+"""Polygons: buffers of known accuracy, the closing, and distances to a boundary."""
+
+import math
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+from numpy.typing import NDArray
+
+from mechwright_cam.interpreter.run import Ints
+
+ROUND = 1e-4
+"""How far a buffer's round corners may lie inside the true arc, mm: a hundredth of the leftover limit."""
+
+Shape: TypeAlias = shapely.Polygon | shapely.MultiPolygon
+
+
+def quarter(radius: float, error: float = ROUND) -> int:
+    """Chords per quarter circle that stay within ``error`` of it.
+
+    >>> quarter(3.0), quarter(3.0, 0.01)
+    (97, 10)
+    """
+    half = math.acos(max(1 - error / max(abs(radius), error), 0.0))
+    return max(2, math.ceil(math.pi / 4 / half))
+
+
+def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
+    """The shape and all within ``distance`` of it; shrunk if that is negative."""
+    grown: Shape = shapely.buffer(shape, distance, quad_segs=quarter(distance, error))
+    return grown
+
+
+def closing(keep: Shape, radius: float) -> Shape:
+    """What a round cutter leaves of the surroundings of ``keep``: keep, and the corners it cannot enter.
+
+    Examples
+    --------
+    A cutter of radius 1 leaves 1 - π/4 in the inner corner of an L.
+
+    >>> corner = shapely.Polygon([(0, 0), (9, 0), (9, 3), (3, 3), (3, 9), (0, 9)])
+    >>> round(closing(corner, 1.0).area - corner.area, 3)
+    0.215
+    """
+    return grow(grow(keep, radius), -radius)
+
+
+class Boundary:
+    """The edge of a shape, ready for many questions about distance."""
+
+    def __init__(self, shape: Shape) -> None:
+        self.shape = shape
+        shapely.prepare(shape)
+
+    @cached_property
+    def _edges(self) -> NDArray[Any]:
+        rings = shapely.get_rings(self.shape)
+        points, owner = shapely.get_coordinates(rings, return_index=True)
+        same = owner[:-1] == owner[1:]
+        edges: NDArray[Any] = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
+        return edges
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(self._edges)
+
+    def distance(self, shapes: NDArray[Any], within: float | None = None) -> Array:
+        """Distance (m,) of each shape to the edge, mm; inf where it is beyond ``within``."""
+        out = np.full(len(shapes), np.inf)
+        if len(self._edges) and len(shapes):
+            (index, _), distance = self._tree.query_nearest(
+                shapes, max_distance=within, return_distance=True, all_matches=False
+            )
+            out[index] = distance
+        return out
+
+    def inside(self, shapes: NDArray[Any]) -> Ints:
+        """Indices of the shapes that touch the inside."""
+        return np.flatnonzero(shapely.intersects(self.shape, shapes))
+
+    def nearest(self, shape: Any) -> tuple[float, float]:
+        """The point of the edge that is nearest to one shape."""
+        line = shapely.shortest_line(self.shape.boundary, shape)
+        x, y = line.coords[0]
+        return float(x), float(y)

@@ -1,0 +1,199 @@
+"""From program text to proof."""
+
+from collections.abc import Iterable
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+from mechwright.part import Profile
+from mechwright.program import OPERATION_COMMENT
+from mechwright.tolerances import TOLERANCES
+
+from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
+from mechwright_cam.job import Job
+from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
+from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
+from mechwright_cam.proof.rules import RULES, Scene
+from mechwright_cam.proof.stock import Stock
+from mechwright_cam.timing import step_times
+
+
+def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
+    """Simulate a program against the part it should make.
+
+    Parameters
+    ----------
+    text
+        The program as the control would get it, from this project's posts or from anywhere.
+    job
+        The part, its stock, its holding and the tools on the machine.
+    dialect
+        The control.
+
+    Returns
+    -------
+    proof
+        All checks; :meth:`Proof.require` raises if one failed.
+
+    Raises
+    ------
+    ProgramError
+        The text cannot be read; the message names the line.
+    """
+    run = interpret(text, dialect)
+    tools = {tool.number: tool for tool in job.tools}
+    paths = Paths(run, tools)
+    scene = Scene(run, job, tools, paths, Stock(paths, job))
+    checks = [rule(scene) for rule in RULES]
+    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    checks.append(_gouge_check(scene, gouge))
+    in_tab = _deepest(
+        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
+        for top in sorted({tab.top for tab in job.tabs})
+    )
+    checks.append(_tab_check(scene, in_tab))
+    checks.append(_depth_check(scene))
+    left = remains(paths, job)
+    checks.append(_leftover_check(left))
+    seconds = step_times(run, job.settings.machine)
+    by_name = {check.name: check for check in checks}
+    return Proof(
+        part=job.part.name,
+        checks=by_name,
+        gouge_max_mm=max((cut.depth for cut in (gouge, in_tab) if cut), default=0.0),
+        leftover_reachable_max_mm=left.reachable,
+        unreachable_area_mm2=sum(spot[4] for spot in left.beyond),
+        unreachable_max_mm=max((spot[3] for spot in left.beyond), default=0.0),
+        unreachable=tuple(Spot(*spot) for spot in left.beyond[:SPOTS]),
+        rapids_in_stock=int(by_name["rapids-in-stock"].value or 0),
+        time_estimate_s=float(seconds.sum()),
+        cutting_length_mm=float(np.nansum(run.length[run.cutting])),
+        operations=_operations(run, seconds),
+        notes=_notes(left),
+    )
+
+
+def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
+    found = [cut for cut in cuts if cut is not None]
+    return max(found, key=lambda cut: cut.depth, default=None)
+
+
+def _gouge_check(scene: Scene, cut: Gouge | None) -> Check:
+    limit = TOLERANCES.gouge
+    if cut is None or cut.depth <= limit:
+        depth = cut.depth if cut else 0.0
+        return Check(
+            "gouge", True, "the cutter stays out of the finished part", value=depth, limit=limit, unit="mm"
+        )
+    return _blame(scene, "gouge", cut, limit, "cuts {:.3f} mm into the finished part, the limit is {:g} mm")
+
+
+def _tab_check(scene: Scene, cut: Gouge | None) -> Check:
+    limit = TOLERANCES.gouge
+    if not scene.job.tabs:
+        return Check("tabs", True, "there are no tabs")
+    if cut is None or cut.depth <= limit:
+        return Check("tabs", True, f"all {len(scene.job.tabs)} tabs remain")
+    return _blame(
+        scene, "tabs", cut, limit, "cuts {:.3f} mm into a tab that holds the part, the limit is {:g} mm"
+    )
+
+
+def _blame(scene: Scene, name: str, cut: Gouge, limit: float, message: str) -> Check:
+    x, y, z = cut.at
+    line = scene.line(cut.step)
+    text = f"line {line}: {message.format(cut.depth, limit)}, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
+    return Check(name, False, text, line, cut.depth, limit, "mm", cut.at)
+
+
+def _depth_check(scene: Scene) -> Check:
+    """Every feature is cut down to its floor, somewhere at least; the rest is for the leftover check."""
+    paths, job = scene.paths, scene.job
+    cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
+    pieces = paths.below(-NEAR, steps=cutting)
+    lines = paths.lines(pieces)
+    radius = paths.radius[pieces.step]
+    for feature in job.features:
+        floor = -min(feature.top + feature.depth, job.thickness)
+        shape = inside_of(feature)
+        if isinstance(feature, Profile) and feature.side == "outside":
+            shape = shapely.difference(stock_shape(job), shape)
+        if shape.is_empty or shape.area <= NEAR:
+            continue
+        shapely.prepare(shape)
+        near = shapely.dwithin(shape, lines, float(radius.max(initial=0.0)))
+        # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
+        near[near] = shapely.dwithin(shape, lines[near], np.maximum(radius[near] - NEAR, NEAR))
+        low = float(pieces.low[near].min(initial=0.0))
+        if low > floor + ROUNDING:
+            return Check(
+                "depth",
+                False,
+                f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}",
+                None,
+                low,
+                floor,
+                "mm",
+            )
+    return Check("depth", True, "every feature is cut to its full depth")
+
+
+def _leftover_check(left: Remains) -> Check:
+    limit = TOLERANCES.leftover
+    if left.reachable <= limit or left.at is None:
+        return Check(
+            "leftover",
+            True,
+            "no stock is left that the cutters could reach",
+            value=left.reachable,
+            limit=limit,
+            unit="mm",
+        )
+    x, y, z = left.at
+    return Check(
+        "leftover",
+        False,
+        f"{left.reachable:.3f} mm of stock stay where a cutter of the program could go, "
+        f"the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
+        None,
+        left.reachable,
+        limit,
+        "mm",
+        left.at,
+    )
+
+
+def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
+    """Times by operation: from one operation comment to the next; by tool where there are none."""
+    named = [
+        (remark.step, remark.text[len(OPERATION_COMMENT) :])
+        for remark in run.remarks
+        if remark.text.startswith(OPERATION_COMMENT)
+    ]
+    if not named:
+        named = [(int(step), f"T{run.tool[step]}") for step in np.flatnonzero(run.kind == Kind.TOOL)]
+    if not named or named[0][0] > 0:
+        named.insert(0, (0, "start"))
+    edges = [step for step, _ in named] + [len(run)]
+    path = np.where(run.cutting, np.nan_to_num(run.length), 0.0)
+    out = []
+    for (first, name), last in zip(named, edges[1:], strict=True):
+        if last > first:
+            tool = int(run.tool[last - 1])
+            out.append(
+                OperationTime(name, tool, float(seconds[first:last].sum()), float(path[first:last].sum()))
+            )
+    return tuple(out)
+
+
+def _notes(left: Remains) -> tuple[str, ...]:
+    if not left.beyond:
+        return ()
+    deepest = left.beyond[0]
+    return (
+        f"{len(left.beyond)} corners keep stock that no cutter of the program reaches: "
+        f"up to {deepest[3]:.3f} mm, {sum(spot[4] for spot in left.beyond):.3f} mm² in all",
+    )

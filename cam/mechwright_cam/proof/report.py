@@ -1,0 +1,161 @@
+"""What a proof says."""
+
+import math
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from mechwright.errors import ProofError
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One question that the proof asked.
+
+    Parameters
+    ----------
+    name
+        Stable name (``"gouge"``, ``"length-offset"``).
+    passed
+        The answer.
+    message
+        One line: what is wrong, where, the limit, what to do; for a pass, what was found.
+    line
+        Line of the program text, None where no single line is to blame.
+    value, limit
+        What was found and what is allowed, in ``unit``.
+    at
+        Place in work coordinates, mm.
+    """
+
+    name: str
+    passed: bool
+    message: str
+    line: int | None = None
+    value: float | None = None
+    limit: float | None = None
+    unit: str = ""
+    at: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Stock that stays on the part: its deepest place, its depth normal to the wall and its area, mm."""
+
+    x: float
+    y: float
+    z: float
+    depth: float
+    area: float
+
+
+@dataclass(frozen=True, slots=True)
+class OperationTime:
+    """Time and path of one operation, s and mm."""
+
+    name: str
+    tool: int
+    time_s: float
+    cutting_mm: float
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The result of a simulation.
+
+    Parameters
+    ----------
+    part
+        Name of the part.
+    checks
+        Name to answer, in the order they were asked.
+    gouge_max_mm
+        Deepest cut into the finished part or its tabs.
+    leftover_reachable_max_mm
+        Thickest stock left on a wall that a cutter of the program could have reached.
+    unreachable_area_mm2, unreachable_max_mm
+        Stock that no cutter of the program reaches: area seen from above, and greatest depth.
+    unreachable
+        Where that is, deepest first; at most :data:`mechwright_cam.proof.leftover.SPOTS`.
+    rapids_in_stock
+        Number of rapid moves that meet material.
+    time_estimate_s
+        See :mod:`mechwright_cam.timing`.
+    cutting_length_mm
+        Length of all feed moves.
+    operations
+        In program order.
+    notes
+        Remarks that forbid nothing.
+    """
+
+    part: str
+    checks: dict[str, Check]
+    gouge_max_mm: float
+    leftover_reachable_max_mm: float
+    unreachable_area_mm2: float
+    unreachable_max_mm: float
+    unreachable: tuple[Spot, ...]
+    rapids_in_stock: int
+    time_estimate_s: float
+    cutting_length_mm: float
+    operations: tuple[OperationTime, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def failures(self) -> tuple[Check, ...]:
+        """The checks that did not pass."""
+        return tuple(check for check in self.checks.values() if not check.passed)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the program may be written."""
+        return not self.failures
+
+    @property
+    def tool_times_s(self) -> dict[int, float]:
+        """T number to its time, s."""
+        times: dict[int, float] = {}
+        for operation in self.operations:
+            times[operation.tool] = times.get(operation.tool, 0.0) + operation.time_s
+        return times
+
+    def require(self) -> None:
+        """Do nothing if the program is proven.
+
+        Raises
+        ------
+        ProofError
+            One line: the first failure, and how many more there are.
+        """
+        failures = self.failures
+        if failures:
+            more = f" (and {len(failures) - 1} more: {', '.join(c.name for c in failures[1:])})"
+            raise ProofError(
+                f"the program of {self.part} fails its proof [{failures[0].name}]: {failures[0].message}"
+                + (more if len(failures) > 1 else "")
+            )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for ``proof.json``; lengths to a tenth of a micrometre."""
+        data = asdict(self)
+        data["checks"] = {
+            name: {
+                key: value
+                for key, value in asdict(check).items()
+                if key != "name" and value not in (None, "")
+            }
+            for name, check in self.checks.items()
+        }
+        data["tool_times_s"] = self.tool_times_s
+        plain: dict[str, Any] = _plain({"ok": self.ok, **data})
+        return plain
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return round(value, 4) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,68 @@
+"""Is there material where the tool goes now? Computed only for the few moves that need the answer."""
+
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.job import Job
+from mechwright_cam.proof.bands import stock_shape
+from mechwright_cam.proof.paths import NEAR, Geometries, Paths
+from mechwright_cam.proof.plane import Shape, grow
+
+TOUCH = 0.01
+"""Material thinner than this in a tool's way is not met, mm: the leftover limit."""
+ACCURACY = 0.001
+"""Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
+
+
+class Stock:
+    """The plate while the program runs."""
+
+    def __init__(self, paths: Paths, job: Job) -> None:
+        self.paths = paths
+        self.plate = stock_shape(job)
+        cutting = np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))
+        low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
+        self.cuts: Ints = paths.steps[cutting & (low < 0)]
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        pieces = self.paths.below(np.inf, steps=self.cuts)
+        lines: Geometries = self.paths.lines(pieces)
+        return shapely.STRtree(lines)
+
+    def meets(self, step: int) -> bool:
+        """Whether the tool, moving straight as this step does, meets material that earlier steps left."""
+        paths = self.paths
+        start, end = paths.start[step], paths.end[step]
+        z = float(min(start[2], end[2]))
+        if z >= -NEAR:
+            return False
+        pieces = paths.below(-NEAR, steps=np.array([step]))
+        shape = grow(paths.lines(pieces)[0], float(paths.radius_at(pieces, 0.0)[0]), ACCURACY)
+        body = shapely.intersection(shape, self.plate)
+        if body.is_empty:
+            return False
+        rest = shapely.difference(body, self._gone(step, z, body))
+        return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
+
+    def _gone(self, step: int, z: float, body: Shape) -> Shape:
+        """What earlier steps have cut down to z, near ``body``."""
+        paths = self.paths
+        if self.cuts.size == 0:
+            return shapely.Polygon()
+        reach = float(np.nanmax(paths.radius))
+        near = self.cuts[np.sort(self._tree.query(body, predicate="dwithin", distance=reach))]
+        pieces = paths.below(z + NEAR, steps=near[near < step])
+        radius = paths.radius_at(pieces, z)
+        # A drill that stops at z exactly is pointed there, but its own hole is no material for it again.
+        own = paths.run.tool[pieces.step] == paths.run.tool[step]
+        radius = np.where(own, paths.radius[pieces.step], radius)
+        shapes = [
+            grow(line, r, ACCURACY) for line, r in zip(paths.lines(pieces), radius, strict=True) if r > 0
+        ]
+        gone: Shape = shapely.union_all(shapes)
+        return gone
