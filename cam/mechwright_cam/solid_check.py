@@ -16,7 +16,7 @@ from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
-from mechwright_cam.tessellate import triangle_count, triangulate
+from mechwright_cam.tessellate import forget, triangle_count, triangulate
 
 AREA = 1e-6
 """Relative difference of areas: what the kernel's and our own quadrature leave is below 1e-8."""
@@ -171,6 +171,7 @@ def _check_triangles(faces: list[cq.Face], segments: list[Segment]) -> None:
     walls = cq.Compound.makeCompound([face for face in faces if face.geomType() != "PLANE"])
     triangulate(walls.wrapped, *COARSE, ruled=True)
     count = triangle_count(walls)
+    forget(walls.wrapped)
     chords = sum(len(segment.flatten(COARSE[0])) for segment in segments)
     limit = SURPLUS * 2 * chords
     if count > limit:

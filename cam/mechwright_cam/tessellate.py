@@ -50,13 +50,13 @@ class Mesh:
 def triangulate(
     shape: TopoDS_Shape, tolerance: float = LINEAR, angle: float = ANGULAR, *, ruled: bool = False
 ) -> None:
-    """Give every face of the shape a fresh triangulation.
+    """Give every face of the shape a fresh triangulation; ``forget`` it after use.
 
     What an earlier call left is removed first, since the kernel would keep it where it is finer, and the
     result would depend on history. ``ruled`` says that all faces are planes or prismatic walls: points inside
     them serve nothing (11 000 triangles against 60 000 for a gear of 40 teeth).
     """
-    BRepTools.Clean_s(shape)
+    forget(shape)
     parameters = IMeshTools_Parameters()
     parameters.Deflection = tolerance
     parameters.Angle = angle
@@ -64,6 +64,11 @@ def triangulate(
     parameters.InternalVerticesMode = not ruled
     parameters.ControlSurfaceDeflection = not ruled
     BRepMesh_IncrementalMesh(shape, parameters)
+
+
+def forget(shape: TopoDS_Shape) -> None:
+    """Take the triangulation off again: the kernel would base bounding boxes on it, which get wider."""
+    BRepTools.Clean_s(shape)
 
 
 def triangle_count(shape: cq.Shape) -> int:
@@ -98,6 +103,7 @@ def mesh_of(solid: cq.Solid, *, ruled: bool) -> Mesh:
             triangles += [(a + first, c + first, b + first) for a, b, c in corners]
         else:
             triangles += [(a + first, b + first, c + first) for a, b, c in corners]
+    forget(solid.wrapped)
     return _closed(*_weld(np.array(points), np.array(triangles, dtype=np.int64)))
 
 

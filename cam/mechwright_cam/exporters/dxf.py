@@ -1,7 +1,7 @@
 """DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
 
-Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings, ``OPENING``
-all others, ``CENTRE`` the axis of the part and of its bores, ``TEXT`` a line that says what it is.
+Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
+``OPENING`` all others, ``CENTRE`` the axis of the part and of its bores, ``TEXT`` a line that says what it is.
 """
 
 import io
@@ -75,6 +75,7 @@ def drawing(outline: Outline, text: str = "", curves: Curves = "spline") -> byte
         if text:
             place = (x0, y0 - 2 * TEXT_HEIGHT)
             space.add_text(text, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
+        _order_classes(document)
         stream = io.StringIO()
         document.write(stream)
     return stream.getvalue().encode(document.output_encoding)
@@ -128,8 +129,17 @@ def _centres(space: "Modelspace", outline: Outline) -> None:
 def _frame(document: "Drawing", outline: Outline) -> None:
     """What a viewer shows when the file is opened."""
     x0, y0, x1, y1 = outline.bounds
-    document.header["$EXTMIN"], document.header["$EXTMAX"] = (x0, y0, 0.0), (x1, y1, 0.0)
+    document.modelspace().reset_extents((x0, y0, 0.0), (x1, y1, 0.0))
     document.set_modelspace_vport(1.2 * max(y1 - y0, x1 - x0), center=((x0 + x1) / 2, (y0 + y1) / 2))
+
+
+def _order_classes(document: "Drawing") -> None:
+    """Bring the class table into one order; some of it comes out of sets, which differ by process."""
+    document.classes.add_required_classes(document.dxfversion)
+    classes = document.classes.classes
+    ordered = {key: classes[key] for key in sorted(classes)}
+    classes.clear()
+    classes.update(ordered)
 
 
 @contextmanager
