@@ -88,7 +88,7 @@ def test_reversed_end_tangent_is_refused():
     curve = BSpline.bezier([(0, 0), (13, -1), (27, -1), (40.001, -0.0001), (40, 0)], "flank")
     loop = Loop((curve, Line((40, 0), (40, 30)), Line((40, 30), (0, 30)), Line((0, 30), (0, 0))))
     assert solids._extruded(Outline(loop), 5.0).isValid()
-    with pytest.raises(GeometryError, match="the flank segment near .* turns back on itself"):
+    with pytest.raises(GeometryError, match=r"the flank segment near .* turns back on itself"):
         solids.plate(Outline(loop), 5)
 
 
@@ -96,11 +96,11 @@ def test_gate_holds_the_solid_against_its_outline():
     outline = wavy_plate()
     solid = solids.plate(outline, 8.0)
     check_plate(solid, outline, 8.0)
-    with pytest.raises(GeometryError, match="has 0 faces at z = 8.1"):
+    with pytest.raises(GeometryError, match=r"has 0 faces at z = 8.1"):
         check_plate(solid, outline, 8.1)
     with pytest.raises(GeometryError, match="has 43 faces; its outline gives 42"):
         check_plate(solid, replace(outline, inner=outline.inner[:1]), 8.0)
-    with pytest.raises(GeometryError, match="size differs from the outline's by 0.002 mm"):
+    with pytest.raises(GeometryError, match=r"size differs from the outline's by 0.002 mm"):
         check_plate(solid, outline.moved(0.002, 0), 8.0)
     smaller_hole = (outline.inner[0], Loop((circle((0, 20), 3.99, clockwise=True),)))
     with pytest.raises(GeometryError, match=r"-0.0001 apart, limit 1e-06"):
@@ -141,7 +141,7 @@ def test_part_that_builds_no_right_solid_is_named(build, reason):
 
 def test_check_solid_refuses_an_open_shell():
     faces = cq.Solid.makeBox(1, 1, 1).Faces()[:5]
-    with pytest.raises(GeometryError, match="invalid|not above 0"):
+    with pytest.raises(GeometryError, match=r"invalid|not above 0"):
         check_solid(cq.Solid.makeSolid(cq.Shell.makeShell(faces)))
 
 
@@ -152,7 +152,7 @@ def test_assembly_stands_in_the_poses_of_the_motion():
     assert whole.children[0].color.toTuple()[:3] == pytest.approx(part.colour)
     body = np.array([[10.0, 2.0, 4.0]])
     for child, z in zip(whole.children, (0.0, 1.5), strict=True):
-        wanted = motion.poses[child.name].transform(body + (0, 0, z))[3, 0]
+        wanted = motion.poses[child.name].transform(np.add(body, (0, 0, z)))[3, 0]
         found = cq.Vertex.makeVertex(*body[0]).located(child.loc).toTuple()
         assert found == pytest.approx(tuple(wanted), abs=1e-12)
 
@@ -166,7 +166,7 @@ def test_two_parts_on_one_body_have_names_of_their_own():
 
 def test_assembly_names_what_the_motion_lacks():
     part = replace(wavy_part(), instances=(Instance("idler"),))
-    with pytest.raises(GeometryError, match="part wheel .* 'idler', .* it has driven, driver"):
+    with pytest.raises(GeometryError, match=r"part wheel .* 'idler', .* it has driven, driver"):
         solids.assembly("pair", [part], turning())
     with pytest.raises(GeometryError, match="5 samples; there is no sample 5"):
         solids.assembly("pair", [wavy_part()], turning(), 5)

@@ -1,7 +1,7 @@
 """DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
 
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
-``OPENING`` all others, ``CENTRE`` the axis of the part and of its bores, ``TEXT`` a line that says what it is.
+``OPENING`` all others, ``CENTRE`` the axes of the part and its bores, ``TEXT`` a line that says what it is.
 """
 
 import io
