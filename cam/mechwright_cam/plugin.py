@@ -3,6 +3,8 @@
 from mechwright.hookspecs import hookimpl
 from mechwright.output import Exporter, Post
 
+from mechwright_cam.exporters import DxfExporter, GlbExporter, StepExporter, StlExporter, ThreeMfExporter
+
 
 @hookimpl
 def mechwright_register_posts() -> list[type[Post]]:
@@ -15,4 +17,4 @@ def mechwright_register_posts() -> list[type[Post]]:
 @hookimpl
 def mechwright_register_exporters() -> list[type[Exporter]]:
     """The file formats that parts can be written in."""
-    return []
+    return [StepExporter, DxfExporter, StlExporter, ThreeMfExporter, GlbExporter]

@@ -1,0 +1,11 @@
+"""File formats of parts. This package is light; the modules that write import their libraries."""
+
+from mechwright_cam.exporters.formats import (
+    DxfExporter,
+    GlbExporter,
+    StepExporter,
+    StlExporter,
+    ThreeMfExporter,
+)
+
+__all__ = ["DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]

@@ -1,0 +1,153 @@
+"""DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
+
+Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
+``OPENING`` all others, ``CENTRE`` the axes of the part and its bores, ``TEXT`` a line that says what it is.
+"""
+
+import io
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ezdxf import units
+from ezdxf._options import options
+from ezdxf.filemanagement import new
+from mechwright.errors import GeometryError
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
+from mechwright.part import Part
+from mechwright.tolerances import TOLERANCES
+
+from mechwright_cam.exporters.curves import cubic, vertices
+from mechwright_cam.exporters.formats import Curves
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.layouts.layout import Modelspace
+
+LAYERS = {
+    "OUTLINE": (7, "CONTINUOUS", 35),
+    "BORE": (5, "CONTINUOUS", 35),
+    "OPENING": (4, "CONTINUOUS", 35),
+    "CENTRE": (1, "CENTER", 18),
+    "TEXT": (8, "CONTINUOUS", 18),
+}
+"""Layer to colour index, line type and line weight in hundredths of a millimetre (ISO 128: 0.35 and 0.18)."""
+
+_CENTRE_LINE = [2.5, 1.25, -0.5, 0.25, -0.5]
+"""Whole length, then dash, gap, dot-like dash, gap, mm."""
+
+OVERHANG = 2.0
+"""How far a centre line goes beyond its circle, mm (ISO 128-2: 2 to 3)."""
+
+TEXT_HEIGHT = 3.5
+"""Height of letters, mm (ISO 3098)."""
+
+
+def part(part: Part, curves: Curves = "spline") -> bytes:
+    """The drawing of a plate part, in its own coordinates.
+
+    Raises
+    ------
+    GeometryError
+        The part has no outline, or a segment cannot be had in the wanted curves.
+    """
+    if part.outline is None:
+        raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
+    return drawing(part.outline, f"{part.name}, {part.material}, {part.thickness:g} mm", curves)
+
+
+def drawing(outline: Outline, text: str = "", curves: Curves = "spline") -> bytes:
+    """The drawing of an outline, with a line of text below it."""
+    with _fixed_metadata():
+        document = new("R2010", units=units.MM)
+        document.header["$MEASUREMENT"] = 1
+        document.linetypes.add("CENTER", _CENTRE_LINE, description="Center ____ _ ____ _")
+        for name, (colour, linetype, weight) in LAYERS.items():
+            document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+        space = document.modelspace()
+        _loop(space, outline.outer, "OUTLINE", curves)
+        for loop in outline.inner:
+            _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
+        _centres(space, outline)
+        _frame(document, outline)
+        x0, y0, _, _ = outline.bounds
+        if text:
+            place = (x0, y0 - 2 * TEXT_HEIGHT)
+            space.add_text(text, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
+        _order_classes(document)
+        stream = io.StringIO()
+        document.write(stream)
+    return stream.getvalue().encode(document.output_encoding)
+
+
+def _loop(space: "Modelspace", loop: Loop, layer: str, curves: Curves) -> None:
+    attributes = {"layer": layer}
+    first = loop.segments[0]
+    if loop.is_circle and isinstance(first, Arc):
+        space.add_circle(first.centre, first.radius, dxfattribs=attributes)
+    elif curves == "polyline":
+        space.add_lwpolyline(loop.flatten(TOLERANCES.outline).tolist(), close=True, dxfattribs=attributes)
+    elif curves == "arc":
+        corners = [corner for segment in loop.segments for corner in vertices(segment, TOLERANCES.arc_fit)]
+        rows = [(corner.x, corner.y, corner.bulge) for corner in corners]
+        space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=attributes)
+    else:
+        for segment in loop.segments:
+            _segment(space, segment, attributes, simple=curves == "spline3")
+
+
+def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], *, simple: bool) -> None:
+    match segment:
+        case Line():
+            space.add_line(segment.start, segment.end, dxfattribs=attributes)
+        case Arc():
+            # DXF arcs run counter-clockwise.
+            angles = (segment.start_angle, segment.start_angle + segment.sweep)
+            start, end = (math.degrees(angle) for angle in sorted(angles))
+            space.add_arc(segment.centre, segment.radius, start % 360, end % 360, dxfattribs=attributes)
+        case BSpline():
+            curve = cubic(segment, TOLERANCES.flatten) if simple else segment
+            points = [(x, y, 0.0) for x, y in curve.points]
+            space.add_open_spline(points, curve.degree, curve.knots, dxfattribs=attributes)
+        case _:
+            raise GeometryError(
+                f"a segment of type {type(segment).__name__} cannot be drawn; use the three kinds"
+            )
+
+
+def _centres(space: "Modelspace", outline: Outline) -> None:
+    bores = [loop.segments[0] for loop in outline.inner if loop.is_circle]
+    crosses = {arc.centre: arc.radius for arc in bores if isinstance(arc, Arc)}
+    crosses.setdefault((0.0, 0.0), OVERHANG)
+    for (x, y), radius in crosses.items():
+        arm = radius + OVERHANG
+        space.add_line((x - arm, y), (x + arm, y), dxfattribs={"layer": "CENTRE"})
+        space.add_line((x, y - arm), (x, y + arm), dxfattribs={"layer": "CENTRE"})
+
+
+def _frame(document: "Drawing", outline: Outline) -> None:
+    """What a viewer shows when the file is opened."""
+    x0, y0, x1, y1 = outline.bounds
+    document.modelspace().reset_extents((x0, y0, 0.0), (x1, y1, 0.0))
+    document.set_modelspace_vport(1.2 * max(y1 - y0, x1 - x0), center=((x0 + x1) / 2, (y0 + y1) / 2))
+
+
+def _order_classes(document: "Drawing") -> None:
+    """Bring the class table into one order; some of it comes out of sets, which differ by process."""
+    document.classes.add_required_classes(document.dxfversion)
+    classes = document.classes.classes
+    ordered = {key: classes[key] for key in sorted(classes)}
+    classes.clear()
+    classes.update(ordered)
+
+
+@contextmanager
+def _fixed_metadata() -> Iterator[None]:
+    """No time stamps and random identifiers, so that the same outline gives the same bytes."""
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before

@@ -1,0 +1,189 @@
+"""Solids: a plate is its outline, extruded; an assembly is its parts in the poses of the motion.
+
+Every segment becomes exactly one edge and one wall: lines and arcs as they are, B-splines pole by pole.
+Neighbouring edges share their vertex, openings are inner wires, and nothing is cut, fused or cleaned up.
+This module imports the CAD kernel (1.6 s).
+"""
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import pairwise
+
+import cadquery as cq
+import numpy as np
+from mechwright.errors import GeometryError
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
+from mechwright.geometry.segments import Point
+from mechwright.motion import Motion
+from mechwright.part import Part
+from OCP.BRep import BRep_Builder
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeVertex
+from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
+from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.TColgp import TColgp_Array1OfPnt
+from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
+from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
+
+from mechwright_cam.solid_check import check_plate, check_solid
+
+_UP = gp_Dir(0.0, 0.0, 1.0)
+_DOWN = gp_Dir(0.0, 0.0, -1.0)
+
+
+def plate(outline: Outline, thickness: float) -> cq.Solid:
+    """The outline extruded from z = 0 up to ``thickness``, mm.
+
+    Raises
+    ------
+    GeometryError
+        The kernel cannot make it, or what it made is not the outline (see ``check_plate``).
+
+    Examples
+    --------
+    >>> from mechwright.geometry import Loop, Outline
+    >>> square = Outline(Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)]))
+    >>> round(plate(square, 2.0).Volume(), 9)
+    32.0
+    """
+    if not (thickness > 0 and math.isfinite(thickness)):
+        raise GeometryError(f"a plate needs a thickness above 0 mm, not {thickness}")
+    solid = _extruded(outline, thickness)
+    check_plate(solid, outline, thickness)
+    return solid
+
+
+@lru_cache(maxsize=32)
+def part_solid(part: Part) -> cq.Solid:
+    """The checked solid of a part, made once per process.
+
+    Raises
+    ------
+    GeometryError
+        It cannot be made or is not right; the message names the part.
+    """
+    try:
+        if part.outline is not None:
+            return plate(part.outline, part.thickness)
+        assert part.build is not None  # noqa: S101 - Part has either an outline or this
+        solid = part.build()
+        check_solid(solid)
+        return solid
+    except GeometryError as error:
+        raise GeometryError(f"part {part.name}: {error}") from error
+
+
+def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
+    """All instances of the parts, named by their bodies, in their poses at one sample of the motion.
+
+    A body that several instances belong to gives them its name and the part's.
+
+    Raises
+    ------
+    GeometryError
+        An instance names a body that the motion does not have, or the motion has no such sample.
+    """
+    if not 0 <= sample < motion.samples:
+        raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
+    bodies = [instance.body for part in parts for instance in part.instances]
+    whole = cq.Assembly(name=name)
+    for part in parts:
+        for instance in part.instances:
+            child = instance.body if bodies.count(instance.body) == 1 else f"{instance.body}-{part.name}"
+            if instance.body not in motion.poses:
+                raise GeometryError(
+                    f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
+                    f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
+                )
+            place = _location(motion, instance.body, sample, instance.z)
+            whole.add(part_solid(part), name=_free(child, whole), loc=place, color=cq.Color(*part.colour))
+    return whole
+
+
+def _free(name: str, whole: cq.Assembly) -> str:
+    """``name``, numbered if a child has it already: names of children are unique."""
+    free, number = name, 2
+    while free in whole.objects:
+        free, number = f"{name}-{number}", number + 1
+    return free
+
+
+def _location(motion: Motion, body: str, sample: int, z: float) -> cq.Location:
+    pose = motion.poses[body]
+    turn = pose.rotation[sample]
+    shift = pose.position[sample] + turn @ (0.0, 0.0, z)
+    rows = np.column_stack((turn, shift)).tolist()
+    placed = gp_Trsf()
+    placed.SetValues(*rows[0], *rows[1], *rows[2])
+    return cq.Location(placed)
+
+
+def _extruded(outline: Outline, thickness: float) -> cq.Solid:
+    outer, *inner = (_wire(loop) for loop in outline.loops)
+    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, 0.0), _UP), outer, True)
+    for wire in inner:
+        face.Add(wire)
+    if not face.IsDone():
+        raise GeometryError(f"the outline gives no face ({face.Error().name})")
+    prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0.0, 0.0, thickness))
+    solid = cq.Shape.cast(prism.Shape())
+    if not isinstance(solid, cq.Solid):
+        raise GeometryError(f"the outline extrudes to a {solid.ShapeType()}, not to one solid")
+    return solid
+
+
+def _wire(loop: Loop) -> TopoDS_Wire:
+    segments = loop.segments
+    # A vertex in the middle of the gap (at most the kernel's tolerance) is near enough to both ends.
+    vertices = [
+        _vertex(((one.end[0] + two.start[0]) / 2, (one.end[1] + two.start[1]) / 2))
+        for one, two in zip((segments[-1], *segments[:-1]), segments, strict=True)
+    ]
+    wire, builder = TopoDS_Wire(), BRep_Builder()
+    builder.MakeWire(wire)
+    for segment, (start, end) in zip(segments, pairwise([*vertices, vertices[0]]), strict=True):
+        builder.Add(wire, _edge(segment, start, end))
+    wire.Closed(True)
+    return wire
+
+
+def _vertex(point: Point) -> TopoDS_Vertex:
+    return BRepBuilderAPI_MakeVertex(gp_Pnt(point[0], point[1], 0.0)).Vertex()
+
+
+def _edge(segment: Segment, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
+    match segment:
+        case Line():
+            edge = BRepBuilderAPI_MakeEdge(start, end)
+        case Arc():
+            edge = BRepBuilderAPI_MakeEdge(_circle(segment), start, end, 0.0, abs(segment.sweep))
+        case BSpline():
+            edge = BRepBuilderAPI_MakeEdge(_spline(segment), start, end, 0.0, 1.0)
+        case _:
+            raise GeometryError(
+                f"a segment of type {type(segment).__name__} has no edge; use the three kinds"
+            )
+    if not edge.IsDone():
+        x, y = segment.start
+        raise GeometryError(f"the segment at ({x:.6f}, {y:.6f}) gives no edge ({edge.Error().name})")
+    return edge.Edge()
+
+
+def _circle(arc: Arc) -> Geom_Curve:
+    """A circle whose parameter is the angle run from the arc's start, clockwise if the arc is."""
+    along = gp_Dir(math.cos(arc.start_angle), math.sin(arc.start_angle), 0.0)
+    axes = gp_Ax2(gp_Pnt(arc.centre[0], arc.centre[1], 0.0), _UP if arc.sweep > 0 else _DOWN, along)
+    return Geom_Circle(axes, arc.radius)
+
+
+def _spline(spline: BSpline) -> Geom_Curve:
+    poles = TColgp_Array1OfPnt(1, len(spline.points))
+    for place, (x, y) in enumerate(spline.points, start=1):
+        poles.SetValue(place, gp_Pnt(x, y, 0.0))
+    values, counts = np.unique(spline.knots, return_counts=True)
+    knots, folds = TColStd_Array1OfReal(1, len(values)), TColStd_Array1OfInteger(1, len(values))
+    for place, (value, count) in enumerate(zip(values.tolist(), counts.tolist(), strict=True), start=1):
+        knots.SetValue(place, value)
+        folds.SetValue(place, count)
+    return Geom_BSplineCurve(poles, knots, folds, spline.degree)

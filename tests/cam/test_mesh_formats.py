@@ -1,0 +1,140 @@
+"""STL, 3MF and GLB: closed, of the right size and volume, and the same bytes always."""
+
+import io
+import json
+import subprocess
+import sys
+import zipfile
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from mechwright_cam import tessellate
+from mechwright_cam.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
+from mechwright_cam.solids import part_solid
+from plate_shapes import PLATES, Part, turning, wavy_part
+
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+@pytest.fixture(scope="module")
+def part():
+    return wavy_part()
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_mesh_is_closed_and_near(name):
+    outline = PLATES[name]()
+    solid = part_solid(Part(name, outline, 6.0, "pom"))
+    found = tessellate.mesh_of(solid, ruled=True)
+    edges = np.concatenate([found.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    _, counts = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    assert set(counts) == {2}
+    # Euler's formula: two per hole less than a ball's 2.
+    assert len(found.points) - len(counts) + len(found.triangles) == 2 - 2 * len(outline.inner)
+    allowed = tessellate.LINEAR * outline.polygon().length * 6
+    assert found.volume == pytest.approx(outline.area * 6, abs=allowed)
+    assert found.volume != pytest.approx(outline.area * 6, rel=1e-12)
+    assert solid.BoundingBox().zmax == pytest.approx(6, abs=1e-6)
+
+
+def test_ball_has_points_inside_its_face():
+    import cadquery as cq
+
+    ball = tessellate.mesh_of(cq.Solid.makeSphere(10.0, angleDegrees1=-90), ruled=False)
+    radii = np.linalg.norm(ball.points, axis=1)
+    assert radii == pytest.approx(10.0, abs=1e-6)
+    assert ball.volume == pytest.approx(4 / 3 * np.pi * 1000, rel=5e-3)
+
+
+def test_stl(part):
+    data = StlExporter().part(part)
+    assert not data.startswith(b"solid")
+    (count,) = np.frombuffer(data, "<u4", 1, 80)
+    assert len(data) == 84 + 50 * count
+    rows = np.frombuffer(data, mesh._STL, offset=84)
+    corners = rows["corners"].astype(float)
+    volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert volume == pytest.approx(part.outline.area * 8, rel=2e-4)
+    assert np.linalg.norm(rows["normal"], axis=1) == pytest.approx(1, abs=1e-6)
+    assert corners[..., 2].min() == 0
+    assert corners[..., 2].max() == 8
+    assert data == StlExporter().part(part)
+
+
+def test_threemf(part):
+    data = ThreeMfExporter().part(part)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert archive.testzip() is None
+        assert archive.namelist() == ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"]
+        model = ElementTree.fromstring(archive.read("3D/3dmodel.model"))  # noqa: S314 - our own file
+    assert model.get("unit") == "millimeter"
+    base = model.find(f".//{CORE}base")
+    assert (base.get("name"), base.get("displaycolor")) == ("steel", "#CC8033")
+    points = [[float(v.get(axis)) for axis in "xyz"] for v in model.iter(f"{CORE}vertex")]
+    corners = [[int(t.get(v)) for v in ("v1", "v2", "v3")] for t in model.iter(f"{CORE}triangle")]
+    found = tessellate.Mesh(np.array(points), np.array(corners))
+    assert found.volume == pytest.approx(part.outline.area * 8, rel=2e-4)
+    (item,) = model.iter(f"{CORE}item")
+    assert item.get("objectid") == model.find(f".//{CORE}object").get("id")
+
+
+def glb_document(data):
+    head, length = np.frombuffer(data, "<u4", 2, 4)
+    assert data[:4] == b"glTF"
+    assert (head, length) == (2, len(data))
+    (size,) = np.frombuffer(data, "<u4", 1, 12)
+    assert data[16:20] == b"JSON"
+    assert size % 4 == 0
+    body = 20 + size
+    assert data[body + 4 : body + 8] == b"BIN\0"
+    return json.loads(data[20:body]), data[body + 8 :]
+
+
+def test_glb_part(part):
+    document, body = glb_document(GlbExporter().part(part))
+    primitive = document["meshes"][0]["primitives"][0]
+
+    def values(accessor, dtype, width):
+        row = document["accessors"][accessor]
+        view = document["bufferViews"][row["bufferView"]]
+        return np.frombuffer(body, dtype, row["count"] * width, view["byteOffset"]).reshape(-1, width)
+
+    points = values(primitive["attributes"]["POSITION"], "<f4", 3).astype(float)
+    normals = values(primitive["attributes"]["NORMAL"], "<f4", 3)
+    triangles = values(primitive["indices"], "<u4", 1).reshape(-1, 3)
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+    assert volume == pytest.approx(part.outline.area * 8e-9, rel=2e-4)
+    assert (points[:, 1].min(), points[:, 1].max()) == pytest.approx((0, 0.008))
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1, abs=1e-5)
+    face = np.cross(b - a, c - a)
+    face /= np.linalg.norm(face, axis=1)[:, None]
+    assert np.einsum("ij,ij->i", normals[triangles[:, 0]], face).min() > mesh.CREASE_COS - 1e-4
+
+
+def test_glb_assembly_stands_in_its_poses(part):
+    motion = turning()
+    document, _ = glb_document(GlbExporter().assembly("pair", [part], motion, 4))
+    assert [node["name"] for node in document["nodes"]] == ["driver", "driven"]
+    assert len(document["meshes"]) == 1
+    for node, z in zip(document["nodes"], (0.0, 1.5), strict=True):
+        matrix = np.array(node["matrix"]).reshape(4, 4).T
+        x, y, up = 10.0, 2.0, 3.0
+        moved = matrix @ [x / 1000, up / 1000, -y / 1000, 1.0]
+        wanted = motion.poses[node["name"]].transform([[x, y, up + z]])[4, 0] / 1000
+        assert moved[:3] == pytest.approx((wanted[0], wanted[2], -wanted[1]), abs=1e-9)
+    assert GlbExporter().assembly("pair", [part], motion, 4) == GlbExporter().assembly(
+        "pair", [part], motion, 4
+    )
+
+
+def test_listing_the_formats_imports_nothing_heavy():
+    code = (
+        "import sys, mechwright_cam.plugin as p\n"
+        "names = [e.name for e in p.mechwright_register_exporters()]\n"
+        "heavy = {'numpy', 'scipy', 'shapely', 'cadquery', 'OCP', 'ezdxf', 'jinja2'} & set(sys.modules)\n"
+        "print(names, sorted(heavy))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout.strip() == "['step', 'dxf', 'stl', '3mf', 'glb'] []"
