@@ -1,0 +1,163 @@
+"""The pitch ellipse, measured along its arc.
+
+Glossary
+--------
+u
+    Eccentric angle, rad: the point (a cos u, b sin u) from the ellipse's centre. u = 0 is the far vertex,
+    the end of the major axis that is farther from the axis of rotation; u grows counter-clockwise.
+arc
+    Arc length s from the far vertex, mm, counter-clockwise. Neither wraps: u + 2π lies one perimeter on.
+part frame
+    Origin in the focus that is the axis of rotation, far vertex on +x at a (1 + e).
+
+The arc length is an incomplete elliptic integral, s = a [E(u + π/2 | e²) - E(e²)]. Its integrand
+sqrt(1 - e² cos² u) is periodic and analytic, so its Fourier series converges geometrically: a few dozen terms
+give the integral, for all u at once, to the last digit.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from mechwright.motion import Array
+
+_SERIES_SAMPLES = 256
+"""Terms fall like exp(-2 k arcosh(1/e)); at e = 0.9 the 43rd is below 1e-17, so 128 leave no aliasing."""
+
+_SERIES_CUT = 1e-17
+"""Terms below this share of the first are rounding."""
+
+_GUESSES = 513
+"""Entries of the table that inverts the arc length: its error, 2e-5 rad, is rounding after two Newton steps."""
+
+_NEWTON_STEPS = 3
+"""One more than the table's error needs."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Moving frame of the pitch ellipse, counter-clockwise, in the part frame.
+
+    Parameters
+    ----------
+    arc
+        Arc length (...), mm.
+    point, tangent, normal
+        (..., 2); the point in mm, the tangent and the outward normal of unit length.
+    radius
+        Radius of curvature (...), mm.
+    """
+
+    arc: Array
+    point: Array
+    tangent: Array
+    normal: Array
+    radius: Array
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """An ellipse given by its semi-major axis (mm, above 0) and eccentricity (0 to 0.9).
+
+    Examples
+    --------
+    >>> ellipse = Ellipse(50.0, 0.6)
+    >>> ellipse.semi_minor, ellipse.focal_distance
+    (40.0, 30.0)
+    >>> bool(abs(Ellipse(1.0, 0.0).perimeter - math.tau) < 1e-15)
+    True
+    """
+
+    semi_major: float
+    eccentricity: float
+
+    @property
+    def semi_minor(self) -> float:
+        """b = a sqrt(1 - e²), mm."""
+        return self.semi_major * math.sqrt(1 - self.eccentricity**2)
+
+    @property
+    def focal_distance(self) -> float:
+        """c = a e, centre to focus, mm."""
+        return self.semi_major * self.eccentricity
+
+    @property
+    def least_radius(self) -> float:
+        """Radius of curvature b²/a at the ends of the major axis, mm."""
+        return self.semi_minor**2 / self.semi_major
+
+    @property
+    def greatest_radius(self) -> float:
+        """Radius of curvature a²/b at the ends of the minor axis, mm."""
+        return self.semi_major**2 / self.semi_minor
+
+    @cached_property
+    def _terms(self) -> Array:
+        """Cosine coefficients of sqrt(1 - e² cos² u) in 2 u, the mean first."""
+        u = np.pi * np.arange(_SERIES_SAMPLES) / _SERIES_SAMPLES
+        terms = np.fft.rfft(np.sqrt(1 - (self.eccentricity * np.cos(u)) ** 2)).real / _SERIES_SAMPLES
+        terms[1:] *= 2
+        last = np.flatnonzero(np.abs(terms) > _SERIES_CUT * terms[0]).max()
+        kept: Array = terms[: last + 1]
+        return kept
+
+    @property
+    def complete_integral(self) -> float:
+        """Complete elliptic integral of the second kind E, modulus e: the perimeter is 4 a E."""
+        return float(self._terms[0]) * math.pi / 2
+
+    @property
+    def perimeter(self) -> float:
+        """4 a E, mm."""
+        return 4 * self.semi_major * self.complete_integral
+
+    def arc(self, u: Array) -> Array:
+        """Arc length (...), mm, from the far vertex to eccentric angles u (...)."""
+        u = np.asarray(u, dtype=float)
+        weights = self._terms[1:] / (2 * np.arange(1, self._terms.size))
+        # Clenshaw's recurrence for a sine series in 2 u.
+        twice = 2 * np.cos(2 * u)
+        one, two = np.zeros_like(u), np.zeros_like(u)
+        for weight in weights[::-1]:
+            one, two = weight + twice * one - two, one
+        result: Array = self.semi_major * (self._terms[0] * u + one * np.sin(2 * u))
+        return result
+
+    @cached_property
+    def _table(self) -> tuple[Array, Array]:
+        u = np.linspace(0, math.tau, _GUESSES)
+        return self.arc(u), u
+
+    def angle(self, arc: Array) -> Array:
+        """Eccentric angle u (...), rad, at arc lengths (...), mm: Newton's method on :meth:`arc`."""
+        turns, rest = np.divmod(np.asarray(arc, dtype=float), self.perimeter)
+        u = np.interp(rest, *self._table)
+        for _ in range(_NEWTON_STEPS):
+            u = u - (self.arc(u) - rest) / (self.semi_major * self._speed(u))
+        result: Array = u + math.tau * turns
+        return result
+
+    def _speed(self, u: Array) -> Array:
+        """ds/du in units of a."""
+        speed: Array = np.sqrt(1 - (self.eccentricity * np.cos(u)) ** 2)
+        return speed
+
+    def arc_rate(self, u: Array) -> Array:
+        """Derivative ds/du (...), mm/rad."""
+        rate: Array = self.semi_major * self._speed(u)
+        return rate
+
+    def frame(self, u: Array, arc: Array | None = None) -> Frame:
+        """The moving frame at eccentric angles u (...); ``arc`` is given where it is known already."""
+        a, b = self.semi_major, self.semi_minor
+        cos, sin, speed = np.cos(u), np.sin(u), self._speed(u)
+        point = np.stack((a * cos + self.focal_distance, b * sin), axis=-1)
+        tangent = np.stack((-sin / speed, b / a * cos / speed), axis=-1)
+        normal = np.stack((tangent[..., 1], -tangent[..., 0]), axis=-1)
+        radius = a * a / b * speed**3
+        return Frame(self.arc(u) if arc is None else arc, point, tangent, normal, radius)
+
+    def frame_at(self, arc: Array) -> Frame:
+        """The moving frame at arc lengths (...), mm."""
+        return self.frame(self.angle(arc), np.asarray(arc, dtype=float))

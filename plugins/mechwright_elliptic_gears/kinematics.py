@@ -1,0 +1,124 @@
+"""Motion of the pair and of its equivalent coupler, in closed form.
+
+Gear 2 turns about O2 = 0, gear 4 about O4 = 2a on the x axis; all angles are counter-clockwise from x, to the
+far vertex of each gear. The other foci J = 2 a e exp(i θ2) and K = 2a + 2 a e exp(i θ4) stay 2a apart: the pair
+moves like a crossed anti-parallelogram with the coupler J-K. With D = 1 + e² - 2 e cos θ2:
+
+* (1), (2) s2 = b² / (a (1 - e cos θ2)), s4 = b² / (a (1 + e cos θ4)), s2 + s4 = 2a: axis to pitch point;
+* (3), (4) ω2 × O2C = ω4 × O4C, so ω4 = -(s2/s4) ω2;
+* (5) ω4 = f ω2, f = -(1 - e²)/D;
+* (6) α4 = f' ω2² + f α2, f' = 2 e (1 - e²) sin θ2 / D²;
+* (7) θ4 = 2π - 2 atan2((1 + e) sin(x/2), (1 - e) cos(x/2)) - 2π n, x = θ2 - 2π n in [-π, π);
+* (8) to (11) θ3 = θ2 + θ4 (mod 2π) is the direction of J-K, and ω3, α3 are the sums of the others.
+
+Every angle may be any real number: θ4 falls by 2π for each turn of gear 2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from mechwright.motion import Array
+from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """Angle (n,) rad, and its first three time derivatives in rad/s, rad/s², rad/s³."""
+
+    theta: Array
+    omega: Array
+    alpha: Array
+    jerk: Array
+
+    @classmethod
+    def of(
+        cls, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike = 0.0, jerk: ArrayLike = 0.0
+    ) -> "Turning":
+        """Broadcast the four to one shape."""
+        arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
+        return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
+
+    def __add__(self, other: "Turning") -> "Turning":
+        return Turning(
+            self.theta + other.theta,
+            self.omega + other.omega,
+            self.alpha + other.alpha,
+            self.jerk + other.jerk,
+        )
+
+
+def driven(gear: Turning, eccentricity: float) -> Turning:
+    """Motion of the gear that ``gear`` drives: equations (5) to (7) and their time derivative.
+
+    >>> pair = driven(Turning.of(0.0, 10.0), 0.8)
+    >>> round(float(pair.omega), 9)
+    -90.0
+    """
+    e, theta = eccentricity, gear.theta
+    turns = np.floor((theta + np.pi) / (2 * np.pi))
+    half = (theta - 2 * np.pi * turns) / 2
+    angle = 2 * np.pi * (1 - turns) - 2 * np.arctan2((1 + e) * np.sin(half), (1 - e) * np.cos(half))
+    sin, d = np.sin(theta), 1 + e * e - 2 * e * np.cos(theta)
+    f = -(1 - e * e) / d
+    f1 = 2 * e * (1 - e * e) * sin / d**2
+    f2 = 2 * e * (1 - e * e) * (np.cos(theta) / d**2 - 4 * e * sin**2 / d**3)
+    return Turning(
+        angle,
+        f * gear.omega,
+        f1 * gear.omega**2 + f * gear.alpha,
+        f2 * gear.omega**3 + 3 * f1 * gear.omega * gear.alpha + f * gear.jerk,
+    )
+
+
+def coupler(gear: Turning, mate: Turning) -> Turning:
+    """Motion of the coupler J-K: equations (8) to (11); its angle is not reduced to one turn."""
+    return gear + mate
+
+
+def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[Array, Array]:
+    """s2 and s4 (n,), mm, from each axis to the pitch point: equations (1) and (2)."""
+    s2 = semi_major * (1 - eccentricity**2) / (1 - eccentricity * np.cos(gear.theta))
+    return s2, 2 * semi_major - s2
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Position (n,) mm, velocity mm/s, acceleration mm/s² of a point, as complex numbers x + i y."""
+
+    position: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+    velocity: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+    acceleration: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+
+    @property
+    def speed(self) -> Array:
+        """Magnitude of the velocity (n,), mm/s."""
+        return np.abs(self.velocity)
+
+
+def coupler_midpoint(gear: Turning, mate: Turning, semi_major: float, eccentricity: float) -> PointMotion:
+    """Motion of Q, the middle of the coupler: (J + K)/2 = a + a e (exp(i θ2) + exp(i θ4))."""
+    arm = semi_major * eccentricity
+    total = semi_major + 0j
+    velocity, acceleration = 0j, 0j
+    for turning in (gear, mate):
+        pointer = arm * np.exp(1j * turning.theta)
+        total = total + pointer
+        velocity = velocity + 1j * turning.omega * pointer
+        acceleration = acceleration + (1j * turning.alpha - turning.omega**2) * pointer
+    return PointMotion(np.asarray(total), np.asarray(velocity), np.asarray(acceleration))
+
+
+def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: float) -> Array:
+    """Larger of the angles (n,), rad, between the flank's normal and the motion of the pitch point, over both
+    flanks: the pressure angle of the rack, plus the tilt of the pitch curve against the circle about the axis.
+
+    With r = b² / (a (1 - e cos θ)), the tilt is atan(r'/r) = atan(e sin θ / (1 - e cos θ)) = at most asin e.
+    """
+    e = eccentricity
+    tilt: Array = np.arctan2(e * np.sin(gear.theta), 1 - e * np.cos(gear.theta))
+    return pressure_angle + np.abs(tilt)
+
+
+def steepest_shaft_pressure_angle(eccentricity: float, pressure_angle: float) -> float:
+    """Largest value of :func:`shaft_pressure_angle` over a turn, rad: pressure angle + asin e."""
+    return pressure_angle + float(np.arcsin(eccentricity))
