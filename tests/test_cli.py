@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
 from mechwright.cli import main
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"

@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import shapely
+
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile

@@ -5,16 +5,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import shapely
+
 from mechwright.design import Design
-from mechwright.errors import ProofError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.host import Host
 from mechwright.output import Post
 from mechwright.part import Part
 from mechwright.program import Program
-
-from mechwright_cam.exporters.dxf import DxfExporter
+from mechwright_cam.exporters import DxfExporter
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import check_tools, choose_tools, load_library
 from mechwright_cam.planning import plan
@@ -86,11 +85,7 @@ def machine(job: Job, post: Post) -> Machined:
     program = plan(job)
     text = post.write(program)
     proof = prove(text, job)
-    if not proof.ok:
-        more = f" (and {len(proof.failures) - 1} more)" if len(proof.failures) > 1 else ""
-        raise ProofError(
-            f"the program for {job.part.name} failed its proof and was not written: {proof.failures[0]}{more}"
-        )
+    proof.require()
     return Machined(job, program, text, proof)
 
 

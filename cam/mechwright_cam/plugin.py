@@ -2,7 +2,6 @@
 
 from mechwright.hookspecs import hookimpl
 from mechwright.output import Exporter, Post
-
 from mechwright_cam.exporters import DxfExporter, GlbExporter, StepExporter, StlExporter, ThreeMfExporter
 
 

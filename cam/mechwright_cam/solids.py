@@ -12,11 +12,6 @@ from itertools import pairwise
 
 import cadquery as cq
 import numpy as np
-from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
-from mechwright.geometry.segments import Point
-from mechwright.motion import Motion
-from mechwright.part import Part
 from OCP.BRep import BRep_Builder
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeVertex
 from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
@@ -26,6 +21,11 @@ from OCP.TColgp import TColgp_Array1OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
 
+from mechwright.errors import GeometryError
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
+from mechwright.geometry.segments import Point
+from mechwright.motion import Motion
+from mechwright.part import Part
 from mechwright_cam.solid_check import check_plate, check_solid
 
 _UP = gp_Dir(0.0, 0.0, 1.0)

@@ -4,8 +4,6 @@ from dataclasses import dataclass
 
 import cadquery as cq
 import numpy as np
-from mechwright.errors import GeometryError
-from mechwright.motion import Array
 from numpy.typing import NDArray
 from OCP.BRep import BRep_Tool
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
@@ -14,6 +12,9 @@ from OCP.IMeshTools import IMeshTools_Parameters
 from OCP.TopAbs import TopAbs_Orientation
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
+
+from mechwright.errors import GeometryError
+from mechwright.motion import Array
 
 LINEAR = 0.01
 """Largest distance of a triangle from its face, mm: below the layer height of any printer."""

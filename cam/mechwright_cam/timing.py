@@ -8,9 +8,9 @@ an axis which may jump by CORNER. Stops for the operator are not counted.
 """
 
 import numpy as np
+
 from mechwright.motion import Array
 from mechwright.tooling import Machine
-
 from mechwright_cam.interpreter import Kind, Run
 
 CORNER = 100.0

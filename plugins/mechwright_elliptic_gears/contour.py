@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
+
 from mechwright.geometry import BSpline, Loop
 from mechwright.geometry.fit import fit_nets
 from mechwright.geometry.segments import Segment
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_elliptic_gears.teeth import SIDES, Teeth
 
 FIT = 0.0001
@@ -50,9 +50,19 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
         # A rack with a full radius leaves no land.
         roots = []
         _share(rise, fall[-1][:, -1], None)
-    chains = [(tips, "tip"), (down, "flank"), (fall, "fillet"), (roots, "root"), (rise, "fillet"), (up, "flank")]
+    chains = [
+        (tips, "tip"),
+        (down, "flank"),
+        (fall, "fillet"),
+        (roots, "root"),
+        (rise, "fillet"),
+        (up, "flank"),
+    ]
     segments: list[Segment] = [
-        BSpline.bezier(piece[j], tag) for j in range(teeth.count) for pieces, tag in chains for piece in pieces
+        BSpline.bezier(piece[j], tag)
+        for j in range(teeth.count)
+        for pieces, tag in chains
+        for piece in pieces
     ]
     return Loop(tuple(segments)), max(errors)
 

@@ -16,8 +16,9 @@ behind, ahead
 from dataclasses import dataclass
 
 import numpy as np
-from mechwright.motion import Array
 from numpy.typing import NDArray
+
+from mechwright.motion import Array
 
 Ints = NDArray[np.int64]
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
 from mechwright.motion import Array
 
 _SERIES_SAMPLES = 256
@@ -74,12 +75,12 @@ class Ellipse:
 
     @property
     def semi_minor(self) -> float:
-        """b = a sqrt(1 - e²), mm."""
+        """B = a sqrt(1 - e²), mm."""
         return self.semi_major * math.sqrt(1 - self.eccentricity**2)
 
     @property
     def focal_distance(self) -> float:
-        """c = a e, centre to focus, mm."""
+        """C = a e, centre to focus, mm."""
         return self.semi_major * self.eccentricity
 
     @property

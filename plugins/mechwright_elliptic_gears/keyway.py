@@ -119,12 +119,12 @@ class Opening:
 
     @property
     def floor(self) -> float:
-        """x of the keyway's floor, mm."""
+        """X of the keyway's floor, mm."""
         return self.bore / 2 + self.depth
 
     @property
     def mouth(self) -> float:
-        """x where the keyway's sides meet the bore, mm."""
+        """X where the keyway's sides meet the bore, mm."""
         return math.sqrt((self.bore / 2) ** 2 - (self.width / 2) ** 2)
 
     @property

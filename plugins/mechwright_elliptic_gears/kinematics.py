@@ -17,8 +17,9 @@ Every angle may be any real number: θ4 falls by 2π for each turn of gear 2.
 from dataclasses import dataclass
 
 import numpy as np
-from mechwright.motion import Array
 from numpy.typing import ArrayLike
+
+from mechwright.motion import Array
 
 
 @dataclass(frozen=True, slots=True)

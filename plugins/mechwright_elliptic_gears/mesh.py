@@ -20,8 +20,8 @@ depth
 from dataclasses import dataclass
 
 import numpy as np
-from mechwright.motion import Array
 
+from mechwright.motion import Array
 from mechwright_elliptic_gears.crossings import Free, Ints, turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.kinematics import Turning, driven
@@ -84,7 +84,13 @@ class Mesh:
 
 
 def mesh(
-    gear2: Array, gear4: Array, ellipse: Ellipse, teeth: int, *, positions: int | None = None, allowance: float
+    gear2: Array,
+    gear4: Array,
+    ellipse: Ellipse,
+    teeth: int,
+    *,
+    positions: int | None = None,
+    allowance: float,
 ) -> Mesh:
     """Run two outlines against each other over a whole turn of gear 2.
 

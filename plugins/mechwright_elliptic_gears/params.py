@@ -2,13 +2,16 @@
 
 from typing import Annotated, Any, Self
 
+from pydantic import AfterValidator, Field, model_validator
+
 from mechwright.materials import MATERIALS, material
 from mechwright.parameters import Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin
-from pydantic import AfterValidator, Field, model_validator
 
 MaterialName = Annotated[
-    str, AfterValidator(lambda name: material(name).name), Field(json_schema_extra={"enum": sorted(MATERIALS)})
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
 ]
 
 

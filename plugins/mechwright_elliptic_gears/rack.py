@@ -70,6 +70,4 @@ class Rack:
         two arcs overlap.
         """
         alpha = self.pressure_angle
-        return (
-            self.half_space - self.straight_depth * math.tan(alpha) - self.tip_radius * math.cos(alpha)
-        )
+        return self.half_space - self.straight_depth * math.tan(alpha) - self.tip_radius * math.cos(alpha)

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
 from mechwright.errors import GeometryError
 from mechwright.motion import Array
-
 from mechwright_elliptic_gears.ellipse import Ellipse, Frame
 from mechwright_elliptic_gears.rack import Rack
 
@@ -153,14 +153,16 @@ class Teeth:
             if np.abs(gap).max() < _TRIM * ellipse.semi_major:
                 return v, w
             direction = on_flank.tangent + (SIDES * cos / sin)[:, None] * on_flank.normal
-            rate_v = (
-                self.regularity(on_flank, self.flank_arcs, SIDES) * ellipse.arc_rate(v)
-            )[..., None] * direction
+            rate_v = (self.regularity(on_flank, self.flank_arcs, SIDES) * ellipse.arc_rate(v))[
+                ..., None
+            ] * direction
             rate_w = ((1 + rack.addendum / on_tip.radius) * ellipse.arc_rate(w))[..., None] * on_tip.tangent
             determinant = rate_v[..., 1] * rate_w[..., 0] - rate_v[..., 0] * rate_w[..., 1]
             v = v - (rate_w[..., 0] * gap[..., 1] - rate_w[..., 1] * gap[..., 0]) / determinant
             w = w - (rate_v[..., 0] * gap[..., 1] - rate_v[..., 1] * gap[..., 0]) / determinant
-        raise GeometryError(f"addendum: a flank does not reach the tip {rack.addendum:g} mm over the pitch curve")
+        raise GeometryError(
+            f"addendum: a flank does not reach the tip {rack.addendum:g} mm over the pitch curve"
+        )
 
     @cached_property
     def tip_lands(self) -> tuple[Array, Array]:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
 from mechwright.motion import Array
 
 _SAMPLES = 8192
@@ -91,9 +92,7 @@ def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
     return length.astype(float), low, high
 
 
-def _extend(
-    speed: Callable[[Array], Array], inside: float, step: float, least: float, most: float
-) -> float:
+def _extend(speed: Callable[[Array], Array], inside: float, step: float, least: float, most: float) -> float:
     """Move an end of the window outwards by up to a step, as far as the speed stays in [least, most]."""
     good, bad = 0.0, 1.0
     for _ in range(_BISECTIONS):

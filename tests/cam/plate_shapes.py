@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.motion import Channel, Motion, Poses
 from mechwright.part import Instance, Part

@@ -12,12 +12,13 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+from plate_shapes import PLATES, wavy, wavy_part
+
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline
 from mechwright.part import Part
 from mechwright_cam.exporters import DxfExporter
 from mechwright_cam.exporters.curves import cubic, vertices
-from plate_shapes import PLATES, wavy, wavy_part
 
 CURVES = ("spline", "spline3", "arc", "polyline")
 CUTTING = {"OUTLINE", "BORE", "OPENING"}

@@ -8,12 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mechwright.errors import GeometryError
-from mechwright.geometry import BSpline, Line, Loop, Outline, circle
-from mechwright.part import Instance, Part
-from mechwright_cam import solids
-from mechwright_cam.exporters.step_read import top_face
-from mechwright_cam.solid_check import check_plate, check_solid, top_area
 from plate_shapes import (
     PLATES,
     WAVE_HEIGHT,
@@ -25,6 +19,13 @@ from plate_shapes import (
     wavy_part,
     wavy_plate,
 )
+
+from mechwright.errors import GeometryError
+from mechwright.geometry import BSpline, Line, Loop, Outline, circle
+from mechwright.part import Instance, Part
+from mechwright_cam import solids
+from mechwright_cam.exporters.step_read import top_face
+from mechwright_cam.solid_check import check_plate, check_solid, top_area
 
 
 @pytest.mark.parametrize("name", PLATES)

@@ -9,10 +9,11 @@ import sys
 import cadquery as cq
 import pytest
 import shapely
+from plate_shapes import PLATES, Part, turning, wavy_part
+
 from mechwright.errors import OutputError
 from mechwright_cam.exporters import StepExporter, StlExporter
 from mechwright_cam.exporters.step_read import read_step_outline, read_step_solids
-from plate_shapes import PLATES, Part, turning, wavy_part
 
 WRITE = """
 import hashlib, json

@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pydantic import Field
+
 from mechwright.design import load, template
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.family import Family
 from mechwright.host import Host, Registered
 from mechwright.parameters import Parameters
 from mechwright.units import Degrees, Millimetres
-from pydantic import Field
 
 
 class DiscParams(Parameters):

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 
 import pytest
+
 from mechwright import files
 from mechwright.errors import OutputError
 from mechwright.files import MANIFEST, Output, write_folder, write_new

@@ -7,6 +7,7 @@ from importlib.metadata import Distribution, EntryPoint
 from pathlib import Path
 
 import pytest
+
 from mechwright.errors import PluginError
 from mechwright.family import Family
 from mechwright.host import DISABLE, GROUP, _installed, load

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+
 from mechwright.errors import KinematicsError
 from mechwright.motion import Channel, Motion, Poses
 from mechwright.testing import assert_points_close, assert_rotations

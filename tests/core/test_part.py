@@ -1,6 +1,7 @@
 import math
 
 import pytest
+
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.materials import MATERIALS, material

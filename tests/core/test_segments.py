@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, circle
 from mechwright.testing import assert_points_close

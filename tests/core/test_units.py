@@ -6,9 +6,10 @@ from decimal import Decimal
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import Field, ValidationError
+
 from mechwright.parameters import Parameters
 from mechwright.units import Degrees, Millimetres, MillimetresPerMin, Newtons, Ratio, RevPerMin, convert, kind
-from pydantic import Field, ValidationError
 
 patient = settings(deadline=None)  # imports and a busy machine are no faults
 UNITS = {

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Segment
 from mechwright.motion import Array

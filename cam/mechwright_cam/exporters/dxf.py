@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from ezdxf import units
 from ezdxf._options import options
 from ezdxf.filemanagement import new
+
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
 from mechwright.part import Part
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_cam.exporters.curves import cubic, vertices
 from mechwright_cam.exporters.formats import Curves
 

@@ -11,9 +11,9 @@ from functools import lru_cache
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+
 from mechwright.motion import Array, Motion
 from mechwright.part import Colour, Part
-
 from mechwright_cam import solids
 from mechwright_cam.tessellate import Mesh, mesh_of
 

@@ -10,9 +10,6 @@ from contextlib import contextmanager
 
 import cadquery as cq
 from cadquery.occ_impl.assembly import toCAF
-from mechwright.errors import GeometryError
-from mechwright.motion import Motion
-from mechwright.part import Part
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
@@ -28,6 +25,9 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 from OCP.XSControl import XSControl_WorkSession
 
+from mechwright.errors import GeometryError
+from mechwright.motion import Motion
+from mechwright.part import Part
 from mechwright_cam import solids
 
 TIME_STAMP = "2000-01-01T00:00:00"

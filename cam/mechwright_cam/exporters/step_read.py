@@ -10,15 +10,16 @@ from pathlib import Path
 import cadquery as cq
 import numpy as np
 import shapely
-from mechwright.errors import GeometryError, OutputError
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepTools import BRepTools_WireExplorer
 from OCP.GCPnts import GCPnts_TangentialDeflection
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_Orientation
+
+from mechwright.errors import GeometryError, OutputError
+from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 
 
 def read_step_solids(path: Path) -> list[cq.Solid]:

@@ -12,7 +12,6 @@ import re
 from dataclasses import dataclass, field
 
 from mechwright.errors import ProgramError
-
 from mechwright_cam.interpreter.dialect import Dialect
 from mechwright_cam.interpreter.groups import G_GROUP, M_GROUP, spell
 

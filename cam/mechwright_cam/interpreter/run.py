@@ -6,8 +6,9 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from mechwright.motion import Array
 from numpy.typing import NDArray
+
+from mechwright.motion import Array
 
 Ints = NDArray[np.int64]
 Coolant = Literal["off", "mist", "flood", "both"]

@@ -27,7 +27,6 @@ from mechwright.program import (
     ToolSection,
 )
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_cam.posts.text import comment_lines, number, rounded
 
 COOLANT = {"flood": "M8", "mist": "M7", "off": ""}

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from mechwright.program import Drill, ToolSection
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
-
 from mechwright_cam.posts.base import GcodePost, Writer
 from mechwright_cam.posts.text import comment_lines, number
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import shapely
-from mechwright.part import Bore, Feature, Pocket, Profile
 
+from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, quarter

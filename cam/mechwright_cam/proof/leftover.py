@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 import shapely
+
 from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
-
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 import shapely
-from mechwright.motion import Array
-from mechwright.tooling import Tool, ToolKind
 from numpy.typing import NDArray
 
+from mechwright.motion import Array
+from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.interpreter import Kind, Run
 from mechwright_cam.interpreter.run import Ints
 

@@ -6,9 +6,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import shapely
-from mechwright.motion import Array
 from numpy.typing import NDArray
 
+from mechwright.motion import Array
 from mechwright_cam.interpreter.run import Ints
 
 ROUND = 1e-4

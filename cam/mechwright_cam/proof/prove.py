@@ -4,11 +4,11 @@ from collections.abc import Iterable
 
 import numpy as np
 import shapely
+
 from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands, inside_of, stock_shape

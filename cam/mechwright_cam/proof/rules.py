@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import shapely
-from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool, ToolKind
 from numpy.typing import NDArray
 
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.interpreter import Kind, Run, State
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job

@@ -159,8 +159,10 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps(proof.as_dict(), indent=2))
     else:
-        for line in proof.report():
-            typer.echo(line)
-        for failure in proof.failures:
-            typer.echo(f"mechwright: {program}: {failure}", err=True)
+        for check in proof.checks.values():
+            if check.passed:
+                typer.echo(f"pass [{check.name}] {check.message}")
+        for check in proof.failures:
+            typer.echo(f"mechwright: {program}: FAIL [{check.name}] {check.message}", err=True)
+        typer.echo(f"{program}: " + ("proven" if proof.ok else "does not cut the part"))
     raise typer.Exit(0 if proof.ok else 1)

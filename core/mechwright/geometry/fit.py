@@ -115,7 +115,9 @@ def _fit(
     t = np.linspace(0, 1, _SAMPLES)
     exact = part(t)
     if exact.shape != (count, _SAMPLES, 2) or not np.isfinite(exact).all():
-        raise GeometryError(f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers")
+        raise GeometryError(
+            f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers"
+        )
     for degree in range(LOWEST_DEGREE, HIGHEST_DEGREE + 1):
         nodes, inverse = _interpolation(degree)
         points = part(nodes)

@@ -2,8 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from mechwright.testing import FamilyContract, assert_points_close
 from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams
+
+from mechwright.testing import FamilyContract, assert_points_close
 
 
 class TestScotchYoke(FamilyContract):

@@ -4,7 +4,6 @@ import math
 from typing import TYPE_CHECKING
 
 from mechwright.findings import Finding, Severity
-
 from mechwright_scotch_yoke.plates import FILLET, GAP, yoke_mass
 
 if TYPE_CHECKING:

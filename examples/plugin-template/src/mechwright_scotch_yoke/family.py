@@ -3,13 +3,14 @@
 from collections.abc import Sequence
 from typing import Literal
 
+from pydantic import Field
+
 from mechwright.family import Family
 from mechwright.findings import Finding
 from mechwright.motion import Motion
 from mechwright.parameters import Parameters
 from mechwright.part import Part
 from mechwright.units import Millimetres, Newtons, RevPerMin
-from pydantic import Field
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
 
