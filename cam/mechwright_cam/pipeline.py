@@ -3,17 +3,19 @@
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import cast, get_args
 
 import shapely
 
 from mechwright.design import Design
+from mechwright.errors import DesignError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.host import Host
 from mechwright.output import Post
 from mechwright.part import Part
 from mechwright.program import Program
-from mechwright_cam.exporters import DxfExporter
+from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import check_tools, choose_tools, load_library
 from mechwright_cam.planning import plan
@@ -66,6 +68,14 @@ def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
     return shapely.transform(polygon, lambda points: points + job.origin)
 
 
+def curve_kind(text: str) -> Curves:
+    """Read the option ``--dxf-curves``; raises DesignError that lists the kinds."""
+    for kind in get_args(Curves):
+        if kind == text:
+            return cast(Curves, kind)
+    raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")
+
+
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
     host.post(design.cam.control)
@@ -95,7 +105,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     Findings come back; nothing is added if one of them is an error.
     """
     post = host.post(design.cam.control)
-    drawing = DxfExporter(curves)
+    drawing = DxfExporter(curve_kind(curves))
     findings, jobs = prepare(design, plates(design.family.parts(design.params)))
     if errors(findings):
         return findings
