@@ -201,6 +201,10 @@ class FamilyContract:
             data = step.part(part)
             assert data.startswith(b"ISO-10303-21;"), f"part {part.name} is no STEP file"
             assert data == step.part(again), f"part {part.name} is not the same file twice"
+            if part.build is not None:
+                solid = part.build()
+                assert solid.isValid(), f"the solid of part {part.name} is not closed, or cuts itself"
+                assert solid.Volume() > 0, f"the solid of part {part.name} is inside out"
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
