@@ -110,7 +110,7 @@ class FamilyContract:
 
     def test_schema(self) -> None:
         """Every field has a description, and every number bounds and a unit."""
-        assert rules.schema_faults(self.family.Params) == []
+        _none(rules.schema_faults(self.family.Params))
 
     # One design
 
@@ -128,11 +128,11 @@ class FamilyContract:
 
     def test_findings(self, design: Mapping[str, Any]) -> None:
         """Findings are well formed, in all examples and refusals."""
-        assert self._finding_faults(self.family().check(self.params(design))) == []
+        _none(self._finding_faults(self.family().check(self.params(design))))
 
     def test_channels(self, design: Mapping[str, Any]) -> None:
         """Channels are finite, in known units, and driven by an input that goes one way."""
-        assert rules.motion_faults(self._motion(design)) == []
+        _none(rules.motion_faults(self._motion(design)))
         motion = self._motion(design)
         assert_monotone(motion.channels[motion.input_name].values, f"input {motion.input_name}")
 
@@ -184,12 +184,12 @@ class FamilyContract:
         for part in parts:
             assert material(part.material).density > 0
             assert all(0 <= channel <= 1 for channel in part.colour)
-            assert rules.outline_faults(part) == []
+            _none(rules.outline_faults(part))
 
     def test_features(self, design: Mapping[str, Any]) -> None:
         """Features lie inside the plate, and what they leave is the outline."""
         for part in self._parts(design):
-            assert rules.feature_faults(part) == []
+            _none(rules.feature_faults(part))
 
     def test_solids(self, design: Mapping[str, Any]) -> None:
         """The CAD kernel makes every part, and the same file each time."""
@@ -201,6 +201,10 @@ class FamilyContract:
             data = step.part(part)
             assert data.startswith(b"ISO-10303-21;"), f"part {part.name} is no STEP file"
             assert data == step.part(again), f"part {part.name} is not the same file twice"
+            if part.build is not None:
+                solid = part.build()
+                assert solid.isValid(), f"the solid of part {part.name} is not closed, or cuts itself"
+                assert solid.Volume() > 0, f"the solid of part {part.name} is inside out"
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
@@ -248,7 +252,7 @@ class FamilyContract:
         except ValidationError as error:
             return [self._subject(detail) for detail in error.errors(include_url=False)]
         findings = self.family().check(params)
-        assert self._finding_faults(findings) == []
+        _none(self._finding_faults(findings))
         return [finding.parameter for finding in errors(findings)]
 
     def _subject(self, detail: Mapping[str, Any]) -> str:
@@ -279,12 +283,12 @@ class FamilyContract:
                 self._fails_politely(table)
                 return
             motion = self._motion(table)
-            assert rules.motion_faults(motion) == []
+            _none(rules.motion_faults(motion))
             parts = self._parts(table)
             assert len(parts) > 0
             for part in parts:
-                assert rules.outline_faults(part) == []
-                assert rules.feature_faults(part) == []
+                _none(rules.outline_faults(part))
+                _none(rules.feature_faults(part))
             built += 1
 
         build_or_refuse()
@@ -304,6 +308,10 @@ class FamilyContract:
 
     def _finding_faults(self, findings: Sequence[Finding]) -> list[str]:
         return [fault for finding in findings for fault in rules.finding_faults(finding, self.family.Params)]
+
+
+def _none(faults: Sequence[str]) -> None:
+    assert not faults, "; ".join(faults)
 
 
 def _title(table: Mapping[str, Any]) -> str:

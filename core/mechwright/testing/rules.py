@@ -17,6 +17,9 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.units import kind
 
 _CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(\.[a-z0-9]+(-[a-z0-9]+)*)+")
+# Where a field may be left out, pydantic puts its bounds into the schema under its own names.
+_LEAST = {"minimum", "exclusiveMinimum", "ge", "gt"}
+_GREATEST = {"maximum", "exclusiveMaximum", "le", "lt"}
 _CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'-]*")
 
 
@@ -30,9 +33,9 @@ def schema_faults(params: type[Parameters]) -> list[str]:
             if not str(field.get("description", "")).strip():
                 found.append(f"{path} has no description")
             for number in _numbers(field):
-                if not {"minimum", "exclusiveMinimum"} & number.keys():
+                if not _LEAST & number.keys():
                     found.append(f"{path} has no least value")
-                if not {"maximum", "exclusiveMaximum"} & number.keys():
+                if not _GREATEST & number.keys():
                     found.append(f"{path} has no greatest value")
                 if "unit" in number:
                     found += unit_faults(number["unit"], path)

@@ -1,6 +1,7 @@
 """Hypothesis strategies for design files, made from the bounds that the fields declare."""
 
 import math
+import re
 import types
 from collections.abc import Iterable, Mapping
 from enum import Enum
@@ -10,11 +11,18 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
+from mechwright.materials import MATERIALS
 from mechwright.parameters import Parameters
 
 P = TypeVar("P", bound=Parameters)
 
 _RULES = ("ge", "gt", "le", "lt", "multiple_of", "min_length", "max_length", "pattern")
+NAMES = sorted(MATERIALS)
+"""Texts that mean something in a design file."""
+
+_LONG = 100
+"""Characters of a text without a limit of its own."""
+
 _MANY = 3
 """Most entries of a list or table: more finds nothing that three do not."""
 
@@ -113,12 +121,21 @@ def _plain(kind: type, rule: dict[str, Any], where: str, default: Any) -> st.Sea
     if issubclass(kind, float):
         return _floats(rule, where, default)
     if issubclass(kind, str):
-        least, most = rule.get("min_length", 0), rule.get("max_length")
-        if "pattern" in rule:
-            fits = st.from_regex(rule["pattern"], fullmatch=True)
-            return fits.filter(lambda text: least <= len(text) <= (most or math.inf))
-        return st.text(min_size=least, max_size=most)
+        return _texts(rule, default)
     raise TypeError(f"{where}: no strategy for {kind!r}; give the contract a strategy of its own")
+
+
+def _texts(rule: dict[str, Any], default: Any) -> st.SearchStrategy[str]:
+    least, most = rule.get("min_length", 0), rule.get("max_length", _LONG)
+    if "pattern" in rule:
+        texts = st.from_regex(rule["pattern"], fullmatch=True)
+        texts = texts.filter(lambda text: least <= len(text) <= most)
+    else:
+        texts = st.text(min_size=least, max_size=most)
+    # Most texts of a design are names of materials, which neither lengths nor patterns tell.
+    fits = [name for name in NAMES if least <= len(name) <= most and re.search(rule.get("pattern", ""), name)]
+    likely = ([default] if isinstance(default, str) else []) + fits
+    return st.one_of(st.sampled_from(likely), texts) if likely else texts
 
 
 def _near(low: float, high: float, default: Any) -> tuple[float, float] | None:

@@ -6,7 +6,7 @@ from enum import Enum
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from mechwright.parameters import Parameters
-from mechwright.testing.strategies import bounds, rules
+from mechwright.testing.strategies import NAMES, bounds, rules
 
 _FACTORS = (1.02, 0.98, 1.15, 0.85, 1.5, 0.6)
 """Small steps first, since they are the likeliest to give another good design."""
@@ -40,6 +40,8 @@ def _others(kind: Any, value: Any, rule: dict[str, Any], where: str) -> Iterator
         for name in kind.model_fields:
             for other in variations(value, name):
                 yield {**value.model_dump(mode="json", exclude_none=True), name: other}
+    elif kind is str:
+        yield from (name for name in NAMES if name != value)
     elif kind in (int, float):
         low, high = bounds(rule, where)
         if isinstance(value, int | float):

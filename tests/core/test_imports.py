@@ -1,0 +1,28 @@
+"""What importing the core brings in: numbers and validation, nothing heavy, and no test library."""
+
+import pkgutil
+import subprocess
+import sys
+
+import mechwright
+from mechwright.testing.imports import HEAVY
+
+ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
+
+
+def core_modules():
+    found = pkgutil.walk_packages(mechwright.__path__, "mechwright.")
+    return [
+        item.name
+        for item in found
+        if not item.name.startswith("mechwright.testing") and not item.name.endswith("__main__")
+    ]
+
+
+def test_the_core_imports_nothing_heavy_and_no_test_library():
+    modules = core_modules()
+    assert {"mechwright.host", "mechwright.geometry.outline", "mechwright.part"} <= set(modules)
+    code = f"import sys\nfor name in {modules!r}: __import__(name)\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert set(done.stdout.split()) & ({*HEAVY} | ALLOWED_IN_TESTING) == set()
