@@ -452,7 +452,8 @@ class _Machine:
             seconds = self.sticky["P"] * self.dialect.dwell_unit
             self._row(Kind.DWELL, line, x, y, self.z, seconds=seconds)
         if code in {850, 890}:
-            self._feed_to(line, x, y, plane)
+            # LinuxCNC feeds out to the R plane after G85, and all the way up after G89.
+            self._feed_to(line, x, y, plane if code == 850 else up)
         self._rapid(line, x, y, up)
 
     def _rapid(self, line: int, x: float, y: float, z: float) -> None:

@@ -250,7 +250,7 @@ class GcodePost(Post):
         self.retract(out)
         self.message(out, move.message)
         out.line("M0")
-        out.motion = ""
+        out.motion = out.feed = ""  # whoever goes on from here finds both stated
         self.spindle(out, section)
         out.line(COOLANT[section.coolant])
 

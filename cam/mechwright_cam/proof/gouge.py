@@ -42,9 +42,10 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     if inside.size:
         gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
     depth = np.minimum(radius - gap, top - pieces.low)
-    worst = int(np.argmax(depth))
-    if depth[worst] <= 0:
+    if depth.max() <= 0:
         return None
+    alike = np.flatnonzero(depth >= depth.max() - NEAR)
+    worst = int(alike[np.argmin(pieces.step[alike])])  # of moves that cut equally deep, blame the first
     x, y = edge.nearest(lines[worst])
     return Gouge(float(depth[worst]), int(pieces.step[worst]), (x, y, float(pieces.low[worst])))
 
