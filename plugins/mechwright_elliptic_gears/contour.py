@@ -50,9 +50,19 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
         # A rack with a full radius leaves no land.
         roots = []
         _share(rise, fall[-1][:, -1], None)
-    chains = [(tips, "tip"), (down, "flank"), (fall, "fillet"), (roots, "root"), (rise, "fillet"), (up, "flank")]
+    chains = [
+        (tips, "tip"),
+        (down, "flank"),
+        (fall, "fillet"),
+        (roots, "root"),
+        (rise, "fillet"),
+        (up, "flank"),
+    ]
     segments: list[Segment] = [
-        BSpline.bezier(piece[j], tag) for j in range(teeth.count) for pieces, tag in chains for piece in pieces
+        BSpline.bezier(piece[j], tag)
+        for j in range(teeth.count)
+        for pieces, tag in chains
+        for piece in pieces
     ]
     return Loop(tuple(segments)), max(errors)
 

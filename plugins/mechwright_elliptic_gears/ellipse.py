@@ -29,7 +29,7 @@ _SERIES_CUT = 1e-17
 """Terms below this share of the first are rounding."""
 
 _GUESSES = 513
-"""Entries of the table that inverts the arc length: its error, 2e-5 rad, is rounding after two Newton steps."""
+"""Entries of the table that inverts the arc length: 2e-5 rad wrong, which two Newton steps make rounding."""
 
 _NEWTON_STEPS = 3
 """One more than the table's error needs."""
@@ -74,12 +74,12 @@ class Ellipse:
 
     @property
     def semi_minor(self) -> float:
-        """b = a sqrt(1 - e²), mm."""
+        """B = a sqrt(1 - e²), mm."""
         return self.semi_major * math.sqrt(1 - self.eccentricity**2)
 
     @property
     def focal_distance(self) -> float:
-        """c = a e, centre to focus, mm."""
+        """C = a e, centre to focus, mm."""
         return self.semi_major * self.eccentricity
 
     @property

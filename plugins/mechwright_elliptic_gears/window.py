@@ -53,7 +53,7 @@ def near_constant(
     (2.094395, 0.0)
     """
     step = period / samples
-    values = speed(step * np.arange(samples))
+    values = np.asarray(speed(step * np.arange(samples, dtype=np.float64)), dtype=np.float64)
     if values.max() - values.min() <= band:
         return Window(0.0, period, float(values.min()))
     length, low, high = _longest_runs(values, band)
@@ -71,7 +71,7 @@ def near_constant(
 def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
     """For every start the number of samples whose range is within the band, their least and greatest.
 
-    Tables of minima and maxima over 2^k samples, then doubling steps backwards: n log n, no loop over samples.
+    Tables of minima and maxima over 2^k samples, then steps of falling size: n log n, no loop over samples.
     """
     n = values.size
     lows, highs = [values], [values]
@@ -91,9 +91,7 @@ def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
     return length.astype(float), low, high
 
 
-def _extend(
-    speed: Callable[[Array], Array], inside: float, step: float, least: float, most: float
-) -> float:
+def _extend(speed: Callable[[Array], Array], inside: float, step: float, least: float, most: float) -> float:
     """Move an end of the window outwards by up to a step, as far as the speed stays in [least, most]."""
     good, bad = 0.0, 1.0
     for _ in range(_BISECTIONS):

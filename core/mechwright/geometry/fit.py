@@ -115,7 +115,9 @@ def _fit(
     t = np.linspace(0, 1, _SAMPLES)
     exact = part(t)
     if exact.shape != (count, _SAMPLES, 2) or not np.isfinite(exact).all():
-        raise GeometryError(f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers")
+        raise GeometryError(
+            f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers"
+        )
     for degree in range(LOWEST_DEGREE, HIGHEST_DEGREE + 1):
         nodes, inverse = _interpolation(degree)
         points = part(nodes)
@@ -160,4 +162,5 @@ def _bernstein(degree: int, t: Array) -> Array:
 def _interpolation(degree: int) -> tuple[Array, Array]:
     """Lobatto nodes (degree + 1,) and the matrix that turns values there into control points."""
     nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
-    return nodes, np.linalg.inv(_bernstein(degree, nodes))
+    inverse: Array = np.linalg.inv(_bernstein(degree, nodes)).astype(np.float64)
+    return nodes, inverse
