@@ -13,7 +13,7 @@ behind, ahead
     Found by turning clockwise, counter-clockwise, from the query.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,20 +21,26 @@ from numpy.typing import NDArray
 from mechwright.motion import Array
 
 Ints = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """For each query (n,) the turn, rad, to the nearest edge of each kind, inf where there is none, and its
-    normal distance, mm, to that edge.
+    """What each query (n,) meets.
+
+    Parameters
+    ----------
+    leaving_behind, entering_behind, leaving_ahead, entering_ahead
+        Turn, rad, to the nearest edge of each kind; inf where there is none.
+    distance
+        Distance from the nearest edge of all along its normal, mm.
     """
 
     leaving_behind: Array
     entering_behind: Array
     leaving_ahead: Array
     entering_ahead: Array
-    distance_behind: Array
-    distance_ahead: Array
+    distance: Array
 
 
 def turns_to_edges(
@@ -53,38 +59,58 @@ def turns_to_edges(
     ring
         Height, mm, of the rings in which edges are looked up: about one edge.
     """
-    n = len(queries)
     radius = np.hypot(*queries.T)
     inner, outer = np.hypot(*starts.T), np.hypot(*ends.T)
     query, edge = _candidates(radius, query_group, inner, outer, edge_group, ring)
-    a, d, r = starts[edge], ends[edge] - starts[edge], radius[query]
-    # |a + t d| = r; the root between 0 and 1, starting from the secant, two Newton steps.
-    t = (r - inner[edge]) / (outer[edge] - inner[edge])
-    dd, ad, aa = np.einsum("ni,ni->n", d, d), np.einsum("ni,ni->n", a, d), inner[edge] ** 2
+    ax, ay = starts[edge].T
+    qx, qy = queries[query].T
+    dx, dy = (ends - starts)[edge].T
+    # |a + t d| = r; the root between 0 and 1 by two Newton steps from the secant.
+    from_inner, to_outer, r = inner[edge], outer[edge], radius[query]
+    dd, ad, rest = dx * dx + dy * dy, ax * dx + ay * dy, from_inner * from_inner - r * r
+    t = (r - from_inner) / (to_outer - from_inner)
     for _ in range(2):
         rate = ad + t * dd
-        t = t - (aa + t * (2 * ad + t * dd) - r * r) / (2 * np.where(rate == 0, np.inf, rate))
-    met = a + t[:, None] * d
-    q = queries[query]
-    turn = np.arctan2(q[:, 0] * met[:, 1] - q[:, 1] * met[:, 0], np.einsum("ni,ni->n", q, met))
-    # Normal distance of a short arc to an edge: its length times the radial share of the edge's direction.
-    normal = np.abs(turn) * np.abs(np.einsum("ni,ni->n", met, d)) / np.sqrt(dd)
-    leaves, ahead = outer[edge] < inner[edge], turn > 0
-
-    def least(values: Array, chosen: NDArray[np.bool_]) -> Array:
-        result = np.full(n, np.inf)
-        np.minimum.at(result, query[chosen], values[chosen])
-        return result
-
-    size = np.abs(turn)
-    return Free(
-        least(size, leaves & ~ahead),
-        least(size, ~leaves & ~ahead),
-        least(size, leaves & ahead),
-        least(size, ~leaves & ahead),
-        least(normal, ~ahead),
-        least(normal, ahead),
+        t -= (rest + t * (ad + rate)) / (2 * np.where(rate == 0, np.inf, rate))
+    mx, my = ax + t * dx, ay + t * dy
+    turn = np.arctan2(qx * my - qy * mx, qx * mx + qy * my)
+    # A short arc's normal distance to an edge: its length times the radial share of the edge's direction.
+    normal = np.abs(turn * (mx * dx + my * dy)) / np.sqrt(dd)
+    size, leaves, ahead = np.abs(turn), to_outer < from_inner, turn > 0
+    groups = _Groups.of(query, len(queries))
+    free = Free(
+        groups.least(np.where(leaves & ~ahead, size, np.inf)),
+        groups.least(np.where(leaves | ahead, np.inf, size)),
+        groups.least(np.where(leaves & ahead, size, np.inf)),
+        groups.least(np.where(ahead & ~leaves, size, np.inf)),
+        np.empty(0),
     )
+    nearest = np.minimum(
+        np.minimum(free.leaving_behind, free.entering_behind),
+        np.minimum(free.leaving_ahead, free.entering_ahead),
+    )
+    return replace(free, distance=groups.least(np.where(size <= nearest[query], normal, np.inf)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Groups:
+    """Runs of equal numbers in a sorted array: the pairs of each query."""
+
+    first: Ints
+    number: Ints
+    count: int
+
+    @classmethod
+    def of(cls, sorted_numbers: Ints, count: int) -> "_Groups":
+        starts = np.flatnonzero(np.diff(sorted_numbers, prepend=-1))
+        return cls(starts, sorted_numbers[starts], count)
+
+    def least(self, values: Array) -> Array:
+        """Least value of each run, inf for a number without one: (count,)."""
+        result = np.full(self.count, np.inf)
+        if self.first.size:
+            result[self.number] = np.minimum.reduceat(values, self.first)
+        return result
 
 
 def _candidates(

@@ -30,7 +30,7 @@ _SERIES_CUT = 1e-17
 """Terms below this share of the first are rounding."""
 
 _GUESSES = 513
-"""Entries of the table that inverts the arc length: its error, 2e-5 rad, is rounding after two Newton steps."""
+"""Entries of the table that inverts the arc length: 2e-5 rad wrong, which two Newton steps make rounding."""
 
 _NEWTON_STEPS = 3
 """One more than the table's error needs."""

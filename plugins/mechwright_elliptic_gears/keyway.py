@@ -73,10 +73,10 @@ KEYS = tuple(
 """Parallel keys, high form, after DIN 6885-1:1968."""
 
 TOP_CLEARANCE = 0.2
-"""Least gap over a standard key, mm: t1 + t2 - h of the smallest sizes. Used where the width is not standard."""
+"""Gap over a key of no standard width, mm: t1 + t2 - h of the smallest standard sizes."""
 
 LEAST_CHAMFER = 0.16
-"""Least chamfer of the smallest standard keys, mm. Used where the width is not standard."""
+"""Chamfer of a key of no standard width, mm: the least one of the smallest standard sizes."""
 
 
 def key_for_bore(bore: float) -> KeySize | None:
@@ -166,9 +166,7 @@ class Opening:
         return Arc(centre, self.relief / 2, start, -math.pi, "relief")
 
     def key_section(self) -> list[Point]:
-        """Corners, mm, of the part of the key that stands in the hub, its edges chamfered as the standard's
-        least; the part inside the shaft is left out.
-        """
+        """Corners, mm, of the part of the key in the hub, its edges with the standard's least chamfer."""
         key = key_of_width(self.width)
         if key:
             chamfer, top = key.chamfer, self.bore / 2 + key.height - key.shaft_depth

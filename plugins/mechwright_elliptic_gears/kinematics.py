@@ -1,8 +1,8 @@
 """Motion of the pair and of its equivalent coupler, in closed form.
 
-Gear 2 turns about O2 = 0, gear 4 about O4 = 2a on the x axis; all angles are counter-clockwise from x, to the
-far vertex of each gear. The other foci J = 2 a e exp(i θ2) and K = 2a + 2 a e exp(i θ4) stay 2a apart: the pair
-moves like a crossed anti-parallelogram with the coupler J-K. With D = 1 + e² - 2 e cos θ2:
+Gear 2 turns about O2 = 0, gear 4 about O4 = 2a on the x axis; all angles are counter-clockwise from x, to
+the far vertex of each gear. The other foci J = 2 a e exp(i θ2) and K = 2a + 2 a e exp(i θ4) stay 2a apart:
+the pair moves like a crossed anti-parallelogram with the coupler J-K. With D = 1 + e² - 2 e cos θ2:
 
 * (1), (2) s2 = b² / (a (1 - e cos θ2)), s4 = b² / (a (1 + e cos θ4)), s2 + s4 = 2a: axis to pitch point;
 * (3), (4) ω2 × O2C = ω4 × O4C, so ω4 = -(s2/s4) ω2;
@@ -110,10 +110,11 @@ def coupler_midpoint(gear: Turning, mate: Turning, semi_major: float, eccentrici
 
 
 def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: float) -> Array:
-    """Larger of the angles (n,), rad, between the flank's normal and the motion of the pitch point, over both
-    flanks: the pressure angle of the rack, plus the tilt of the pitch curve against the circle about the axis.
+    """Angle (n,), rad, between a flank's normal and the motion of the pitch point; the larger of both flanks.
 
-    With r = b² / (a (1 - e cos θ)), the tilt is atan(r'/r) = atan(e sin θ / (1 - e cos θ)) = at most asin e.
+    It is the rack's pressure angle and the tilt of the pitch curve against the circle about the axis.
+    With r = b² / (a (1 - e cos θ)) the tilt is atan(r'/r) = atan(e sin θ / (1 - e cos θ)), at most asin e.
+    It is the same for both gears, whose pitch points move along the same line.
     """
     e = eccentricity
     tilt: Array = np.arctan2(e * np.sin(gear.theta), 1 - e * np.cos(gear.theta))

@@ -1,4 +1,4 @@
-"""Proof that two finished gears run together: overlap, play and transmission error, from their outlines alone.
+"""Proof that two finished gears run together: overlap, play, transmission error, from outlines alone.
 
 Nothing here knows how the teeth were made: the input is two polygons, from the outline, from a STEP file read
 back, or as the cutters leave the parts.
@@ -17,12 +17,12 @@ depth
     How deep one outline stands in the other in position, mm, along the flank's normal; 0 where they do not.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright_elliptic_gears.crossings import Free, Ints, turns_to_edges
+from mechwright_elliptic_gears.crossings import Flags, Ints, turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.kinematics import Turning, driven
 
@@ -36,14 +36,14 @@ EDGES_PER_PITCH = 64
 _CHUNK = 32
 """Positions at a time: bounds the memory, a few ten MB."""
 
-_SECTORS = 720
-"""Sectors of the envelope that finds the teeth near contact."""
+_REACH = 0.1
+"""Pitches by which a gear's envelope is widened: what lies within it is looked at."""
 
-_REACH = 0.25
-"""Pitches that the envelope is widened by, so that both flanks beside a point are seen."""
+_DEEPEST = 0.25
+"""Pitches: half the thickness of a tooth. A point cannot stand deeper in material than that."""
 
-_AREAS = 8
-"""Positions, the deepest first, whose overlap area is measured."""
+_AREAS = 64
+"""Most positions, spread over those that overlap, whose overlap area is measured."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Mesh:
     ahead, behind
         Play (n,), rad.
     depth
-        Depth (n,), mm.
+        Depth (n,), mm; at most a quarter of a pitch.
     gap
         Least normal distance (n,), mm, of the outlines in position; 0 where they overlap.
     overlap
@@ -115,17 +115,20 @@ def mesh(
     on_ellipse = ellipse.frame_at(ellipse.perimeter * np.arange(positions) / positions).point
     theta2 = -np.unwrap(np.arctan2(on_ellipse[:, 1], on_ellipse[:, 0]))
     theta4 = driven(Turning.of(theta2, 1.0), ellipse.eccentricity).theta
-    reaches = [_Envelope.of(points, _REACH * pitch) for points in (two, four)]
+    widest = max(float(_level(points[:, 0], points[:, 1], ellipse).max()) for points in (two, four))
+    reach = (math.sqrt(widest) + _REACH * pitch / ellipse.semi_major) ** 2
     parts = [
-        _positions(two, four, reaches[0], reaches[1], theta2[i : i + _CHUNK], theta4[i : i + _CHUNK], ellipse)
+        _positions(
+            two, four, theta2[i : i + _CHUNK], theta4[i : i + _CHUNK], ellipse, reach, _DEEPEST * pitch
+        )
         for i in range(0, positions, _CHUNK)
     ]
     ahead, behind, depth, gap = (np.concatenate(column) for column in zip(*parts, strict=True))
     overlap = 0.0
-    deepest = np.argsort(-depth, kind="stable")[:_AREAS]
-    worst = deepest[depth[deepest] > allowance]
-    if worst.size:
-        overlap = _overlap(gear2, gear4, theta2[worst], theta4[worst], 2 * ellipse.semi_major)
+    deep = np.flatnonzero(depth > allowance)
+    if deep.size:
+        some = deep[:: math.ceil(deep.size / _AREAS)]
+        overlap = _overlap(gear2, gear4, theta2[some], theta4[some], 2 * ellipse.semi_major)
     return Mesh(theta2, ahead, behind, depth, gap, overlap)
 
 
@@ -139,87 +142,77 @@ def _cut_edges(points: Array, longest: float) -> Array:
     return cut
 
 
-@dataclass(frozen=True)
-class _Envelope:
-    """How far a gear reaches in each direction from its axis, squared, mm²."""
-
-    squared: Array
-
-    @classmethod
-    def of(cls, points: Array, margin: float) -> "_Envelope":
-        sector = _sector(np.arctan2(points[:, 1], points[:, 0]))
-        reach = np.zeros(_SECTORS)
-        np.maximum.at(reach, sector, np.hypot(*points.T))
-        # A tooth must cover the spaces beside it: half a pitch is never wider than this many sectors.
-        wide = reach
-        for shift in range(1, _SECTORS // 36):
-            wide = np.maximum(wide, np.maximum(np.roll(reach, shift), np.roll(reach, -shift)))
-        return cls((wide + margin) ** 2)
-
-    def holds(self, points: Array, turned: Array) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-        """Whether points (k, n, 2), from the axis, lie within, the gear being turned by (k,)."""
-        squared = points[..., 0] ** 2 + points[..., 1] ** 2
-        inside = squared < self.squared.max()
-        row, column = np.nonzero(inside)
-        near = points[row, column]
-        sector = _sector(np.arctan2(near[:, 1], near[:, 0]) - turned[row])
-        inside[row, column] = squared[row, column] < self.squared[sector]
-        return inside
-
-
-def _sector(angle: Array) -> Ints:
-    sector: Ints = np.floor(angle * (_SECTORS / (2 * np.pi))).astype(np.int64) % _SECTORS
-    return sector
+def _level(x: Array, y: Array, ellipse: Ellipse) -> Array:
+    """Square of the scale (...) at which the pitch ellipse, blown up about its centre, reaches the points."""
+    level: Array = ((x - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (y / ellipse.semi_minor) ** 2
+    return level
 
 
 def _positions(
-    two: Array,
-    four: Array,
-    reach2: _Envelope,
-    reach4: _Envelope,
-    theta2: Array,
-    theta4: Array,
-    ellipse: Ellipse,
+    two: Array, four: Array, theta2: Array, theta4: Array, ellipse: Ellipse, reach: float, deepest: float
 ) -> tuple[Array, Array, Array, Array]:
-    """Play ahead and behind, depth and gap (k,) of some positions."""
-    k = theta2.size
-    axis = np.array([2 * ellipse.semi_major, 0.0])
-    # All points from O4, where gear 4 turns.
-    placed2, placed4 = _turned(two, theta2) - axis, _turned(four, theta4)
-    near2 = reach4.holds(placed2, theta4)
-    near4 = reach2.holds(placed4 + axis, theta2)
-    points2, group2 = placed2[near2], np.nonzero(near2)[0]
-    points4, group4 = placed4[near4], np.nonzero(near4)[0]
-    edges2, edges4 = _edges(placed2, near2), _edges(placed4, near4)
-    ring = ellipse.perimeter / (EDGES_PER_PITCH * len(two)) * EDGES_PER_PITCH
+    """Play ahead and behind, depth and gap (k,) of some positions; ``reach``: level of the envelopes."""
+    k, distance = theta2.size, 2 * ellipse.semi_major
+    # Everything is seen from gear 4, so that only gear 2 has to be moved.
+    c, s = np.cos(theta2 - theta4)[:, None], np.sin(theta2 - theta4)[:, None]
+    at = -distance * np.column_stack((np.cos(theta4), -np.sin(theta4)))
+    x = c * two[:, 0] - s * two[:, 1] + at[:, :1]
+    y = s * two[:, 0] + c * two[:, 1] + at[:, 1:]
+    near2 = _level(x, y, ellipse) < reach
+    back = distance * np.column_stack((np.cos(theta2), -np.sin(theta2)))
+    near4 = (
+        _level(
+            c * four[:, 0] + s * four[:, 1] + back[:, :1],
+            c * four[:, 1] - s * four[:, 0] + back[:, 1:],
+            ellipse,
+        )
+        < reach
+    )
+    group2, _ = np.nonzero(near2)
+    group4, index4 = np.nonzero(near4)
+    points2, points4 = np.column_stack((x[near2], y[near2])), four[index4]
+    from2, to2 = _edges(near2)
+    edges2 = np.column_stack((x[from2], y[from2])), np.column_stack((x[to2], y[to2])), from2[0]
+    from4, to4 = _edges(near4)
+    edges4 = four[from4[1]], four[to4[1]], from4[0]
+    pitch_ring = float(np.median(np.hypot(*(edges4[1] - edges4[0]).T))) if len(edges4[0]) else 1.0
     ahead, behind = np.full(k, np.inf), np.full(k, np.inf)
     depth, gap = np.zeros(k), np.full(k, np.inf)
-    # Gear 4 turning ahead brings its leaving edges to points of gear 2 that lie ahead of them, and its own
-    # points to entering edges of gear 2.
+    groups, turns, distances = [], [], []
     for points, group, edges, moving in ((points2, group2, edges4, False), (points4, group4, edges2, True)):
-        free = turns_to_edges(points, group, *edges, ring)
+        free = turns_to_edges(points, group, *edges, pitch_ring)
+        # Gear 4 turning ahead brings its leaving edges to points of gear 2 that lie ahead of them, and its
+        # own points to entering edges of gear 2.
         forward = free.entering_ahead if moving else free.leaving_behind
         backward = free.leaving_behind if moving else free.entering_ahead
-        inside, out_ahead, out_behind = _inside(free)
-        # A point inside is freed over the nearer side; gear 4 moves one way, its own points the other.
-        over, back = (out_behind, out_ahead) if moving else (out_ahead, out_behind)
-        first = inside & (over <= back)
-        second = inside & ~first
-        forward = np.where(inside, np.where(first, -over, np.inf), forward)
-        backward = np.where(inside, np.where(second, -back, np.inf), backward)
+        # A point stands in material if the edges on both sides say so; one side may have none in sight.
+        # It is freed over the nearer edge, gear 4 turning one way for its own points and the other way for
+        # points of gear 2.
+        over, under = free.leaving_ahead, free.entering_behind
+        nearer = np.minimum(over, under)
+        inside = (over <= free.entering_ahead) & (under <= free.leaving_behind)
+        inside &= nearer * np.hypot(*points.T) < deepest
+        retreats = inside & ((under <= over) if moving else (over <= under))
+        advances = inside & ~retreats
+        forward = np.where(retreats, -nearer, np.where(advances, np.inf, forward))
+        backward = np.where(advances, -nearer, np.where(retreats, np.inf, backward))
         np.minimum.at(ahead, group, forward)
         np.minimum.at(behind, group, backward)
-        nearest = np.minimum(free.distance_ahead, free.distance_behind)
-        np.minimum.at(gap, group, np.where(inside, 0.0, nearest))
-        np.maximum.at(depth, group[inside], nearest[inside])
+        np.maximum.at(depth, group[inside], free.distance[inside])
+        groups.append(group)
+        turns.append(np.minimum(forward, backward))
+        distances.append(np.where(inside, 0.0, free.distance))
+    # The gap is where the least turn is: elsewhere the arcs are too long to be measured along a normal.
+    group, turn = np.concatenate(groups), np.concatenate(turns)
+    closest = turn <= np.minimum(ahead, behind)[group]
+    np.minimum.at(gap, group[closest], np.concatenate(distances)[closest])
     return ahead, behind, depth, gap
 
 
-def _inside(free: Free) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.bool_]], Array, Array]:
-    """Which queries stand in material, and the turns that free them ahead and behind."""
-    behind = free.entering_behind < free.leaving_behind
-    ahead = free.leaving_ahead < free.entering_ahead
-    return behind & ahead, free.leaving_ahead, free.entering_behind
+def _edges(near: Flags) -> tuple[tuple[Ints, Ints], tuple[Ints, Ints]]:
+    """Index arrays of the first and second corners of edges with an end near contact."""
+    row, column = np.nonzero(near | np.roll(near, -1, axis=1))
+    return (row, column), (row, (column + 1) % near.shape[1])
 
 
 def _turned(points: Array, angles: Array) -> Array:
@@ -229,24 +222,15 @@ def _turned(points: Array, angles: Array) -> Array:
     return np.stack((c * x - s * y, s * x + c * y), axis=-1)
 
 
-def _edges(placed: Array, near: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> tuple[Array, Array, Ints]:
-    """Edges with an end near contact: starts and ends (m, 2), and their positions (m,)."""
-    row, column = np.nonzero(near | np.roll(near, -1, axis=1))
-    return placed[row, column], placed[row, (column + 1) % placed.shape[1]], row
-
-
 def _overlap(gear2: Array, gear4: Array, theta2: Array, theta4: Array, distance: float) -> float:
     """Largest common area, mm², over some positions."""
     import shapely
 
     areas = []
-    for one, other in zip(_turned(gear2, theta2), _turned(gear4, theta4) + (distance, 0.0), strict=True):
-        first, second = shapely.Polygon(one), shapely.Polygon(other)
-        x0, y0, x1, y1 = np.array(
-            [np.maximum(first.bounds, second.bounds)[:2], np.minimum(first.bounds, second.bounds)[2:]]
-        ).ravel()
-        if x0 >= x1 or y0 >= y1:
-            continue
-        clipped = (shapely.clip_by_rect(shape, x0, y0, x1, y1) for shape in (first, second))
-        areas.append(shapely.intersection(*clipped).area)
+    shift = np.array([distance, 0.0])
+    for one, other in zip(_turned(gear2, theta2), _turned(gear4, theta4) + shift, strict=True):
+        low, high = np.maximum(one.min(0), other.min(0)), np.minimum(one.max(0), other.max(0))
+        if (low < high).all():
+            shapes = (shapely.clip_by_rect(shapely.Polygon(gear), *low, *high) for gear in (one, other))
+            areas.append(float(shapely.intersection(*shapes).area))
     return max(areas, default=0.0)

@@ -15,6 +15,13 @@ MaterialName = Annotated[
 ]
 
 
+LEAST_MODULE = 0.1
+"""mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
+
+MOST_TEETH = 300
+"""More teeth say nothing new and take minutes to prove and to cut."""
+
+
 class EllipticGearParams(Parameters):
     """Two congruent elliptic gears, each turning about one focus of its pitch ellipse.
 
@@ -32,9 +39,12 @@ class EllipticGearParams(Parameters):
         le=0.9,  # at 0.9 the ratio swings from 1:19 to 19:1
         description="Eccentricity of the pitch ellipse; the speed ratio swings up to (1 + e) / (1 - e).",
     )
-    teeth: int = Field(25, ge=6, le=300, description="Number of teeth of each gear.")
+    teeth: int = Field(25, ge=6, le=MOST_TEETH, description="Number of teeth of each gear.")
     module: Millimetres | None = Field(
-        None, ge=0.1, le=25, description="Pitch on the pitch ellipse over π; give this or semi_major."
+        None,
+        ge=LEAST_MODULE,
+        le=25,
+        description="Pitch on the pitch ellipse over π; give this or semi_major.",
     )
     semi_major: Millimetres | None = Field(
         50.0, ge=2, le=1000, description="Half the major axis, half the centre distance; give this or module."
@@ -76,7 +86,7 @@ class EllipticGearParams(Parameters):
         0.0,
         ge=0,
         le=20,
-        description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for sharp corners.",
+        description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
     )
     speed: RevPerMin = Field(60.0, gt=0, le=20000, description="Constant speed of gear 2, counter-clockwise.")
 

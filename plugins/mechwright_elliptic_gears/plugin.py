@@ -5,8 +5,10 @@ from typing import Any
 from mechwright.family import Family
 from mechwright.hookspecs import hookimpl
 
+from mechwright_elliptic_gears.family import EllipticGears
+
 
 @hookimpl
 def mechwright_register_families() -> list[type[Family[Any]]]:
     """The mechanism families."""
-    return []
+    return [EllipticGears]

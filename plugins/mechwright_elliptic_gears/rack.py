@@ -66,8 +66,6 @@ class Rack:
 
     @property
     def half_land(self) -> float:
-        """Half the land, mm: from the middle of the rack tooth to the centre of a tip arc; negative if the
-        two arcs overlap.
-        """
+        """From the middle of the rack tooth to the centre of a tip arc, mm; negative if the arcs overlap."""
         alpha = self.pressure_angle
         return self.half_space - self.straight_depth * math.tan(alpha) - self.tip_radius * math.cos(alpha)

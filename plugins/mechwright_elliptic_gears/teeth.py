@@ -58,7 +58,8 @@ class Teeth:
     @cached_property
     def tooth_arcs(self) -> Array:
         """Arc (z,), mm, to the middle of each tooth."""
-        return (np.arange(self.count) + self.offset) * self.rack.pitch
+        arcs: Array = (np.arange(self.count, dtype=np.float64) + self.offset) * self.rack.pitch
+        return arcs
 
     @cached_property
     def space_arcs(self) -> Array:
@@ -119,9 +120,7 @@ class Teeth:
 
     @cached_property
     def least_regularity(self) -> Array:
-        """Least regularity factor (z, 2) of each flank between its two ends, in units of sin²α: 1 on the
-        pitch curve, 0 where undercut begins.
-        """
+        """Least regularity factor (z, 2) of each flank over sin²α: 1 at the pitch curve, 0 is undercut."""
         t = np.linspace(0, 1, _FACTOR_SAMPLES)
         start = self.flank_arcs[..., None]
         frame = self.ellipse.frame_at(start + t * (self.join_arcs[..., None] - start))
@@ -131,8 +130,10 @@ class Teeth:
 
     @cached_property
     def tip_trim(self) -> tuple[Array, Array]:
-        """Where flank and tip meet: eccentric angles (z, 2) of the frame that makes the flank's point, and of
-        the frame below the tip's point, rad. Newton's method in both at once.
+        """Where flank and tip meet: two arrays (z, 2) of eccentric angles, rad.
+
+        The first belongs to the frame that makes the flank's point, the second to the one below the tip's
+        point. Newton's method in both at once.
 
         Raises
         ------
@@ -160,9 +161,7 @@ class Teeth:
             determinant = rate_v[..., 1] * rate_w[..., 0] - rate_v[..., 0] * rate_w[..., 1]
             v = v - (rate_w[..., 0] * gap[..., 1] - rate_w[..., 1] * gap[..., 0]) / determinant
             w = w - (rate_v[..., 0] * gap[..., 1] - rate_v[..., 1] * gap[..., 0]) / determinant
-        raise GeometryError(
-            f"addendum: a flank does not reach the tip {rack.addendum:g} mm over the pitch curve"
-        )
+        raise GeometryError(f"addendum: a flank does not reach {rack.addendum:g} mm over the pitch curve")
 
     @cached_property
     def tip_lands(self) -> tuple[Array, Array]:

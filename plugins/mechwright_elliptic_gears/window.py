@@ -54,7 +54,7 @@ def near_constant(
     (2.094395, 0.0)
     """
     step = period / samples
-    values = speed(step * np.arange(samples))
+    values = np.asarray(speed(step * np.arange(samples, dtype=np.float64)), dtype=np.float64)
     if values.max() - values.min() <= band:
         return Window(0.0, period, float(values.min()))
     length, low, high = _longest_runs(values, band)
@@ -72,7 +72,7 @@ def near_constant(
 def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
     """For every start the number of samples whose range is within the band, their least and greatest.
 
-    Tables of minima and maxima over 2^k samples, then doubling steps backwards: n log n, no loop over samples.
+    Tables of minima and maxima over 2^k samples, then steps of falling size: n log n, no loop over samples.
     """
     n = values.size
     lows, highs = [values], [values]

@@ -162,4 +162,5 @@ def _bernstein(degree: int, t: Array) -> Array:
 def _interpolation(degree: int) -> tuple[Array, Array]:
     """Lobatto nodes (degree + 1,) and the matrix that turns values there into control points."""
     nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
-    return nodes, np.linalg.inv(_bernstein(degree, nodes))
+    inverse: Array = np.linalg.inv(_bernstein(degree, nodes)).astype(np.float64)
+    return nodes, inverse

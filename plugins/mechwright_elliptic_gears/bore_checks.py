@@ -1,0 +1,162 @@
+"""Checks of bore and keyway: standard sizes, reliefs, and the rim up to the roots."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from mechwright.findings import Finding, Severity, errors
+
+from mechwright_elliptic_gears.gear import opening_of, teeth_of
+from mechwright_elliptic_gears.keyway import KEYS, Opening, key_for_bore, key_of_width
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+LEAST_RIM = 1.0
+"""Thinnest rim between opening and root, in modules: thinner ones give way under the tooth's load."""
+
+FULL_RIM = 1.2
+"""Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
+
+SMALLEST_EDGE = 0.01
+"""Straight length, mm, that must stay between reliefs, and between relief and bore."""
+
+_PITCH_SAMPLES = 4096
+"""Points of the pitch curve for the rim: a millionth of its size apart from the exact distance."""
+
+
+def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
+    """Bore and keyway by themselves, then their rim."""
+    found = list(_keyway(params)) if params.keyway_width > 0 else []
+    yield from found
+    if not errors(found):
+        yield from _rim(params)
+
+
+def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
+    width, bore = params.keyway_width, params.bore
+    standard, fitting = key_of_width(width), key_for_bore(bore)
+    if width >= bore:
+        yield Finding(
+            "bore.keyway-width",
+            Severity.ERROR,
+            "keyway_width",
+            f"a keyway {width:g} mm wide swallows the bore of {bore:g} mm",
+            width,
+            bore,
+            "mm",
+            "make keyway_width smaller than bore"
+            + (f"; the standard is {fitting.width:g}" if fitting else ""),
+        )
+        return
+    if params.keyway_depth is None and standard is None:
+        widths = ", ".join(f"{key.width:g}" for key in KEYS)
+        yield Finding(
+            "bore.keyway-depth",
+            Severity.ERROR,
+            "keyway_depth",
+            f"no standard key is {width:g} mm wide, so its depth is not known",
+            width,
+            None,
+            "mm",
+            f"give keyway_depth, or a width of {widths}",
+        )
+        return
+    opening = opening_of(params)
+    assert opening is not None  # noqa: S101 - a keyway comes with a bore
+    if standard is not None:
+        yield from _depth(opening, standard.hub_depth, standard.height - standard.shaft_depth)
+    if fitting is None or fitting.width != width:
+        series = f"{fitting.width:g} mm" if fitting else "none"
+        yield Finding(
+            "bore.keyway-series",
+            Severity.WARNING,
+            "keyway_width",
+            f"DIN 6885-1 has another key for a bore of {bore:g} mm: {series}",
+            width,
+            fitting.width if fitting else None,
+            "mm",
+            f"use keyway_width = {fitting.width:g}" if fitting else "make sure that such a key is at hand",
+        )
+    if opening.relief > 0:
+        most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
+        if opening.relief > most:
+            yield Finding(
+                "bore.keyway-relief",
+                Severity.ERROR,
+                "keyway_relief",
+                f"reliefs of {opening.relief:g} mm leave nothing of the keyway's floor or sides",
+                opening.relief,
+                most,
+                "mm",
+                f"make keyway_relief at most {max(0.0, math.floor(most * 100) / 100):g}",
+            )
+
+
+def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Finding]:
+    if opening.depth == standard:
+        return
+    too_shallow = opening.depth < key_height
+    yield Finding(
+        "bore.keyway-depth",
+        Severity.ERROR if too_shallow else Severity.WARNING,
+        "keyway_depth",
+        f"the standard key stands {key_height:g} mm out of the shaft and does not go in"
+        if too_shallow
+        else "the depth is not that of DIN 6885-1",
+        opening.depth,
+        key_height if too_shallow else standard,
+        "mm",
+        f"use keyway_depth = {standard:g}, or leave it out",
+    )
+
+
+def _rim(params: EllipticGearParams) -> Iterator[Finding]:
+    teeth = teeth_of(params)
+    m = teeth.rack.module
+    opening = opening_of(params)
+    plain = _room(params, np.zeros((1, 2))) - params.bore / 2
+    rim, blame = plain, "bore" if opening else "eccentricity"
+    if opening and opening.has_keyway:
+        rim = min(plain, _room(params, opening.loop().flatten()))
+        if rim < plain:
+            blame = "keyway_relief" if opening.relief and rim < _without_relief(params) else "keyway_depth"
+    full = FULL_RIM * (teeth.rack.addendum + teeth.rack.dedendum) / m
+    least = LEAST_RIM
+    rim /= m
+    if rim >= full:
+        return
+    too_thin = rim < least
+    if blame == "bore":
+        wanted = max(0.0, 2 * (plain + params.bore / 2 - (least if too_thin else full) * m))
+        remedy = f"make bore at most {math.floor(wanted * 100) / 100:g}, or the gear larger"
+        if math.floor(wanted * 100) == 0:
+            remedy = "make the gear larger, or use more teeth or a smaller eccentricity"
+    else:
+        remedy = f"make {blame} smaller, or the gear larger"
+    yield Finding(
+        "bore.rim",
+        Severity.ERROR if too_thin else Severity.WARNING,
+        blame,
+        f"{rim:.2f} modules stay between the shaft opening and the nearest root",
+        rim,
+        least if too_thin else full,
+        "modules",
+        remedy,
+    )
+
+
+def _without_relief(params: EllipticGearParams) -> float:
+    opening = opening_of(params.model_copy(update={"keyway_relief": 0.0}))
+    assert opening is not None  # noqa: S101 - asked only where there is a keyway
+    return _room(params, opening.loop().flatten())
+
+
+def _room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
+    """Least distance, mm, of points (n, 2) from the root curve; negative beyond it."""
+    teeth = teeth_of(params)
+    ellipse = teeth.ellipse
+    on_pitch = ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point
+    nearest = min(float(np.hypot(*(on_pitch - point).T).min()) for point in points)
+    level = ((points[:, 0] - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (
+        points[:, 1] / ellipse.semi_minor
+    ) ** 2
+    return (nearest if level.max() < 1 else -nearest) - teeth.rack.dedendum

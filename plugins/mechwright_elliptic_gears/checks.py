@@ -1,0 +1,290 @@
+"""What an engineer would object to in a design, and the figures worth knowing.
+
+The checks run from the rack to the mesh. Each group needs what the groups before it have found to be sound, so
+the first group with an error ends the list.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+
+from mechwright.errors import GeometryError
+from mechwright.findings import Finding, Severity, errors
+from mechwright.materials import material
+
+from mechwright_elliptic_gears.bore_checks import opening_findings
+from mechwright_elliptic_gears.gear import offset_miss, offsets_that_mesh, outline_of, rack_of, teeth_of
+from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
+from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
+from mechwright_elliptic_gears.proof import prove
+from mechwright_elliptic_gears.undercut import undercut_findings
+
+LEAST_CLEARANCE = 0.1
+"""Modules between tip and root below which dirt and run-out make them touch (ISO 53 racks have 0.25)."""
+
+LEAST_TIP = 0.2
+"""Narrowest tip land in modules: the usual least of gear standards for teeth that are not case-hardened;
+thinner tips break out."""
+
+SHAFT_PRESSURE_ANGLE = 50.0
+"""Degrees above which the flanks mainly push the shafts apart and friction may block the drive."""
+
+FLANK_ERROR = 0.002
+"""Jump of a flank at the change from tooth to tooth, mm, that no longer comes from fitting: contact is lost."""
+
+_CACHED = 32
+"""Designs whose findings are kept: parts ask for them again."""
+
+
+@lru_cache(_CACHED)
+def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
+    """Everything that is to be said about a design. No error among it means that the part can be built."""
+    found: list[Finding] = []
+    groups: tuple[Callable[[EllipticGearParams], Iterator[Finding]], ...] = (
+        _rack,
+        undercut_findings,
+        _tip,
+        opening_findings,
+        _drive,
+        _mesh,
+        _figures,
+    )
+    for group in groups:
+        found += group(params)
+        if errors(found):
+            break
+    return tuple(found)
+
+
+def _rack(params: EllipticGearParams) -> Iterator[Finding]:
+    """What must hold before any curve is drawn."""
+    teeth, rack = teeth_of(params), rack_of(params)
+    m = rack.module
+    if m < LEAST_MODULE:
+        most = math.floor(params.teeth * m / LEAST_MODULE)
+        yield Finding(
+            "gear.module",
+            Severity.ERROR,
+            "teeth",
+            f"{params.teeth} teeth on this ellipse make a module of {m:.3g} mm, below {LEAST_MODULE:g} mm",
+            m,
+            LEAST_MODULE,
+            "mm",
+            f"use at most {most} teeth, or a larger semi_major",
+        )
+    if params.tooth_offset is not None:
+        right = offsets_that_mesh(params.teeth)
+        if offset_miss(params.tooth_offset, params.teeth) > 0:
+            nearest = min(right, key=lambda value: abs((params.tooth_offset or 0.0) - value))
+            parity = "odd" if params.teeth % 2 else "even"
+            yield Finding(
+                "gear.phase",
+                Severity.ERROR,
+                "tooth_offset",
+                f"wrong phase: with a tooth {params.tooth_offset:g} pitches from the far vertex, two gears of "
+                f"{params.teeth} teeth collide",
+                params.tooth_offset,
+                nearest,
+                "",
+                f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
+            )
+    if params.tip_radius >= params.dedendum:
+        yield Finding(
+            "gear.rack",
+            Severity.ERROR,
+            "tip_radius",
+            "the tip arc of the rack is deeper than its tooth",
+            params.tip_radius,
+            params.dedendum,
+            "modules",
+            "make tip_radius smaller than dedendum",
+        )
+    clearance = params.dedendum - params.addendum
+    if clearance < LEAST_CLEARANCE:
+        yield Finding(
+            "gear.clearance",
+            Severity.ERROR if clearance <= 0 else Severity.WARNING,
+            "dedendum",
+            f"tips run {clearance:.3g} modules from the mating roots, below {LEAST_CLEARANCE:g}",
+            params.dedendum,
+            params.addendum + LEAST_CLEARANCE,
+            "modules",
+            f"make dedendum at least {params.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
+        )
+    tightest = teeth.ellipse.least_radius
+    if rack.dedendum >= tightest:
+        yield Finding(
+            "gear.convexity",
+            Severity.ERROR,
+            "dedendum",
+            f"the root lies {rack.dedendum:.3f} mm inside an ellipse that is curved by {tightest:.3f} mm at "
+            "the ends of its major axis: its offset curve crosses itself",
+            params.dedendum,
+            tightest / rack.module,
+            "modules",
+            "use more teeth, a smaller eccentricity or a smaller dedendum",
+        )
+    if rack.half_land < 0:
+        yield _land(params)
+
+
+def _land(params: EllipticGearParams) -> Finding:
+    rack = rack_of(params)
+    sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
+    # The half land is half_space - h_f tan α - r_f (1 - sin α) / cos α.
+    most = (rack.half_space - rack.dedendum * sin / cos) * cos / (1 - sin) / rack.module
+    if most >= 0:
+        return Finding(
+            "gear.root-land",
+            Severity.ERROR,
+            "tip_radius",
+            "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
+            params.tip_radius,
+            most,
+            "modules",
+            f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
+        )
+    deepest = rack.half_space * cos / sin / rack.module
+    return Finding(
+        "gear.root-land",
+        Severity.ERROR,
+        "dedendum",
+        "the flanks of a rack tooth meet before its tip: there is no root",
+        params.dedendum,
+        deepest,
+        "modules",
+        f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
+    )
+
+
+def _tip(params: EllipticGearParams) -> Iterator[Finding]:
+    try:
+        width = _tip_width(params)
+    except GeometryError as error:
+        yield Finding(
+            "gear.tip",
+            Severity.ERROR,
+            "addendum",
+            str(error),
+            params.addendum,
+            None,
+            "modules",
+            "make addendum smaller",
+        )
+        return
+    if width >= LEAST_TIP:
+        return
+    without = params.model_copy(update={"backlash": 0.0})
+    blame = "backlash" if params.backlash and _tip_width(without) >= LEAST_TIP else "addendum"
+    what = "pointed" if width <= 0 else f"{width:.3f} modules wide at the tip"
+    yield Finding(
+        "gear.tip",
+        Severity.ERROR,
+        blame,
+        f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
+        width,
+        LEAST_TIP,
+        "modules",
+        f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
+    )
+
+
+def _tip_width(params: EllipticGearParams) -> float:
+    teeth = teeth_of(params)
+    return float(teeth.tip_widths.min()) / teeth.rack.module
+
+
+def _drive(params: EllipticGearParams) -> Iterator[Finding]:
+    angle = math.degrees(
+        steepest_shaft_pressure_angle(params.eccentricity, math.radians(params.pressure_angle))
+    )
+    if angle > SHAFT_PRESSURE_ANGLE:
+        most = math.sin(math.radians(SHAFT_PRESSURE_ANGLE - params.pressure_angle))
+        yield Finding(
+            "gear.pressure-angle",
+            Severity.WARNING,
+            "eccentricity",
+            f"the pressure angle that the shaft sees reaches {angle:.1f} degrees at e = "
+            f"{params.eccentricity:g}, above {SHAFT_PRESSURE_ANGLE:g}: the teeth push more than they turn",
+            angle,
+            SHAFT_PRESSURE_ANGLE,
+            "deg",
+            f"make eccentricity at most {math.floor(most * 1e3) / 1e3:g}, or let a coupler between the free "
+            "foci carry the steep part",
+        )
+
+
+def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
+    proof = prove(params)
+    depth = float(proof.mesh.depth.max())
+    if proof.collides:
+        yield Finding(
+            "gear.mesh",
+            Severity.ERROR,
+            "addendum",
+            f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
+            depth,
+            proof.allowance,
+            "mm",
+            "make addendum smaller, or use more teeth",
+        )
+        return
+    if proof.flank_error > FLANK_ERROR:
+        yield Finding(
+            "gear.contact",
+            Severity.WARNING,
+            "addendum",
+            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: a "
+            "tooth leaves contact before the next one takes over",
+            proof.flank_error,
+            FLANK_ERROR,
+            "mm",
+            "make addendum larger or pressure_angle smaller, or use more teeth",
+        )
+    play = proof.mesh.free_play
+    yield Finding(
+        "gear.mesh",
+        Severity.NOTE,
+        "",
+        f"mesh proven at {play.size} positions: overlap {proof.mesh.overlap:g} mm², gap "
+        f"{max(0.0, float(proof.mesh.gap.min())):.6f} to {float(proof.mesh.gap.max()):.6f} mm, transmission "
+        f"error {proof.error * 1e6:.1f} µrad peak to peak"
+        + (
+            f" over that of the backlash, {proof.mesh.transmission_error * 1e6:.0f} µrad in all"
+            if params.backlash
+            else ""
+        ),
+        proof.error * 1e6,
+        None,
+        "µrad",
+    )
+
+
+def _figures(params: EllipticGearParams) -> Iterator[Finding]:
+    teeth, outline = teeth_of(params), outline_of(params)
+    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
+    mass = outline.area * params.thickness * density
+    inertia = outline.polar_moment * params.thickness * density
+    yield Finding(
+        "gear.size",
+        Severity.NOTE,
+        "",
+        f"module {teeth.rack.module:.4f} mm, semi-axes {teeth.ellipse.semi_major:.4f} and "
+        f"{teeth.ellipse.semi_minor:.4f} mm, centre distance {2 * teeth.ellipse.semi_major:.4f} mm; each gear "
+        f"{mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
+        2 * teeth.ellipse.semi_major,
+        None,
+        "mm",
+    )
+    # The fillet is tightest at its bottom, where the pitch curve is flattest.
+    rack = teeth.rack
+    radius = rack.tip_radius + rack.arc_depth**2 / (teeth.ellipse.greatest_radius + rack.arc_depth)
+    yield Finding(
+        "gear.fillet",
+        Severity.NOTE,
+        "",
+        f"the largest end mill that cuts every fillet exactly has a diameter of {2 * radius:.3f} mm",
+        2 * radius,
+        None,
+        "mm",
+    )

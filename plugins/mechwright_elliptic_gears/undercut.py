@@ -1,0 +1,61 @@
+"""Undercut, flank by flank, and the least number of teeth that is free of it."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from mechwright.findings import Finding, Severity
+
+from mechwright_elliptic_gears.gear import offset_miss, rack_of, teeth_of
+from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
+
+LEAST_REGULARITY = 1e-4
+"""Share of its regularity on the pitch curve that a flank keeps to its end: at 0 it ends in a cusp, where a
+fitted curve could turn back."""
+
+
+def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
+    """An error if any flank is undercut, with what would not be."""
+    factor = teeth_of(params).least_regularity
+    bad = factor < LEAST_REGULARITY
+    if not bad.any():
+        return
+    space, side = np.unravel_index(int(np.argmin(factor)), factor.shape)
+    better = least_teeth(params)
+    if better is None:
+        remedy = "use a smaller eccentricity or dedendum, or a larger pressure_angle"
+    else:
+        remedy = f"use {better.teeth} teeth, the least number that works"
+        if params.semi_major is not None:
+            remedy += f" (a module of at most {rack_of(better).module:.4f} mm)"
+    yield Finding(
+        "gear.undercut",
+        Severity.ERROR,
+        "teeth",
+        f"{int(bad.sum())} of {bad.size} flanks are undercut, most of all that on side {int(side) * 2 - 1:+d} of "
+        f"space {int(space)}: its regularity falls to {float(factor.min()):.3f} of that on the pitch curve",
+        params.teeth,
+        None if better is None else better.teeth,
+        "",
+        remedy,
+    )
+
+
+def is_undercut(params: EllipticGearParams) -> bool:
+    """Whether any flank is undercut."""
+    return bool((teeth_of(params).least_regularity < LEAST_REGULARITY).any())
+
+
+def least_teeth(params: EllipticGearParams) -> EllipticGearParams | None:
+    """The same design with the least greater number of teeth that is free of undercut.
+
+    A tooth offset that the table gives is kept, so that only numbers of one parity come into question.
+    None if the bounds of ``teeth`` hold no such number.
+    """
+    for teeth in range(params.teeth + 1, MOST_TEETH + 1):
+        if params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
+            continue
+        candidate = params.model_copy(update={"teeth": teeth})
+        rack, ellipse = rack_of(candidate), teeth_of(candidate).ellipse
+        if rack.dedendum < ellipse.least_radius and not is_undercut(candidate):
+            return candidate
+    return None
