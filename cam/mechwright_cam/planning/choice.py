@@ -1,0 +1,57 @@
+"""Which of a job's end mills does what."""
+
+from collections.abc import Sequence
+
+import shapely
+from mechwright.errors import ToolError
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import Tool
+
+from mechwright_cam.job import Job
+from mechwright_cam.reach import closing, leaves_at_most
+from mechwright_cam.toolpath.offsets import BIAS
+
+SAME_REACH = TOLERANCES.leftover - BIAS - TOLERANCES.arc_fit - TOLERANCES.flatten
+"""A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what remains
+of the permitted leftover when path and outline have used their tolerances."""
+
+
+def long_enough(tool: Tool, depth: float) -> bool:
+    """Whether the flutes reach the bottom of a cut of this depth, mm."""
+    return tool.flute_length >= depth - 1e-9
+
+
+def usable_mills(job: Job, depth: float) -> list[Tool]:
+    """End mills of the job that can cut its material to ``depth``, largest first; raises ToolError if none."""
+    material = job.part.material
+    knows = [tool for tool in job.end_mills if material in tool.cutting]
+    if not knows:
+        what = f"none has cutting data for {material}" if job.end_mills else "there is none"
+        raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
+    mills = [tool for tool in knows if long_enough(tool, depth)]
+    if not mills:
+        longest = max(knows, key=lambda tool: tool.flute_length)
+        raise ToolError(
+            f"cam.tools: no end mill for part {job.part.name} cuts {depth:g} mm deep; the longest, "
+            f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one"
+        )
+    return mills
+
+
+def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
+    """The largest mill that leaves on the walls of ``keep`` no more than the finest one, largest mill first."""
+    finest = mills[-1]
+    reference = closing(keep, finest.radius)
+    low, high = 0, len(mills) - 1
+    while low < high:  # what is left only grows with the radius
+        middle = (low + high) // 2
+        if leaves_at_most(reference, mills[middle].radius, SAME_REACH):
+            high = middle
+        else:
+            low = middle + 1
+    return mills[low]
+
+
+def finishing_mill(job: Job, keep: shapely.Geometry) -> Tool:
+    """The mill that finishes the walls of a through cut around ``keep``."""
+    return finishing_choice(usable_mills(job, -job.floor), keep)

@@ -1,0 +1,124 @@
+"""Finishing: along the wall in depth passes, entered and left on tangential arcs."""
+
+import math
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+from mechwright.tooling import CamSettings
+from numpy.typing import NDArray
+
+from mechwright_cam.planning.clearing import CLEAR
+from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.planning.zone import Zone
+from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.toolpath.leads import best_start, lead_shapes, with_leads
+from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
+from mechwright_cam.toolpath.path import Path
+
+LEAD_PLAY = 0.003
+"""Leads touch the path they lead to: they may come this much nearer to the wall than BIAS asks, mm; what is
+left of BIAS and rounding still keeps them off it."""
+
+
+class Finishing:
+    """The finishing of one zone by its finishing mill, when ``left`` holds only what roughing left on walls."""
+
+    def __init__(self, zone: Zone, settings: CamSettings) -> None:
+        self.zone, self.settings, self.tool = zone, settings, zone.finisher
+        radius = self.tool.radius
+        self.blocked = grow(zone.keep, radius + BIAS)
+        self.room = zone.room(radius)
+        self.near = grow(zone.left, radius - CLEAR, ROUGH)
+        self.free = shapely.difference(
+            grow(self.room, CLEAR, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))
+        )
+        for shape in (self.room, self.near, self.free):
+            shapely.prepare(shape)
+
+    def write(self, pen: Pen) -> None:
+        """Write the moves of all rings."""
+        zone = self.zone
+        heights = levels(zone.top, zone.bottom, self.settings.finish_step * self.tool.diameter)
+        heights += [zone.bottom] * self.settings.spring_passes
+        waiting = self._pieces()
+        while waiting:
+            piece = waiting.pop(0)
+            if piece.closed:
+                self._ring(pen, piece.points, heights)
+            else:
+                self._stretch(pen, fit(piece.points, FIT), heights)
+            here = pen.place
+            waiting.sort(key=lambda other: float(np.hypot(*(other.points[0] - here))))
+        pen.retract()
+
+    def _pieces(self) -> list[Piece]:
+        found = []
+        for ring in rings(self.blocked, self.settings.climb):
+            dense = densified(ring, self.tool.radius / 4)
+            inside = shapely.contains_xy(self.room, dense[:, 0], dense[:, 1])
+            found.extend(pieces(dense, inside, inside, inside, 0))
+        return found
+
+    def _is_clear(self, points: Array) -> NDArray[np.bool_]:
+        clear: NDArray[np.bool_] = ~shapely.contains_xy(self.near, points[:, 0], points[:, 1])
+        return clear
+
+    def _is_free(self, points: Array) -> NDArray[np.bool_]:
+        free: NDArray[np.bool_] = shapely.contains_xy(self.free, points[:, 0], points[:, 1])
+        return free
+
+    def _ring(self, pen: Pen, ring: Array, heights: list[float]) -> None:
+        least = self.settings.stock_to_leave
+        shapes = lead_shapes(self.tool.radius, least)
+        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear)
+        if found is None:
+            clear = np.flatnonzero(self._is_clear(ring[:-1]))
+            self._loop(pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0)
+            return
+        at, rho, sweep = found
+        points = _from(ring, at)
+        first, last = points[1] - points[0], points[0] - points[-2]
+        one, two = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
+        heading = one - ((one - two + math.pi) % math.tau - math.pi) / 2
+        path = with_leads(fit(points, FIT), heading, rho, sweep, self.settings.climb)
+        self._stretch(pen, path, heights)
+
+    def _stretch(self, pen: Pen, path: Path, heights: list[float]) -> None:
+        """A path that starts and ends in the clear, at every height."""
+        if not path.cuts:
+            return
+        back = np.linspace(path.end, path.start, 20)
+        direct = bool(self._is_free(back).all() and self._is_clear(back).all())
+        is_open = bool(self._is_clear(np.array([path.start]))[0])
+        above = self.zone.top
+        for number, z in enumerate(heights):
+            if number and direct:
+                pen.straight(path.start)
+            else:
+                pen.above(path.start)
+            if is_open:
+                pen.sink(z)
+            else:
+                pen.sink(above)
+                pen.ramp(path, z)
+            pen.follow(path)
+            above = z
+
+    def _loop(self, pen: Pen, path: Path, heights: list[float], is_open: bool) -> None:
+        """A closed path without room for leads: sunk where it is clear, else ramped along itself."""
+        if not path.cuts:
+            return
+        pen.above(path.start)
+        pen.sink(self.zone.top)
+        for z in heights:
+            if is_open:
+                pen.sink(z)
+            else:
+                pen.ramp(path, z)
+            pen.follow(path)
+
+
+def _from(ring: Array, at: int) -> Array:
+    """A closed ring that starts at another vertex."""
+    return np.concatenate((ring[at:-1], ring[: at + 1]))

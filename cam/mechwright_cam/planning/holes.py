@@ -1,0 +1,201 @@
+"""Holes: spot drill, drill, and helical bore to size."""
+
+import math
+from dataclasses import dataclass
+
+import shapely
+from mechwright.errors import ToolError
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore
+from mechwright.program import Drill, Move, Rapid
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import Tool, ToolKind
+
+from mechwright_cam.job import Job
+from mechwright_cam.planning.choice import usable_mills
+from mechwright_cam.planning.pen import APPROACH, Pen, levels
+from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.zone import bottom_of, through
+from mechwright_cam.toolpath.path import Path, arc, circle, rounded
+
+DEEP = 3.0
+"""From this depth in diameters a hole is drilled in pecks: the usual limit of a twist drill's chips."""
+SPOT = 0.6
+"""Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""
+ROOMY = 0.7
+"""A mill up to this share of a hole's diameter leaves room for chips."""
+SNUG = 0.9
+"""A mill up to this share still turns a helix; beyond, it would be a drill."""
+CORELESS = 0.8
+"""First helix in cutter radii: below 1, so that no core stays."""
+ON_SIZE = 0.005
+"""A drill this near to a hole's diameter makes the hole to size, mm."""
+CIRCLE_BIAS = TOLERANCES.flatten + 1e-4
+"""A bore's path is an exact circle: it keeps off by the chords of the outline and by rounding, mm."""
+
+
+def point_length(drill: Tool) -> float:
+    """Length of a drill's point, mm."""
+    return drill.radius / math.tan(math.radians(drill.point_angle) / 2)
+
+
+def usable_drills(job: Job, depth: float) -> list[Tool]:
+    """Drills of the job that can make a hole of full diameter to ``depth``, largest first."""
+    fit = [
+        tool
+        for tool in job.tools
+        if tool.kind is ToolKind.DRILL
+        and job.part.material in tool.cutting
+        and tool.flute_length >= depth + point_length(tool)
+    ]
+    return sorted(fit, key=lambda tool: -tool.diameter)
+
+
+def spot_drill(job: Job) -> Tool | None:
+    """The spot drill of the job, None if it has none for this material."""
+    fit = [t for t in job.tools if t.kind is ToolKind.SPOT_DRILL and job.part.material in t.cutting]
+    return min(fit, key=lambda tool: tool.diameter, default=None)
+
+
+def starting_drill(job: Job, diameter: float, depth: float) -> Tool | None:
+    """The largest drill whose hole lies inside the roughing allowance of a hole."""
+    limit = diameter - 2 * max(job.settings.stock_to_leave, ON_SIZE)
+    return next((drill for drill in usable_drills(job, depth) if drill.diameter <= limit), None)
+
+
+def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:
+    """The mill for a hole: the largest with room for chips, else the smallest that fits at all."""
+    roomy = [mill for mill in mills if mill.diameter <= ROOMY * diameter]
+    snug = [mill for mill in mills if mill.diameter <= SNUG * diameter]
+    return roomy[0] if roomy else (snug[-1] if snug else None)
+
+
+@dataclass(frozen=True)
+class BorePlan:
+    """The cutters of one bore."""
+
+    bore: Bore
+    drill: Tool | None
+    mill: Tool | None
+
+
+def plan_bore(job: Job, bore: Bore) -> BorePlan:
+    """Choose the cutters of a bore; raises ToolError if there is no way to make it."""
+    depth = -bottom_of(job, bore.top, bore.depth)
+    mill = boring_mill(usable_mills(job, depth), bore.diameter)
+    if mill is not None:
+        drill = starting_drill(job, bore.diameter, depth) if through(job, bore.top + bore.depth) else None
+        return BorePlan(bore, drill, mill)
+    for drill in usable_drills(job, depth):
+        if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
+            return BorePlan(bore, drill, None)
+    raise ToolError(
+        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill up to "
+        f"{SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
+    )
+
+
+def drill_moves(job: Job, drill: Tool, places: list[Point], depth: float, clearance: float) -> tuple[Move, ...]:
+    """Drill holes of full diameter to ``depth`` mm below the stock's top."""
+    speed = rates(drill, job.part.material, job.settings.machine)
+    deep = depth > DEEP * drill.diameter
+    peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
+    bottom = rounded(-depth - point_length(drill))
+    return _holes(places, bottom, speed.feed, clearance, None if peck is None else rounded(peck))
+
+
+def spot_moves(
+    job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float
+) -> tuple[Move, ...]:
+    """Spot holes for drills of the diameters given with the places."""
+    speed = rates(spot, job.part.material, job.settings.machine)
+    moves: list[Move] = []
+    for place, diameter in places:
+        wide = min(SPOT * diameter, spot.diameter)
+        depth = wide / 2 / math.tan(math.radians(spot.point_angle) / 2)
+        moves.extend(_holes([place], rounded(-depth), speed.feed, clearance, None, dwell=0.2))
+    return tuple(moves)
+
+
+def _holes(
+    places: list[Point], bottom: float, feed: float, clearance: float, peck: float | None, dwell: float = 0.0
+) -> tuple[Move, ...]:
+    moves: list[Move] = []
+    for x, y in ((rounded(x), rounded(y)) for x, y in places):
+        moves += [
+            Rapid(x=x, y=y),
+            Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell),
+            Rapid(z=clearance),
+        ]
+    return tuple(moves)
+
+
+def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
+    """Write helices out to the finishing allowance; whether there was anything to write."""
+    bore, mill = plan.bore, plan.mill
+    assert mill is not None  # noqa: S101 - the caller has one
+    data = mill.cutting[job.part.material]
+    widest = bore.diameter / 2 - mill.radius - max(job.settings.stock_to_leave, CIRCLE_BIAS)
+    final = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
+    if plan.drill is not None and widest + mill.radius <= plan.drill.radius + CIRCLE_BIAS:
+        return False  # the drill has left just the finishing allowance
+    # Too narrow for an allowance: the finishing circle is the only one.
+    widest = widest if widest >= final / 2 else final
+    step = min(data.step_over, CORELESS) * mill.diameter
+    first = min(widest, CORELESS * mill.radius)
+    if plan.drill is not None:
+        first = max(first, min(widest, plan.drill.radius + step - mill.radius))
+    count = math.ceil((widest - first) / step - 1e-9) + 1
+    for number in range(count):
+        radius = widest if number == count - 1 else first + number * (widest - first) / (count - 1)
+        _helix(job, bore, pen, radius, data.step_down * mill.diameter)
+    pen.retract()
+    return True
+
+
+def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float) -> None:
+    """Down along a helix, once round at the bottom, and to the middle."""
+    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+    bottom = bottom_of(job, bore.top, bore.depth)
+    # A little less than the steepest, for rounding.
+    pitch = min(step_down, math.tau * radius * pen.slope * 0.999)
+    pen.above(turn.start)
+    pen.sink(-bore.top)
+    for z in levels(-bore.top, bottom, pitch):
+        pen.descend(turn, z, min(pen.rates.ramp, pen.rates.inside(radius, pen.tool.radius)))
+    pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
+    pen.straight(bore.centre)
+
+
+def finish_bore(job: Job, plan: BorePlan, pen: Pen) -> None:
+    """Write the finishing circles, entered and left on half circles from the middle."""
+    bore, mill = plan.bore, plan.mill
+    assert mill is not None  # noqa: S101 - the caller has one
+    radius = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
+    bottom = bottom_of(job, bore.top, bore.depth)
+    ccw = job.settings.climb
+    x, y = rounded(bore.centre[0]), rounded(bore.centre[1])
+    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), ccw)
+    middle, side = ((x + turn.start[0]) / 2, (y + turn.start[1]) / 2), 1 if ccw else -1
+    path = Path(
+        (x, y),
+        (
+            arc((x, y), turn.start, middle, side),
+            *turn.cuts,
+            arc(turn.start, (x, y), middle, side),
+        ),
+    )
+    heights = levels(-bore.top, bottom, job.settings.finish_step * mill.diameter)
+    feed = pen.rates.inside(radius, mill.radius)
+    pen.above((x, y))
+    for z in heights + [bottom] * job.settings.spring_passes:
+        pen.sink(z)
+        pen.follow(path, feed)
+    pen.retract()
+
+
+def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
+    """The middle of the largest circle in an opening, and its radius, mm."""
+    line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)
+    (x, y), _ = line.coords
+    return (rounded(x), rounded(y)), float(line.length)

@@ -1,0 +1,150 @@
+"""Writes moves: keeps the present position, and holds the rules of rapids and entries."""
+
+import math
+from typing import cast
+
+from mechwright.errors import ToolError
+from mechwright.geometry.segments import Point
+from mechwright.program import Feed, FeedArc, Move, Rapid
+from mechwright.tooling import Tool
+
+from mechwright_cam.planning.rates import Rates
+from mechwright_cam.toolpath.path import Path, rounded
+
+APPROACH = 1.0
+"""Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
+TINY = 0.5
+"""A way shorter than this many diameters is too short to ramp along: the cutter plunges."""
+
+
+class Pen:
+    """A cutter at work.
+
+    Parameters
+    ----------
+    tool, rates
+        The cutter, its speed and feeds.
+    clearance
+        Height of rapids in X and Y, mm.
+    slope
+        Tangent of the steepest ramp.
+    """
+
+    def __init__(self, tool: Tool, rates: Rates, clearance: float, slope: float) -> None:
+        self.tool, self.rates, self.clearance, self.slope = tool, rates, clearance, slope
+        self.moves: list[Move] = []
+        self.place: Point | None = None
+        self.z = math.inf
+
+    def above(self, point: Point) -> None:
+        """Retract, rapid over a point and down to just over the stock."""
+        point = (rounded(point[0]), rounded(point[1]))
+        self.retract()
+        if self.place != point:
+            self.moves.append(Rapid(x=point[0], y=point[1]))
+        height = min(APPROACH, self.clearance)
+        self.moves.append(Rapid(z=height))
+        self.place, self.z = point, height
+
+    def retract(self) -> None:
+        """Rapid up to the clearance height."""
+        if self.place is not None and self.z < self.clearance:
+            self.moves.append(Rapid(z=self.clearance))
+            self.z = self.clearance
+
+    def sink(self, z: float, feed: float | None = None) -> None:
+        """Feed straight down or up; through air unless told a feed for material."""
+        z = rounded(z)
+        if z != self.z:
+            self.moves.append(Feed(None, None, z, self.rates.feed if feed is None else feed))
+            self.z = z
+
+    def straight(self, point: Point, feed: float | None = None) -> None:
+        """Feed straight to a point at this height."""
+        point = (rounded(point[0]), rounded(point[1]))
+        if point != self.place:
+            self.moves.append(Feed(point[0], point[1], None, self.rates.feed if feed is None else feed))
+            self.place = point
+
+    def follow(self, path: Path, feed: float | None = None) -> None:
+        """Run along a path at this height."""
+        feed = self.rates.feed if feed is None else feed
+        if path.start != self.place:
+            raise AssertionError(f"the path starts at {path.start}, the cutter is at {self.place}")
+        moves = cast("list[Move] | None", path.cache.get(feed))
+        if moves is None:
+            moves = []
+            here = path.start
+            for cut in path.cuts:
+                moves.append(
+                    FeedArc(cut.x, cut.y, None, cut.cx - here[0], cut.cy - here[1], cut.turn > 0, feed)
+                    if cut.turn
+                    else Feed(cut.x, cut.y, None, feed)
+                )
+                here = (cut.x, cut.y)
+            path.cache[feed] = moves
+        self.moves.extend(moves)
+        self.place = path.end
+
+    def descend(self, path: Path, z: float, feed: float | None = None) -> None:
+        """Run along a path while going evenly down to ``z``, arcs as helices."""
+        feed = self.rates.ramp if feed is None else feed
+        here, start, total, done = path.start, self.z, path.length, 0.0
+        for cut in path.cuts:
+            done += cut.length
+            height = rounded(z if cut is path.cuts[-1] else start + (z - start) * done / total)
+            self.moves.append(
+                FeedArc(cut.x, cut.y, height, cut.cx - here[0], cut.cy - here[1], cut.turn > 0, feed)
+                if cut.turn
+                else Feed(cut.x, cut.y, height, feed)
+            )
+            here = (cut.x, cut.y)
+        self.place, self.z = path.end, rounded(z)
+
+    def ramp(self, path: Path, z: float) -> None:
+        """Go down to ``z`` along the beginning of a path, and end on its start.
+
+        A closed path is run round and round; an open one to and fro. A way too short for that is plunged.
+
+        Raises
+        ------
+        ToolError
+            The way is too short, and the cutter may not be plunged.
+        """
+        drop = self.z - rounded(z)
+        if drop <= 0:
+            return
+        if path.length < TINY * self.tool.diameter:
+            if not self.tool.centre_cutting:
+                raise ToolError(
+                    f"cam.tools: {self.tool.name} is not centre-cutting and finds only {path.length:.2f} mm to "
+                    f"ramp in near X{path.start[0]:.1f} Y{path.start[1]:.1f}; list a centre-cutting or a "
+                    "smaller end mill"
+                )
+            self.sink(z, self.rates.plunge)
+            return
+        # The steepest place of a rounded ramp: one digit of z over the whole drop is lost on the slope.
+        run = drop / self.slope * (1 + 1e-3) + 1e-3
+        start = self.z
+        if path.closed:
+            laps = math.ceil(run / path.length)
+            for lap in range(1, laps + 1):
+                self.descend(path, start - drop * lap / laps)
+            return
+        part = path.split(run)[0] if run < path.length else path
+        legs = math.ceil(run / part.length)
+        legs += legs % 2
+        part = path.split(run / legs)[0] if run / legs < path.length else path
+        back = part.reversed()
+        for leg in range(1, legs + 1):
+            self.descend(part if leg % 2 else back, start - drop * leg / legs)
+
+
+def levels(top: float, bottom: float, step: float) -> list[float]:
+    """Heights of even passes from ``top`` down to ``bottom``, none deeper than ``step``.
+
+    >>> levels(0.0, -10.0, 4.0)
+    [-3.3333, -6.6667, -10.0]
+    """
+    count = max(1, math.ceil((top - bottom) / step - 1e-9))
+    return [rounded(top + (bottom - top) * number / count) for number in range(1, count + 1)]

@@ -1,0 +1,296 @@
+"""From a job to a program."""
+
+import math
+from collections.abc import Callable
+
+import shapely
+from mechwright.errors import DesignError, ToolError
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore
+from mechwright.program import Move, Operation, Pause, Program, ToolSection
+from mechwright.tooling import Tool, ToolKind
+
+from mechwright_cam.job import Job
+from mechwright_cam.planning.clearing import SLIVER, Roughing
+from mechwright_cam.planning.finishing import Finishing
+from mechwright_cam.planning.holes import (
+    ROOMY,
+    BorePlan,
+    drill_moves,
+    entry_place,
+    finish_bore,
+    plan_bore,
+    point_length,
+    rough_bore,
+    spot_drill,
+    spot_moves,
+    starting_drill,
+)
+from mechwright_cam.planning.pen import Pen
+from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.schedule import Step, order
+from mechwright_cam.planning.zone import Zone, inner_zones, outer_zones
+from mechwright_cam.toolpath.offsets import grow, opened, polygons
+
+WORTH_A_TOOL = 0.25
+"""An intermediate roughing mill is used if it takes this share of what is left: less does not pay a change."""
+HEAVY = 0.1
+"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
+CLAMP_GAP = 1.0
+"""Least distance of the cutter from the clamp, mm."""
+
+
+def plan(job: Job) -> Program:
+    """Plan the whole machining of a plate part.
+
+    Raises
+    ------
+    ToolError
+        The cutters of the job cannot make the part.
+    DesignError
+        The holding or the stock is in the way.
+    """
+    return _Planner(job).program()
+
+
+def clearance_height(job: Job) -> float:
+    """Height of rapids over stock and clamp, z in mm."""
+    return job.settings.clearance + (job.clamp.top if job.clamp else 0.0)
+
+
+class _Planner:
+    """Collects the steps of a job in an order that makes sense, each waiting for those it depends on."""
+
+    def __init__(self, job: Job) -> None:
+        self.job = job
+        self.clearance = clearance_height(job)
+        self.slope = math.tan(math.radians(job.settings.ramp_angle))
+        self.steps: list[Step] = []
+
+    def program(self) -> Program:
+        job = self.job
+        inner = self._inner()
+        outer = self._outer(inner)
+        if not self.steps:
+            raise DesignError(f"part {job.part.name} has no feature to machine; its program would be empty")
+        if job.clamp and outer:
+            sections = self._sections(inner) if inner else []
+            if not sections:
+                raise DesignError(
+                    f"cam.hold.method: part {job.part.name} has no opening to clamp through before its outside "
+                    'is cut; use method = "tabs"'
+                )
+            sections[-1] = _with_operation(sections[-1], Operation("clamp", (Pause(self._clamp_message()),)))
+            sections += self._sections(outer)
+        else:
+            sections = self._sections(inner | outer)
+        return Program(
+            job.part.name, job.settings.work_offset, self.clearance, _merged(sections), self._notes()
+        )
+
+    def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:
+        if not moves:
+            return after
+        spindle = rates(tool, self.job.part.material, self.job.settings.machine).spindle
+        self.steps.append(Step(name, tool, spindle, moves, after))
+        return frozenset({len(self.steps) - 1})
+
+    def _milled(
+        self, name: str, tool: Tool, after: frozenset[int], write: Callable[[Pen], object]
+    ) -> frozenset[int]:
+        speed = rates(tool, self.job.part.material, self.job.settings.machine)
+        pen = Pen(tool, speed, self.clearance, self.slope)
+        write(pen)
+        return self._step(name, tool, tuple(pen.moves), after)
+
+    def _inner(self) -> frozenset[int]:
+        job = self.job
+        bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
+        zones = inner_zones(job)
+        entries = {
+            zone.name: self._entry(zone) for zone in zones if zone.kind == "inside" and zone.bottom == job.floor
+        }
+        holes: list[tuple[Tool, Point, str]] = [
+            (plan.drill, plan.bore.centre, plan.bore.name) for plan in bores if plan.drill is not None
+        ]
+        holes += [(drill, place, name) for name, (drill, place) in entries.items() if drill is not None]
+        drilled = self._drilled(holes)
+        for plan in bores:
+            self._bore(plan, drilled)
+        for zone in zones:
+            drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
+            if drill is not None:
+                hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
+                zone.left = shapely.difference(zone.left, hole)
+            self._wall([zone], drilled, self._opening_mills(zone))
+        return frozenset(range(len(self.steps)))
+
+    def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
+        place, radius = entry_place(zone.clear)
+        return starting_drill(self.job, 2 * radius, -zone.bottom), place
+
+    def _opening_mills(self, zone: Zone) -> list[Tool]:
+        """Mills that may rough an opening: those with room for chips, but never only larger than the finisher."""
+        _, radius = entry_place(polygons(zone.clear)[0])
+        fit = [mill for mill in zone.mills if mill.diameter <= ROOMY * 2 * radius]
+        return fit or [zone.finisher]
+
+    def _drilled(self, holes: list[tuple[Tool, Point, str]]) -> frozenset[int]:
+        job = self.job
+        after: frozenset[int] = frozenset()
+        spot = spot_drill(job)
+        if spot is not None and holes:
+            places = [(place, drill.diameter) for drill, place, _ in holes]
+            after = self._step("spot drill", spot, spot_moves(job, spot, places, self.clearance), after)
+        done = after
+        for drill in {drill.number: drill for drill, _, _ in holes}.values():
+            places_of = [place for other, place, _ in holes if other is drill]
+            moves = drill_moves(job, drill, places_of, -job.floor, self.clearance)
+            done = done | self._step(f"drill {drill.diameter:g}", drill, moves, after)
+        return done
+
+    def _bore(self, plan: BorePlan, after: frozenset[int]) -> None:
+        if plan.mill is None:
+            return
+        name, job = plan.bore.name, self.job
+        after = self._milled(f"{name}: bore", plan.mill, after, lambda pen: rough_bore(job, plan, pen))
+        self._milled(f"{name}: finish", plan.mill, after, lambda pen: finish_bore(job, plan, pen))
+
+    def _outer(self, after: frozenset[int]) -> frozenset[int]:
+        self._check_clamp()
+        zones = outer_zones(self.job)
+        before = len(self.steps)
+        if zones:
+            self._wall(zones, after, zones[0].roughers)
+        return frozenset(range(before, len(self.steps)))
+
+    def _wall(self, zones: list[Zone], after: frozenset[int], mills: list[Tool]) -> None:
+        """Rough, rough the rest, and finish one wall; ``zones`` are its layers from the top down."""
+        job, settings = self.job, self.job.settings
+        finest = min((zone.finisher for zone in zones), key=lambda mill: mill.diameter)
+        for mill in [m for m in mills if m.diameter > finest.diameter]:
+            cuts = [self._roughing(zone, mill, settings.stock_to_leave) for zone in zones]
+            # The layers share their cutters: the tallest one decides.
+            if max(zip(zones, cuts, strict=True), key=lambda pair: pair[0].height)[1].share >= WORTH_A_TOOL:
+                for cut in cuts:
+                    after = self._rough(cut, after)
+        for zone in zones:
+            after = self._rough(self._roughing(zone, finest, settings.stock_to_leave), after)
+            after = self._rough_heavy(zone, finest, after)
+        for zone in zones:
+            finishing = Finishing(zone, settings)
+            after = self._milled(f"{zone.name}: finish", zone.finisher, after, finishing.write)
+        if not after:
+            raise ToolError(f"cam.tools: no listed end mill enters {zones[0].name} of part {job.part.name}")
+
+    def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
+        data = mill.cutting[self.job.part.material]
+        return Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb)
+
+    def _rough(self, cut: Roughing, after: frozenset[int]) -> frozenset[int]:
+        zone, mill = cut.zone, cut.tool
+        what = "rough" if zone.left is zone.clear else "rough the rest"
+        step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
+        after = self._milled(f"{zone.name}: {what}", mill, after, lambda pen: cut.write(pen, step_down))
+        cut.commit()
+        return after
+
+    def _rough_heavy(self, zone: Zone, mill: Tool, after: frozenset[int]) -> frozenset[int]:
+        """Where the allowance kept the mill out of narrow places, rough up to the wall."""
+        allowance = self.job.settings.stock_to_leave
+        thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
+        if not polygons(opened(thick, SLIVER)):
+            return after
+        data = mill.cutting[self.job.part.material]
+        cut = Roughing(zone, mill, 0.0, data.step_over, self.job.settings.climb, only=thick)
+        after = self._milled(
+            f"{zone.name}: rough the narrow places",
+            mill,
+            after,
+            lambda pen: cut.write(pen, data.step_down * mill.diameter),
+        )
+        zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius)))
+        return after
+
+    def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
+        """The wanted steps in runs of one tool; steps outside count as done."""
+        chosen = sorted(wanted)
+        place = {old: new for new, old in enumerate(chosen)}
+        steps = [
+            Step(
+                step.name,
+                step.tool,
+                step.spindle,
+                step.moves,
+                frozenset(place[i] for i in step.after if i in place),
+            )
+            for step in (self.steps[i] for i in chosen)
+        ]
+        return [
+            ToolSection(
+                steps[run[0]].tool,
+                steps[run[0]].spindle,
+                self.job.settings.coolant,
+                tuple(Operation(steps[i].name, steps[i].moves) for i in run),
+            )
+            for run in order(steps)
+        ]
+
+    def _check_clamp(self) -> None:
+        job = self.job
+        if job.clamp is None:
+            return
+        reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
+        limit = 2 * (float(reach) - CLAMP_GAP)
+        if job.clamp.diameter > limit:
+            raise DesignError(
+                f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} mm of "
+                f"the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or hold by tabs"
+            )
+
+    def _clamp_message(self) -> str:
+        clamp = self.job.clamp
+        assert clamp is not None  # noqa: S101 - asked only where there is one
+        return (
+            f"clamp the part at X{clamp.centre[0]:.3f} Y{clamp.centre[1]:.3f}: up to {clamp.diameter:g} mm wide "
+            f"and {clamp.top:g} mm high"
+        )
+
+    def _notes(self) -> tuple[str, ...]:
+        job = self.job
+        x0, y0, x1, y1 = job.stock
+        where = {
+            "axis": "axis of the part",
+            "corner": "lower left corner of the stock",
+            "centre": "centre of the stock",
+        }
+        notes = [
+            f"part {job.part.name}, {job.part.material}, {job.thickness:g} mm thick",
+            f"stock {x1 - x0:.2f} x {y1 - y0:.2f} x {job.thickness:g} mm, from X{x0:.3f} Y{y0:.3f}",
+            f"origin: {where[job.settings.origin]}, Z0 on top of the stock",
+        ]
+        drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
+        if drills:
+            below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
+            notes.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")
+        return tuple(notes)
+
+
+def _with_operation(section: ToolSection, operation: Operation) -> ToolSection:
+    return ToolSection(
+        section.tool, section.spindle, section.coolant, (*section.operations, operation)
+    )
+
+
+def _merged(sections: list[ToolSection]) -> tuple[ToolSection, ...]:
+    """Neighbours with one tool become one section."""
+    merged: list[ToolSection] = []
+    for section in sections:
+        if merged and merged[-1].tool == section.tool:
+            last = merged[-1]
+            merged[-1] = ToolSection(
+                last.tool, last.spindle, last.coolant, last.operations + section.operations
+            )
+        else:
+            merged.append(section)
+    return tuple(merged)

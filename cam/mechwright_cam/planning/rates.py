@@ -1,0 +1,48 @@
+"""Spindle speed and feeds of a tool in a material on a machine."""
+
+import math
+from dataclasses import dataclass
+
+from mechwright.errors import ToolError
+from mechwright.tooling import CuttingData, Machine, Tool
+
+RAMP_SHARE = 0.5
+"""Feed on ramps and helices: the cutter works with its end as well as with its side."""
+PLUNGE_SHARE = 0.3
+"""Feed straight down for a centre-cutting end mill: common practice for solid carbide."""
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Spindle in rev/min; feeds of the cutter's centre in mm/min."""
+
+    spindle: float
+    feed: float
+    ramp: float
+    plunge: float
+
+    def inside(self, path_radius: float, cutter_radius: float) -> float:
+        """Feed of the centre on a circle inside a wall, so that the cutting edge has the planned feed."""
+        return max(self.plunge, self.feed * path_radius / (path_radius + cutter_radius))
+
+
+def cutting_data(tool: Tool, material: str) -> CuttingData:
+    """How the tool cuts the material; raises ToolError that lists the materials it knows."""
+    try:
+        return tool.cutting[material]
+    except KeyError:
+        known = ", ".join(sorted(tool.cutting)) or "no material"
+        raise ToolError(
+            f"cam.tools: tool {tool.name} has no cutting data for {material}, only for {known}; "
+            f"add [tool.cutting] {material} to the tool library"
+        ) from None
+
+
+def rates(tool: Tool, material: str, machine: Machine) -> Rates:
+    """Speeds within the machine's limits: n = 1000 v / (π d), feed = n z f_z (common workshop formulas)."""
+    data = cutting_data(tool, material)
+    wanted = 1000 * data.cutting_speed / (math.pi * tool.diameter)
+    spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
+    feed = min(spindle * tool.flutes * data.chip_load, machine.max_feed)
+    feed = max(1.0, math.floor(feed))
+    return Rates(spindle, feed, max(1.0, round(feed * RAMP_SHARE)), max(1.0, round(feed * PLUNGE_SHARE)))

@@ -1,0 +1,215 @@
+"""Zones: what has to be cut away around or inside a wall, between two heights.
+
+Glossary
+--------
+keep
+    What must stay.
+clear
+    What must go, from ``top`` to ``bottom``.
+left
+    What of ``clear`` the planned cuts have not reached yet.
+room
+    Where the centre of a cutter may be, apart from the distance to ``keep``.
+"""
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import shapely
+from mechwright.errors import DesignError
+from mechwright.part import Bore, Pocket, Profile
+from mechwright.tooling import Tool
+
+from mechwright_cam.job import Job
+from mechwright_cam.planning.choice import finishing_choice, usable_mills
+from mechwright_cam.reach import opening_keep
+from mechwright_cam.toolpath.offsets import ROUGH, filled, grow, polygons
+
+SLACK = 0.02
+"""Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
+
+
+@dataclass
+class Zone:
+    """A wall and the stock in front of it; shapes in work coordinates, heights z in mm."""
+
+    name: str
+    wall: shapely.Geometry
+    """The material that belongs to the part."""
+    clear: shapely.Geometry
+    top: float
+    bottom: float
+    mills: list[Tool]
+    kind: Literal["outside", "inside", "pocket"]
+    channel: shapely.Geometry | None = None
+    """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
+    roughers: list[Tool] = field(default_factory=list)
+    """Outside: the mills whose channel leaves a frame, largest first."""
+    tabs: shapely.Geometry | None = None
+    """What of the tabs stands between these heights."""
+    left: shapely.Geometry = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.left = self.clear
+
+    @cached_property
+    def keep(self) -> shapely.Geometry:
+        """What must stay."""
+        return self.wall if self.tabs is None else shapely.union(self.wall, self.tabs)
+
+    @cached_property
+    def finisher(self) -> Tool:
+        """The mill that finishes the wall."""
+        return finishing_choice(self.mills, self.keep)
+
+    @property
+    def height(self) -> float:
+        """Height of the layer, mm."""
+        return self.top - self.bottom
+
+    def room(self, radius: float, slack: float = 0.0) -> shapely.Geometry:
+        """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
+        if self.kind == "outside":
+            if self.channel is None:
+                return grow(self.clear, radius, ROUGH)
+            return grow(self.channel, slack - radius, ROUGH)
+        return self.clear
+
+    def rough_keep(self, allowance: float) -> shapely.Geometry:
+        """``keep`` with stock on the part's walls, and next to none on the tabs, thinned."""
+        wall = grow(shapely.simplify(self.wall, ROUGH), allowance, ROUGH)
+        if self.tabs is None:
+            return wall
+        return shapely.union(wall, grow(self.tabs, min(allowance, 2 * ROUGH), ROUGH))
+
+
+def through(job: Job, depth: float) -> bool:
+    """Whether a feature of this depth goes through the plate."""
+    return depth >= job.thickness - 1e-9
+
+
+def bottom_of(job: Job, top: float, depth: float) -> float:
+    """Height z of the bottom of a cut; through cuts go below the plate."""
+    return job.floor if through(job, top + depth) else -(top + depth)
+
+
+def inner_zones(job: Job) -> list[Zone]:
+    """Openings that are not round, and pockets."""
+    zones = []
+    for feature in job.features:
+        if isinstance(feature, Profile) and feature.side == "inside":
+            shape = shapely.Polygon(feature.loop.flatten())
+        elif isinstance(feature, Pocket):
+            shape = shapely.Polygon(
+                feature.boundary.flatten(), [island.flatten() for island in feature.islands]
+            )
+        else:
+            continue
+        bottom = bottom_of(job, feature.top, feature.depth)
+        mills = usable_mills(job, -bottom)
+        margin = 2 * mills[0].diameter
+        zones.append(
+            Zone(
+                feature.name,
+                opening_keep(shape, margin),
+                shape,
+                -feature.top,
+                bottom,
+                mills,
+                "pocket" if isinstance(feature, Pocket) else "inside",
+            )
+        )
+    return zones
+
+
+def outer_zones(job: Job) -> list[Zone]:
+    """The outside: one zone, or two with tabs, above and below their tops."""
+    zones = []
+    for feature in job.features:
+        if not (isinstance(feature, Profile) and feature.side == "outside"):
+            continue
+        if not through(job, feature.top + feature.depth):
+            raise DesignError(
+                f"part {job.part.name}: the outside {feature.name} ends {feature.depth:g} mm below "
+                f"{feature.top:g} mm and not at the underside; only outsides through the plate can be cut"
+            )
+        mills = usable_mills(job, -job.floor)
+        part = shapely.Polygon(feature.loop.flatten())
+        roughers = roughing_mills(job, mills, part)
+        clear, channel = _channel(job, part, roughers[0])
+        top = -feature.top
+        if job.tabs:
+            height = max(tab.top for tab in job.tabs)
+            tabs = shapely.union_all([tab.shape for tab in job.tabs])
+            zones.append(Zone(feature.name, part, clear, top, height, mills, "outside", channel, roughers))
+            zones.append(
+                Zone(
+                    f"{feature.name} below the tabs",
+                    part,
+                    clear.difference(tabs),
+                    height,
+                    job.floor,
+                    mills,
+                    "outside",
+                    channel,
+                    roughers,
+                    tabs=tabs,
+                )
+            )
+        else:
+            zones.append(Zone(feature.name, part, clear, top, job.floor, mills, "outside", channel, roughers))
+    return zones
+
+
+def roughing_mills(job: Job, mills: list[Tool], part: shapely.Geometry) -> list[Tool]:
+    """The mills whose channel around the part leaves a frame that holds the tabs, largest first."""
+    fit = [mill for mill in mills if _frame(job, part, channel_width(job, mill)) is not None]
+    if fit or not job.tabs:
+        return fit or mills
+    x0, y0, x1, y1 = part.bounds
+    least = channel_width(job, mills[-1])
+    margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
+    raise DesignError(
+        f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
+        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm, or hold by the bore"
+    )
+
+
+FRAME = 1.0
+"""Least width of the frame that tabs end in, mm."""
+
+
+def channel_width(job: Job, mill: Tool) -> float:
+    """Width of the channel that a mill opens around the part in one pass, mm."""
+    return mill.diameter + job.settings.stock_to_leave
+
+
+def _frame(job: Job, part: shapely.Geometry, width: float) -> shapely.Polygon | None:
+    """What stays of the stock around the channel, if it is one ring at least FRAME wide."""
+    x0, y0, x1, y1 = job.stock
+    inner = shapely.box(x0 + FRAME, y0 + FRAME, x1 - FRAME, y1 - FRAME)
+    far = shapely.buffer(shapely.Polygon(part.exterior).simplify(ROUGH), width, quad_segs=16)
+    return shapely.box(*job.stock).difference(far) if inner.contains(far) else None
+
+
+def _channel(
+    job: Job, part: shapely.Polygon, mill: Tool
+) -> tuple[shapely.Geometry, shapely.Geometry | None]:
+    """What has to go around the part, and the outer limit of the channel."""
+    width = channel_width(job, mill)
+    if _frame(job, part, width) is None:
+        # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
+        return shapely.box(*job.stock).difference(part), None
+    # Whatever the channel encloses would come loose, so it goes as well.
+    channel = filled(grow(shapely.simplify(part, ROUGH), width, ROUGH))
+    return channel.difference(part), channel
+
+
+def bores(job: Job) -> list[Bore]:
+    """The round holes."""
+    return [feature for feature in job.features if isinstance(feature, Bore)]
+
+
+__all__ = ["Zone", "bores", "bottom_of", "inner_zones", "outer_zones", "polygons", "roughing_mills", "through"]

@@ -1,0 +1,128 @@
+"""What a round cutter can reach, and what it leaves in corners and narrow places.
+
+Glossary
+--------
+closing
+    A shape together with all that a disc cannot touch without entering the shape: it is what a cutter leaves.
+remainder
+    The closing without the shape; its depth at a point of the wall is the distance to the nearest place
+    that the cutter touches.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore, Profile
+
+from mechwright_cam.job import Job
+from mechwright_cam.toolpath.offsets import grow, polygons
+
+PRECISION = 1e-4
+"""Chord error of the closing, mm: a hundredth of the leftover that the proof lets pass."""
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A place on the wall that the cutter does not reach, and how far it stays away, mm."""
+
+    place: Point
+    depth: float
+
+
+def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
+    """What a cutter of ``radius`` leaves of everything around ``keep``, mm.
+
+    Examples
+    --------
+    >>> corner = shapely.Polygon([(0, 0), (20, 0), (20, 5), (5, 5), (5, 20), (0, 20)])
+    >>> left = closing(corner, 3.0).area - corner.area
+    >>> round(left, 2)  # a square corner keeps (1 - π/4) r²
+    1.93
+    """
+    return grow(grow(keep, radius, PRECISION), -radius, PRECISION)
+
+
+def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+    """Wall points (n, 2), mm, and the thickness (n,) that a cutter of ``radius`` leaves on each.
+
+    Thickness is the distance from the wall point to the nearest place that the cutter touches.
+    """
+    walls = shapely.get_coordinates(keep)
+    touched = shapely.boundary(closing(keep, radius))
+    shapely.prepare(touched)
+    depths = np.zeros(len(walls))
+    # Nearly every point is touched; the prepared test for that is much faster than a distance.
+    points = shapely.points(walls)
+    away = np.flatnonzero(~shapely.dwithin(touched, points, 2 * PRECISION))
+    if away.size:
+        parts = shapely.STRtree(_edges(touched))
+        _, distance = parts.query_nearest(points[away], return_distance=True, all_matches=False)
+        depths[away] = distance
+    return walls, depths
+
+
+def _edges(lines: shapely.Geometry) -> np.ndarray:  # type: ignore[type-arg]
+    edges = []
+    for part in shapely.get_parts(lines):
+        points = shapely.get_coordinates(part)
+        edges.append(shapely.linestrings(np.stack((points[:-1], points[1:]), axis=1)))
+    return np.concatenate(edges)
+
+
+def leaves_at_most(keep: shapely.Geometry, radius: float, limit: float) -> bool:
+    """Whether a cutter of ``radius`` comes within ``limit`` of every point of the wall."""
+    touched = shapely.boundary(closing(keep, radius))
+    shapely.prepare(touched)
+    points = shapely.points(shapely.get_coordinates(keep))
+    return bool(shapely.dwithin(touched, points, limit).all())
+
+
+def remainder(keep: shapely.Geometry, radius: float) -> float:
+    """The greatest thickness that a cutter of ``radius`` leaves on the wall of ``keep``, mm."""
+    return float(remainder_depths(keep, radius)[1].max())
+
+
+def unreachable(keep: shapely.Geometry, radius: float, limit: float) -> tuple[Spot, ...]:
+    """The places where more than ``limit`` is left, one spot for each run of the wall, thickest first."""
+    walls, depths = remainder_depths(keep, radius)
+    over = depths > limit
+    starts = np.flatnonzero(over & ~np.concatenate(([False], over[:-1])))
+    spots = []
+    for start in starts.tolist():
+        stop = start + int(np.argmin(np.append(over[start:], False)))
+        worst = start + int(np.argmax(depths[start:stop]))
+        spots.append(Spot((float(walls[worst, 0]), float(walls[worst, 1])), float(depths[worst])))
+    return tuple(sorted(spots, key=lambda spot: -spot.depth))
+
+
+def opening_keep(opening: shapely.Polygon, margin: float) -> shapely.Polygon:
+    """The material around an opening: a frame ``margin`` wide."""
+    x0, y0, x1, y1 = opening.bounds
+    return shapely.box(x0 - margin, y0 - margin, x1 + margin, y1 + margin).difference(opening)
+
+
+def cut_outline(job: Job) -> shapely.Polygon:
+    """The target as the chosen cutters leave it: corners that none of them reaches stay filled.
+
+    Each wall is judged with the cutter that finishes it, the one :func:`plan` takes.
+    """
+    from mechwright_cam.planning.choice import finishing_mill
+
+    outside: shapely.Geometry = shapely.Polygon(job.target.exterior)
+    holes = []
+    for feature in job.features:
+        if isinstance(feature, Bore):
+            if feature.top == 0 and feature.depth >= job.thickness:
+                holes.append(shapely.Point(feature.centre).buffer(feature.diameter / 2, quad_segs=256))
+        elif isinstance(feature, Profile):
+            shape = shapely.Polygon(feature.loop.flatten())
+            if feature.side == "outside":
+                outside = closing(shape, finishing_mill(job, shape).radius)
+            else:
+                keep = opening_keep(shape, 2 * max(tool.diameter for tool in job.end_mills))
+                radius = finishing_mill(job, keep).radius
+                holes.append(grow(grow(shape, -radius, PRECISION), radius, PRECISION))
+    cut = outside.difference(shapely.union_all(holes)) if holes else outside
+    return max(polygons(cut), key=lambda part: float(part.area))

@@ -1,0 +1,177 @@
+"""Fit a polyline with lines and arcs.
+
+Every vertex looks for the farthest vertex that one line or one arc can reach within the tolerance. All of them
+look at once, by bisection, with a few samples per trial; then the chain of longest reaches is followed from the
+start, and only the arcs that it uses are tested against every vertex. The arc through both ends of a run has
+one free number, the height k of its centre over the chord; with u along and v across the chord of half length
+h, the circle is u² + v² - 2kv = h², so the least-squares k is Σ v(u² + v² - h²) / (2 Σ v²).
+"""
+
+import math
+
+import numpy as np
+from mechwright.motion import Array
+from numpy.typing import NDArray
+
+from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
+
+CORNER = 0.5
+"""A turn of more than this at one vertex, rad, is a corner of the path. Offset arcs turn by less, see CHORD."""
+LONGEST_TURN = 3.0
+"""An arc turns by less than half a circle, rad: then both its ends and its side fix it."""
+LONGEST_RUN = 250
+"""Edges under one arc at most: bounds the search; a longer arc comes in two pieces."""
+SAMPLES = 12
+"""Vertices tested per trial; those of the chosen arcs are all tested afterwards."""
+GREATEST_RADIUS = 2000.0
+"""A flatter arc, mm, is printed with too few significant digits; it becomes lines."""
+
+Index = NDArray[np.intp]
+
+
+def fit(points: Array, tolerance: float) -> Path:
+    """Give the path of lines and arcs that passes within ``tolerance`` of a polyline.
+
+    Parameters
+    ----------
+    points
+        (n, 2), mm; a closed polyline repeats its first point.
+    tolerance
+        Largest distance of a vertex from its line or arc, mm.
+
+    Returns
+    -------
+    path
+        From the first point to the last, both rounded as programs print them. Corners are kept.
+    """
+    points = np.asarray(points, dtype=float)
+    step = np.hypot(*np.diff(points, axis=0).T)
+    points = points[np.append(True, step > 1e-6)]
+    if len(points) < 3:
+        return _assemble(points, np.arange(len(points)), tolerance)
+    return _assemble(points, _verified(points, _chain(_reach(points, tolerance)), tolerance), tolerance)
+
+
+def _chain(reach: Index) -> Index:
+    """The vertices met by going as far as possible each time."""
+    far = reach.tolist()
+    nodes = [0]
+    while nodes[-1] < len(far) - 1:
+        nodes.append(far[nodes[-1]])
+    return np.array(nodes, dtype=np.intp)
+
+
+def _verified(points: Array, nodes: Index, tolerance: float) -> Index:
+    """Halve the runs that do not stay within the tolerance at every vertex and middle of an edge."""
+    while True:
+        first, last = nodes[:-1], nodes[1:]
+        wide = np.flatnonzero(last - first > 1)
+        bad = wide[~_fits(points, first[wide], last[wide], tolerance, every=True)]
+        if not bad.size:
+            return nodes
+        nodes = np.sort(np.concatenate((nodes, (first[bad] + last[bad]) // 2)))
+
+
+def _reach(points: Array, tolerance: float) -> Index:
+    """The farthest vertex that one line or arc from each vertex can reach."""
+    n = len(points)
+    edge = np.diff(points, axis=0)
+    step = np.hypot(edge[:, 0], edge[:, 1])
+    heading = np.arctan2(edge[:, 1], edge[:, 0])
+    turn = (np.diff(heading) + math.pi) % math.tau - math.pi
+    total = np.concatenate(([0.0], np.cumsum(np.abs(turn)), [0.0]))
+    total[-1] = total[-2]
+    index = np.arange(n)
+    # Vertex i leaves along edge i, whose accumulated turn is total[i].
+    limit = np.searchsorted(total[:-1], total + LONGEST_TURN, side="left")
+    # An edge whose ends turn so much that an arc over it would stand off from it is a line of the drawing.
+    bend = np.concatenate(([0.0], np.abs(turn), [0.0]))
+    straight = step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance
+    corner = np.concatenate(([False], np.abs(turn) > CORNER, [True]))
+    corner[:-1] |= straight
+    corner[1:] |= straight
+    corners = np.flatnonzero(corner)
+    stop = corners[np.minimum(np.searchsorted(corners, index, side="right"), len(corners) - 1)]
+    high = np.minimum.reduce([index + LONGEST_RUN, limit, stop, np.full(n, n - 1)])
+    low = np.minimum(index + 1, n - 1)
+    high = np.maximum(high, low)
+    good = _fits(points, index, high, tolerance)
+    low = np.where(good, high, low)
+    open_ = np.flatnonzero(low + 1 < high)
+    while open_.size:
+        middle = (low[open_] + high[open_]) // 2
+        good = _fits(points, open_, middle, tolerance)
+        low[open_] = np.where(good, middle, low[open_])
+        high[open_] = np.where(good, high[open_], middle)
+        open_ = open_[low[open_] + 1 < high[open_]]
+    return low
+
+
+def _fits(
+    points: Array, first: Index, last: Index, tolerance: float, every: bool = False
+) -> NDArray[np.bool_]:
+    """Whether a line or an arc from ``first`` to ``last`` (k,) stays within the tolerance at its samples."""
+    if not first.size:
+        return np.zeros(0, dtype=bool)
+    if every:
+        # Vertices and middles of edges, by their position in half edges.
+        count = 2 * int((last - first).max()) - 1
+        offset = np.minimum(np.arange(1, count + 1), 2 * (last - first)[:, None] - 1)
+        here = 2 * first[:, None] + offset
+        inner = (points[here // 2] + points[(here + 1) // 2]) / 2
+    else:
+        fraction = np.linspace(0, 1, SAMPLES + 2)[1:-1]
+        inner = points[first[:, None] + np.rint((last - first)[:, None] * fraction).astype(np.intp)]
+    across, deviation = _deviations(points[first], points[last], inner)
+    good: NDArray[np.bool_] = (across <= tolerance) | (deviation <= tolerance)
+    return good | (last - first <= 1)
+
+
+def _deviations(start: Array, end: Array, inner: Array) -> tuple[Array, Array]:
+    """Largest distance of ``inner`` (k, m, 2) from the lines, and from the best arcs, between the ends (k, 2)."""
+    half = (end - start) / 2
+    h = np.hypot(half[:, 0], half[:, 1])
+    h_safe = np.where(h > 0, h, 1.0)
+    along = half / h_safe[:, None]
+    rel = inner - (start + half)[:, None, :]
+    u = rel[..., 0] * along[:, None, 0] + rel[..., 1] * along[:, None, 1]
+    v = rel[..., 1] * along[:, None, 0] - rel[..., 0] * along[:, None, 1]
+    across = np.abs(v).max(axis=1)
+    square = (v * v).sum(axis=1)
+    power = u * u + v * v - (h * h)[:, None]
+    k = (v * power).sum(axis=1) / np.where(square > 0, 2 * square, 1.0)
+    radius = np.hypot(h, k)
+    deviation = np.abs(np.hypot(u, v - k[:, None]) - radius[:, None]).max(axis=1)
+    bad = (square <= 0) | (radius > GREATEST_RADIUS) | (h <= 0) | ~np.isfinite(deviation)
+    # A vertex beyond the ends of the chord by more than a half circle allows is no single arc.
+    return np.where(h > 0, across, np.inf), np.where(bad, np.inf, deviation)
+
+
+def _assemble(points: Array, nodes: Index, tolerance: float) -> Path:
+    """The path through the chosen vertices; a run that a line fits is a line."""
+    ends = [(rounded(float(x)), rounded(float(y))) for x, y in points[nodes]]
+    cuts: list[Cut] = []
+    here = ends[0]
+    for a, b, end in zip(nodes[:-1].tolist(), nodes[1:].tolist(), ends[1:], strict=True):
+        if end == here:
+            continue
+        cuts.append(_cut(points[a : b + 1], here, end, tolerance))
+        here = end
+    return Path(ends[0], tuple(cuts))
+
+
+def _cut(run: Array, start: tuple[float, float], end: tuple[float, float], tolerance: float) -> Cut:
+    if len(run) <= 2:
+        return line(start, end)
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    h = math.hypot(dx, dy) / 2
+    ux, uy = dx / (2 * h), dy / (2 * h)
+    rel = run[1:-1] - ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+    u = rel @ (ux, uy)
+    v = rel @ (-uy, ux)
+    if np.abs(v).max() <= tolerance:
+        return line(start, end)
+    k = float(v @ (u * u + v * v - h * h) / (2 * (v @ v)))
+    centre = ((start[0] + end[0]) / 2 - k * uy, (start[1] + end[1]) / 2 + k * ux)
+    # The arc bulges to the side on which the vertices lie: a bulge to the left of the chord is clockwise.
+    return arc(start, end, centre, -1 if v.sum() > 0 else 1)

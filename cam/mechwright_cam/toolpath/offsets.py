@@ -1,0 +1,128 @@
+"""Offsets of plan views, and the pieces of their rings that a cutter has to run.
+
+Glossary
+--------
+ring
+    A closed polyline (n + 1, 2) on which the cutter's centre keeps a constant distance from a wall, first point
+    repeated. Its direction is that of climb milling: the wall on the right.
+piece
+    A run of a ring, open or the whole of it.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
+from numpy.typing import NDArray
+
+CHORD = 0.0003
+"""Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
+FIT = TOLERANCES.arc_fit - 2 * CHORD
+"""What is left of the arc-fit tolerance for the fit itself, after the chords of the offset and their thinning."""
+BIAS = TOLERANCES.arc_fit + TOLERANCES.flatten
+"""Finishing keeps off the wall by all that path and outline can be wrong, mm, so that it never gouges."""
+ROUGH = 0.005
+"""Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
+
+
+def corners(radius: float, tolerance: float) -> int:
+    """Corners per quarter circle whose chords stay within ``tolerance``."""
+    step = 2 * math.acos(max(0.0, 1 - min(tolerance / max(radius, 1e-9), 1.0)))
+    return max(4, math.ceil(math.pi / 2 / max(step, 1e-3)))
+
+
+def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> shapely.Geometry:
+    """Everything within ``distance`` (shrink if negative), arcs within ``tolerance``, mm."""
+    return shapely.buffer(shape, distance, quad_segs=corners(abs(distance), tolerance))
+
+
+def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
+    """The shape without what is thinner than twice ``width``."""
+    return shapely.buffer(shapely.buffer(shape, -width, quad_segs=2), width, quad_segs=2)
+
+
+def filled(shape: shapely.Geometry) -> shapely.Geometry:
+    """The shape with its openings closed."""
+    return shapely.union_all([shapely.Polygon(part.exterior) for part in polygons(shape)])
+
+
+def polygons(shape: shapely.Geometry) -> list[shapely.Polygon]:
+    """The polygons of a shape, none if it is empty."""
+    return [
+        part for part in shapely.get_parts(shape) if part.geom_type == "Polygon" and not shapely.is_empty(part)
+    ]
+
+
+def rings(shape: shapely.Geometry, climb: bool, tolerance: float = CHORD) -> list[Array]:
+    """The rings (n + 1, 2) around and in a shape that must not be entered, thinned, in cutting direction."""
+    found = []
+    for part in polygons(shape):
+        for number, loop in enumerate((part.exterior, *part.interiors)):
+            points = shapely.get_coordinates(shapely.simplify(loop, tolerance))
+            # Wall on the right: clockwise around the part, counter-clockwise in an opening.
+            if len(points) >= 4:
+                ccw = bool(shapely.is_ccw(loop))
+                found.append(points if ccw == ((number > 0) == climb) else points[::-1])
+    return found
+
+
+def densified(ring: Array, step: float) -> Array:
+    """The ring with edges of at most ``step``."""
+    return shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A run of the ring of order ``order``: 0 at the wall, counted away from it."""
+
+    points: Array
+    order: int
+
+    @property
+    def closed(self) -> bool:
+        """Whether it is a whole ring."""
+        return bool(np.all(self.points[0] == self.points[-1]))
+
+
+def pieces(
+    ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: NDArray[np.bool_], order: int
+) -> list[Piece]:
+    """The runs of a ring that have to be cut.
+
+    Parameters
+    ----------
+    ring
+        (n + 1, 2), mm, densified.
+    wanted, near, room
+        (n + 1,) per vertex: it cuts something; it is near something to cut; the centre may be there. A run
+        goes on while it is near, so that it starts and ends in the clear, and has a wanted vertex.
+    order
+        Goes into the pieces.
+    """
+    go = (near & room)[:-1]
+    if go.all():
+        return [Piece(ring, order)] if wanted.any() else []
+    if not go.any():
+        return []
+    # Start at a vertex that is left out, so that no run crosses the seam.
+    shift = int(np.flatnonzero(~go)[0])
+    points = np.roll(ring[:-1], -shift, axis=0)
+    go, want, inside = (np.roll(flags, -shift) for flags in (go, wanted[:-1], room[:-1]))
+    edges = np.diff(np.concatenate(([False], go, [False])).astype(int))
+    found = []
+    for first, last in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
+        if not want[first:last].any():
+            continue
+        # One vertex more at each end if the centre may be there: it is clear of everything.
+        begin = first - 1 if inside[first - 1] else first
+        end = last + 1 if last < len(points) and inside[last] else last
+        if end == len(points) and last == len(points) and inside[0]:
+            run = np.concatenate((points[begin:end], points[:1]))
+        else:
+            run = points[begin:end]
+        if len(run) > 1:
+            found.append(Piece(run, order))
+    return found
