@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 from mechwright import hookspecs
 
 ROOT = Path(__file__).parents[1]

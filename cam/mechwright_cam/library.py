@@ -8,10 +8,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
 from mechwright.tooling import Tool
-from pydantic import ValidationError
 
 BUILT_IN = Path(__file__).with_name("data") / "tools.toml"
 """The file of the cutters that come with the program."""
@@ -88,7 +89,9 @@ def read_tools(path: Path) -> tuple[Tool, ...]:
         raise DesignError(f"tool library {path} is no TOML file: {error}") from error
     rows = data.pop("tool", None)
     if data:
-        raise DesignError(f"tool library {path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables")
+        raise DesignError(
+            f"tool library {path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables"
+        )
     if not isinstance(rows, list) or not rows:
         raise DesignError(f"tool library {path} holds no tool; add a [[tool]] table")
     tools: dict[str, Tool] = {}

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Profile
-
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from mechwright.findings import Finding, Severity, errors
 
+from mechwright.findings import Finding, Severity, errors
 from mechwright_elliptic_gears.gear import opening_of, teeth_of
 from mechwright_elliptic_gears.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -11,7 +11,6 @@ from functools import lru_cache
 from mechwright.errors import GeometryError
 from mechwright.findings import Finding, Severity, errors
 from mechwright.materials import material
-
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import offset_miss, offsets_that_mesh, outline_of, rack_of, teeth_of
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle

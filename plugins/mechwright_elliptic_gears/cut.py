@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from mechwright.findings import Finding, Severity
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.keyway import Opening
 from mechwright_elliptic_gears.params import EllipticGearParams

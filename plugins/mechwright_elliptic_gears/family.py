@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.findings import Finding, errors
-
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 if TYPE_CHECKING:
     import shapely
+
     from mechwright.motion import Motion
     from mechwright.part import Part
 

@@ -4,11 +4,11 @@ import math
 from functools import lru_cache
 
 import numpy as np
+
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Instance, Part, Profile
-
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.keyway import Opening, key_of_width

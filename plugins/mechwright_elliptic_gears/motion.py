@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+
 from mechwright.errors import DesignError
 from mechwright.motion import Array, Channel, Motion, Poses, Scalar
-
 from mechwright_elliptic_gears.gear import BODIES, ellipse_of
 from mechwright_elliptic_gears.kinematics import (
     Turning,

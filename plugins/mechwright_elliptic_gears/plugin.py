@@ -4,7 +4,6 @@ from typing import Any
 
 from mechwright.family import Family
 from mechwright.hookspecs import hookimpl
-
 from mechwright_elliptic_gears.family import EllipticGears
 
 

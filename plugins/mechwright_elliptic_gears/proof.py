@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
-
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import Turning, pitch_radii

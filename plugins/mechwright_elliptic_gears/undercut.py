@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 import numpy as np
-from mechwright.findings import Finding, Severity
 
+from mechwright.findings import Finding, Severity
 from mechwright_elliptic_gears.gear import offset_miss, rack_of, teeth_of
 from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mechwright.errors import ProgramError
 from mechwright_cam.interpreter import LINUXCNC, Kind, interpret
 

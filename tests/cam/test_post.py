@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shop import DRILL, MILL, SPOT, TOOLS
+
 from mechwright.errors import ProgramError
 from mechwright.host import Host
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
@@ -14,7 +16,6 @@ from mechwright_cam import plugin
 from mechwright_cam.interpreter import Kind, interpret
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.posts.text import COMMENT_WIDTH, comment_lines
-from shop import DRILL, MILL, SPOT, TOOLS
 
 POST = LinuxCncPost()
 

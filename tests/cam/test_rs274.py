@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from rs274 import needs_rs274, run_rs274
+from shop import TOOLS, plate_program
+
 from mechwright.errors import ProgramError
 from mechwright_cam.interpreter import Kind, Run, interpret
 from mechwright_cam.posts import LinuxCncPost
-from rs274 import needs_rs274, run_rs274
-from shop import TOOLS, plate_program
 
 pytestmark = needs_rs274
 LAST_DECIMAL = 1.1e-4  # canon prints four decimals

@@ -4,6 +4,8 @@ import math
 from typing import Literal
 
 import numpy as np
+from pydantic import Field, model_validator
+
 from mechwright.errors import GeometryError
 from mechwright.family import Family
 from mechwright.findings import Finding, Severity
@@ -12,7 +14,6 @@ from mechwright.motion import Channel, Motion, Poses, Scalar
 from mechwright.parameters import Parameters
 from mechwright.part import Instance, Part
 from mechwright.units import Millimetres, RevPerMin
-from pydantic import Field, model_validator
 
 
 class DiscParams(Parameters):

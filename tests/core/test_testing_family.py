@@ -7,6 +7,8 @@ from typing import Annotated, ClassVar
 import numpy as np
 import pytest
 from disc_family import Disc, DiscParams
+from pydantic import Field
+
 from mechwright.errors import GeometryError
 from mechwright.findings import Finding, Severity
 from mechwright.geometry import Arc, Loop, Outline, circle
@@ -15,7 +17,6 @@ from mechwright.parameters import Parameters
 from mechwright.part import Bore, Instance, Profile
 from mechwright.testing import FamilyContract
 from mechwright.units import Millimetres, Unit
-from pydantic import Field
 
 EXAMPLE: dict[str, object] = {}
 

@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from functools import partial
 
 import pytest
+
 from mechwright.output import Post
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
 from mechwright.testing import PostContract, sample_program

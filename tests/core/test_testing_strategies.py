@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import find, given, settings
 from hypothesis import strategies as st
+from pydantic import ConfigDict, Field, ValidationError
+
 from mechwright.parameters import Parameters
 from mechwright.testing import assert_derivative, assert_monotone, assert_points_close, parameters, tables
 from mechwright.testing.strategies import rules
 from mechwright.testing.variations import variations
 from mechwright.tooling import CamSettings, Machine, Stock, Tool
 from mechwright.units import Millimetres, Ratio
-from pydantic import ConfigDict, Field, ValidationError
 
 patient = settings(deadline=None)
 

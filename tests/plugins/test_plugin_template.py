@@ -8,8 +8,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import mechwright
 import pytest
+
+import mechwright
 
 TEMPLATE = Path(__file__).parents[2] / "examples" / "plugin-template"
 

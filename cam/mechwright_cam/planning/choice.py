@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 
 import shapely
+
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
-
 from mechwright_cam.job import Job
 from mechwright_cam.reach import closing, leaves_at_most
 from mechwright_cam.toolpath.offsets import BIAS

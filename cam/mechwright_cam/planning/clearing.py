@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+
 from mechwright.geometry.segments import Point
 from mechwright.tooling import Tool
-
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit

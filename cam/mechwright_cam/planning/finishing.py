@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import shapely
-from mechwright.motion import Array
-from mechwright.tooling import CamSettings
 from numpy.typing import NDArray
 
+from mechwright.motion import Array
+from mechwright.tooling import CamSettings
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import Zone
@@ -74,7 +74,9 @@ class Finishing:
         found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
-            self._loop(pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0)
+            self._loop(
+                pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0
+            )
             return
         at, rho, sweep = found
         points = _from(ring, at)

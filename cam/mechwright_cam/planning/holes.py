@@ -4,13 +4,13 @@ import math
 from dataclasses import dataclass
 
 import shapely
+
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore
 from mechwright.program import Drill, Move, Rapid
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
-
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import usable_mills
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
@@ -95,7 +95,9 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
     )
 
 
-def drill_moves(job: Job, drill: Tool, places: list[Point], depth: float, clearance: float) -> tuple[Move, ...]:
+def drill_moves(
+    job: Job, drill: Tool, places: list[Point], depth: float, clearance: float
+) -> tuple[Move, ...]:
     """Drill holes of full diameter to ``depth`` mm below the stock's top."""
     speed = rates(drill, job.part.material, job.settings.machine)
     deep = depth > DEEP * drill.diameter
@@ -104,9 +106,7 @@ def drill_moves(job: Job, drill: Tool, places: list[Point], depth: float, cleara
     return _holes(places, bottom, speed.feed, clearance, None if peck is None else rounded(peck))
 
 
-def spot_moves(
-    job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float
-) -> tuple[Move, ...]:
+def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
     """Spot holes for drills of the diameters given with the places."""
     speed = rates(spot, job.part.material, job.settings.machine)
     moves: list[Move] = []

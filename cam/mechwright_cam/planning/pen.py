@@ -7,7 +7,6 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.program import Feed, FeedArc, Move, Rapid
 from mechwright.tooling import Tool
-
 from mechwright_cam.planning.rates import Rates
 from mechwright_cam.toolpath.path import Path, rounded
 

@@ -4,12 +4,12 @@ import math
 from collections.abc import Callable
 
 import shapely
+
 from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
-
 from mechwright_cam.job import Job
 from mechwright_cam.planning.clearing import SLIVER, Roughing
 from mechwright_cam.planning.finishing import Finishing
@@ -108,7 +108,9 @@ class _Planner:
         bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
         zones = inner_zones(job)
         entries = {
-            zone.name: self._entry(zone) for zone in zones if zone.kind == "inside" and zone.bottom == job.floor
+            zone.name: self._entry(zone)
+            for zone in zones
+            if zone.kind == "inside" and zone.bottom == job.floor
         }
         holes: list[tuple[Tool, Point, str]] = [
             (plan.drill, plan.bore.centre, plan.bore.name) for plan in bores if plan.drill is not None
@@ -209,7 +211,9 @@ class _Planner:
             after,
             lambda pen: cut.write(pen, data.step_down * mill.diameter),
         )
-        zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius)))
+        zone.left = shapely.difference(
+            zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
+        )
         return after
 
     def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
@@ -277,9 +281,7 @@ class _Planner:
 
 
 def _with_operation(section: ToolSection, operation: Operation) -> ToolSection:
-    return ToolSection(
-        section.tool, section.spindle, section.coolant, (*section.operations, operation)
-    )
+    return ToolSection(section.tool, section.spindle, section.coolant, (*section.operations, operation))
 
 
 def _merged(sections: list[ToolSection]) -> tuple[ToolSection, ...]:

@@ -18,10 +18,10 @@ from functools import cached_property
 from typing import Literal
 
 import shapely
+
 from mechwright.errors import DesignError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
-
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import finishing_choice, usable_mills
 from mechwright_cam.reach import opening_keep
@@ -194,9 +194,7 @@ def _frame(job: Job, part: shapely.Geometry, width: float) -> shapely.Polygon | 
     return shapely.box(*job.stock).difference(far) if inner.contains(far) else None
 
 
-def _channel(
-    job: Job, part: shapely.Polygon, mill: Tool
-) -> tuple[shapely.Geometry, shapely.Geometry | None]:
+def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
     width = channel_width(job, mill)
     if _frame(job, part, width) is None:
@@ -212,4 +210,13 @@ def bores(job: Job) -> list[Bore]:
     return [feature for feature in job.features if isinstance(feature, Bore)]
 
 
-__all__ = ["Zone", "bores", "bottom_of", "inner_zones", "outer_zones", "polygons", "roughing_mills", "through"]
+__all__ = [
+    "Zone",
+    "bores",
+    "bottom_of",
+    "inner_zones",
+    "outer_zones",
+    "polygons",
+    "roughing_mills",
+    "through",
+]

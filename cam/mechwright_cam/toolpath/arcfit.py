@@ -10,9 +10,9 @@ h, the circle is u² + v² - 2kv = h², so the least-squares k is Σ v(u² + v²
 import math
 
 import numpy as np
-from mechwright.motion import Array
 from numpy.typing import NDArray
 
+from mechwright.motion import Array
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 
 CORNER = 0.5

@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from mechwright.motion import Array
 from numpy.typing import NDArray
 
+from mechwright.motion import Array
 from mechwright_cam.toolpath.path import Path, arc, rounded
 
 CANDIDATES = 120
@@ -97,6 +97,4 @@ def with_leads(path: Path, heading: float, rho: float, sweep: float, climb: bool
     begin = (rounded(x + rise * nx - along * tx), rounded(y + rise * ny - along * ty))
     end = (rounded(x + rise * nx + along * tx), rounded(y + rise * ny + along * ty))
     centre = (x + rho * nx, y + rho * ny)
-    return Path(
-        begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side))
-    )
+    return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
+
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
-from numpy.typing import NDArray
 
 CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
@@ -52,7 +53,9 @@ def filled(shape: shapely.Geometry) -> shapely.Geometry:
 def polygons(shape: shapely.Geometry) -> list[shapely.Polygon]:
     """The polygons of a shape, none if it is empty."""
     return [
-        part for part in shapely.get_parts(shape) if part.geom_type == "Polygon" and not shapely.is_empty(part)
+        part
+        for part in shapely.get_parts(shape)
+        if part.geom_type == "Polygon" and not shapely.is_empty(part)
     ]
 
 

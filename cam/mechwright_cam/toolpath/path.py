@@ -17,6 +17,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 

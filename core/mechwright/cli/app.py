@@ -27,7 +27,10 @@ Also = Annotated[
     str, typer.Option(metavar="FORMATS", help="More formats for the solids, such as stl,3mf,glb.")
 ]
 Curves = Annotated[
-    str, typer.Option("--dxf-curves", metavar="KIND", help="Curves in DXF files: spline, spline3, arc or polyline.")
+    str,
+    typer.Option(
+        "--dxf-curves", metavar="KIND", help="Curves in DXF files: spline, spline3, arc or polyline."
+    ),
 ]
 
 SAMPLES = 721
