@@ -14,6 +14,7 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -30,12 +31,13 @@ from mechwright.materials import material
 from mechwright.motion import Motion
 from mechwright.parameters import Parameters
 from mechwright.part import Part
-from mechwright.testing import rules
+from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
 from mechwright.testing.imports import heavy_imports
 from mechwright.testing.results import difference
 from mechwright.testing.strategies import tables
 from mechwright.testing.variations import variations
+from mechwright.tolerances import TOLERANCES
 
 _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
@@ -62,6 +64,8 @@ class FamilyContract:
     """Tables of designs that build without an error finding."""
     refused: ClassVar[Sequence[tuple[Mapping[str, Any], str]]] = ()
     """Tables that must not build, each with the parameter that the refusal has to name."""
+    cam: ClassVar[Mapping[str, Any]] = {}
+    """The table ``[cam]`` that the examples are machined with."""
     variations: ClassVar[Mapping[str, Sequence[Any]]] = {}
     """Field to values worth trying, where a step from the example is not enough to change a result."""
     derivatives: ClassVar[Sequence[tuple[str, str]]] = ()
@@ -205,6 +209,25 @@ class FamilyContract:
                 solid = part.build()
                 assert solid.isValid(), f"the solid of part {part.name} is not closed, or cuts itself"
                 assert solid.Volume() > 0, f"the solid of part {part.name} is inside out"
+
+    def test_programs_are_proven(self, design: Mapping[str, Any], tmp_path: Path) -> None:
+        """Every plate part of the design is machined, by a program that has been proven."""
+        found = host()
+        registered = found.families.get(self.family.name)
+        if registered is None or type(registered.item) is not self.family:
+            pytest.skip(f"family {self.family.name} is not installed")
+        if not found.posts:
+            pytest.skip("no post is installed")
+        parameters = self.params(design).model_dump(mode="json", exclude_none=True)
+        proofs = commands.machine(
+            {"format": 1, "family": self.family.name, "parameters": parameters, "cam": dict(self.cam)},
+            tmp_path,
+        )
+        plates = {part.name for part in self._parts(design) if part.outline is not None}
+        assert plates == set(proofs), "a plate part without a program"
+        for part, proof in proofs.items():
+            assert 0 <= proof["gouge_max_mm"] <= TOLERANCES.gouge, part
+            assert 0 <= proof["leftover_reachable_max_mm"] <= TOLERANCES.leftover, part
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
