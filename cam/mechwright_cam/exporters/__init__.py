@@ -1,7 +1,6 @@
 """File formats of parts. This package is light; the modules that write import their libraries."""
 
 from mechwright_cam.exporters.formats import (
-    Curves,
     DxfExporter,
     GlbExporter,
     StepExporter,
@@ -9,4 +8,4 @@ from mechwright_cam.exporters.formats import (
     ThreeMfExporter,
 )
 
-__all__ = ["Curves", "DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]
+__all__ = ["DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]
