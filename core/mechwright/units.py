@@ -32,7 +32,9 @@ def _registry() -> Any:
     # pint takes 0.2 s to import; most design files carry no unit strings.
     import pint
 
-    return pint.UnitRegistry()
+    registry: pint.UnitRegistry[float] = pint.UnitRegistry()
+    registry.define("@alias revolution = rev")  # rev/min is what a machinist writes; pint knows rpm only
+    return registry
 
 
 @cache

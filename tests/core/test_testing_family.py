@@ -437,3 +437,59 @@ def test_solids_need_the_exporter(monkeypatch):
     run(Disc, "test_solids")
     step.data = b""
     assert_refused(Disc, "test_solids", "part disc is no STEP file")
+
+
+def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
+    from mechwright.host import Host, Registered
+    from mechwright.testing import family as kit
+
+    design = contract(Disc)
+
+    class Other(Disc):
+        """Takes the name of the family under test."""
+
+    for found, reason in (
+        (Host(), "family disc is not installed"),
+        (Host(families={"disc": Registered(Other(), "x", "y")}), "family disc is not installed"),
+        (Host(families={"disc": Registered(Disc(), "x", "y")}), "no post is installed"),
+    ):
+        monkeypatch.setattr(kit, "host", lambda found=found: found)
+        with pytest.raises(pytest.skip.Exception, match=reason):
+            design.test_programs_are_proven({}, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("proofs", "words"),
+    [
+        ({"disc": {"gouge_max_mm": 0.001, "leftover_reachable_max_mm": 0.0}}, None),
+        ({"disc": {"gouge_max_mm": 0.02, "leftover_reachable_max_mm": 0.0}}, "disc"),
+        ({"disc": {"gouge_max_mm": 0.0, "leftover_reachable_max_mm": 0.02}}, "disc"),
+        ({}, "a plate part without a program"),
+    ],
+)
+def test_programs_are_judged_by_their_proof(monkeypatch, tmp_path, proofs, words):
+    from mechwright.host import Host, Registered
+    from mechwright.testing import family as kit
+
+    found = Host(
+        families={"disc": Registered(Disc(), "x", "y")}, posts={"mill": Registered(object(), "x", "y")}
+    )
+    asked = []
+    monkeypatch.setattr(kit, "host", lambda: found)
+    monkeypatch.setattr(kit.commands, "machine", lambda design, folder: asked.append(design) or proofs)
+    test = contract(Disc, cam={"work_offset": "G55"}).test_programs_are_proven
+    if words is None:
+        test({"diameter": 50}, tmp_path)
+    else:
+        with pytest.raises(AssertionError, match=words):
+            test({"diameter": 50}, tmp_path)
+    assert asked[0]["family"] == "disc"
+    assert asked[0]["parameters"]["diameter"] == 50.0
+    assert asked[0]["cam"] == {"work_offset": "G55"}
+
+
+def test_a_command_that_fails_shows_what_it_printed(tmp_path):
+    from mechwright.testing.commands import machine
+
+    with pytest.raises(AssertionError, match=r"mechwright cam ends with \d:\n.+"):
+        machine({"format": 1, "family": "no-such-family", "parameters": {}, "cam": {}}, tmp_path)

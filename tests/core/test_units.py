@@ -48,6 +48,7 @@ def test_a_conversion_there_and_back_gives_the_number(wanted, other, value):
         ("0.25 turn", "deg", 90.0),
         ("1 ft/min", "mm/min", 304.8),
         ("90 rpm", "rpm", 90.0),
+        ("90 rev/min", "rpm", 90.0),
         ("1e3 µm", "mm", 1.0),
         ("-1.5in", "mm", -38.1),
         ("45°", "deg", 45.0),

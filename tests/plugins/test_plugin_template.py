@@ -43,6 +43,7 @@ def installed(copy, tmp_path_factory):
     offline = ["--no-index", "--no-deps", "--no-build-isolation", "--disable-pip-version-check"]
     done = subprocess.run(
         [sys.executable, "-m", "pip", "install", "--quiet", *offline, "--target", target, copy],
+        env={**os.environ, "PIP_CONFIG_FILE": os.devnull},
         capture_output=True,
         text=True,
         check=False,

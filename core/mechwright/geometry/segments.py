@@ -234,14 +234,14 @@ class BSpline:
     def __post_init__(self) -> None:
         k = self.degree
         clamped = k + 1
+        start, inner, end = self.knots[:clamped], self.knots[clamped:-clamped], self.knots[-clamped:]
         good = (
             1 <= k <= _MAX_DEGREE
             and len(self.points) >= clamped
             and len(self.knots) == len(self.points) + clamped
-            and all(a <= b for a, b in zip(self.knots, self.knots[1:], strict=False))
-            and self.knots[:clamped] == (0.0,) * clamped
-            and self.knots[-clamped:] == (1.0,) * clamped
-            and all(a < b for a, b in zip(self.knots[1:-clamped], self.knots[clamped:-1], strict=True))
+            and start == (0.0,) * clamped
+            and end == (1.0,) * clamped
+            and (not inner or self._inner_knots_are_good())
         )
         if not good:
             raise GeometryError(
@@ -252,11 +252,16 @@ class BSpline:
         if not np.isfinite(self._net).all():
             raise GeometryError("a B-spline needs finite control points")
 
+    def _inner_knots_are_good(self) -> bool:
+        """Whether the knots never fall, and none is so many-fold that the curve is torn."""
+        knots, k = self._knots, self.degree
+        return bool((knots[:-1] <= knots[1:]).all() and (knots[1 : -k - 1] < knots[k + 1 : -1]).all())
+
     @classmethod
     def bezier(cls, points: ArrayLike, tag: str = "") -> "BSpline":
         """The single-span spline with these control points (n, 2), mm."""
-        rows = [_point(row) for row in np.asarray(points, dtype=float)]
-        return cls(len(rows) - 1, (0.0,) * len(rows) + (1.0,) * len(rows), tuple(rows), tag)
+        rows = np.asarray(points, dtype=float).tolist()
+        return cls(len(rows) - 1, (0.0,) * len(rows) + (1.0,) * len(rows), tuple(map(tuple, rows)), tag)
 
     @property
     def start(self) -> Point:

@@ -218,11 +218,9 @@ class FamilyContract:
             pytest.skip(f"family {self.family.name} is not installed")
         if not found.posts:
             pytest.skip("no post is installed")
-        parameters = self.params(design).model_dump(mode="json", exclude_none=True)
-        proofs = commands.machine(
-            {"format": 1, "family": self.family.name, "parameters": parameters, "cam": dict(self.cam)},
-            tmp_path,
-        )
+        table = self.params(design).model_dump(mode="json", exclude_none=True)
+        file = {"format": 1, "family": self.family.name, "parameters": table, "cam": dict(self.cam)}
+        proofs = commands.machine(file, tmp_path)
         plates = {part.name for part in self._parts(design) if part.outline is not None}
         assert plates == set(proofs), "a plate part without a program"
         for part, proof in proofs.items():
