@@ -24,12 +24,12 @@ def step_times(run: Run, machine: Machine) -> Array:
 
     Examples
     --------
-    100 mm at 6000 mm/min with 1 m/s²: one second of travel, and a tenth for speeding up and slowing down.
+    100 mm at 50 mm/s with 1 m/s²: two seconds of travel, and 0.05 s for speeding up and slowing down.
 
     >>> from mechwright_cam.interpreter import interpret
-    >>> run = interpret("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F6000\nM2")
-    >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 3)
-    1.1
+    >>> run = interpret("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F3000\nM2")
+    >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 2)
+    2.05
     """
     moving = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME))
     rapid = np.isin(run.kind, (Kind.RAPID, Kind.HOME))

@@ -18,6 +18,7 @@ from mechwright_cam.job import Job, make_job
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.proof.plane import closing
+from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
 CLEAN = LinuxCncPost().write(plate_program())
 
@@ -304,9 +305,9 @@ def test_the_closing_is_what_a_round_cutter_leaves() -> None:
         assert left == pytest.approx(radius**2 * (1 - math.pi / 4), rel=5e-3)
 
 
-def pocket_part() -> Part:
+def pocket_part(half_width: float = 3.0) -> Part:
     outer = Loop.polygon([(-30, -20), (30, -20), (30, 20), (-30, 20)])
-    half, r = 10.0, 3.0
+    half, r = 10.0, half_width
     rim = Loop(
         (
             Line((-half, -r), (half, -r)),
@@ -327,15 +328,17 @@ def pocket_part() -> Part:
 SMALL = Tool(name="mill-4", number=5, kind=ToolKind.END_MILL, diameter=4, flutes=3, flute_length=12)
 
 
-def pocket_proof(depth: float, x: float = 10.0, offset: float = 1 - BIAS) -> Proof:
-    part = pocket_part()
+def pocket_proof(
+    depth: float, offset: float = 1 - BIAS, part: Part | None = None, *, middle: bool = True
+) -> Proof:
+    part, x = part or pocket_part(), 10.0
     job = make_job(part, CamSettings(hold=Hold(tabs=2, tab_width=3, tab_height=1)), (SMALL,))
     y = offset
     slot: tuple[Move, ...] = (
-        Rapid(-x, 0.0),
+        Rapid(-x if middle else x, 0.0 if middle else -y),
         Rapid(z=1.0),
         Feed(None, None, -depth, 100.0),
-        Feed(x, 0.0, None, 300.0),
+        Feed(x, 0.0 if middle else -y, None, 300.0),
         Feed(x, -y, None, 300.0),
         FeedArc(x, y, None, 0.0, y, True, 300.0),
         Feed(-x, y, None, 300.0),
@@ -360,14 +363,51 @@ def test_a_floor_is_gouged_by_the_depth_of_the_cut() -> None:
     assert pocket_proof(3.0, offset=1.1).gouge_max_mm == pytest.approx(0.1, abs=1e-3)
 
 
-def test_a_rib_in_the_middle_of_the_zone_is_found() -> None:
-    """Two passes that leave a thin wall standing between them, away from the part."""
-    clean = plate_program()
-    section = clean.sections[2]
-    # Roughing far out only: between 0 and 1 mm from the wall stock stays.
-    wide = proof_of(plate_program(bias=1.0), plate_job())
-    assert wide.leftover_reachable_max_mm == pytest.approx(1.0, abs=2e-3)
-    assert section.tool is MILL
+def test_stock_that_stands_on_a_floor_is_found() -> None:
+    """A pocket 10 mm wide, cut by a 4 mm mill along its walls only: a rib of 2 mm stays in the middle."""
+    part = pocket_part(half_width=5.0)
+    around = pocket_proof(3.0, part=part, offset=3 - BIAS, middle=False)
+    rib = around.checks["leftover"]
+    assert not rib.passed
+    assert rib.at is not None
+    assert rib.at[1] == pytest.approx(0.0, abs=1.1)
+    # Its sides stand 4 mm from the walls.
+    assert around.leftover_reachable_max_mm == pytest.approx(4.0, abs=0.01)
+
+
+def test_a_gap_in_the_middle_of_a_straight_wall_is_found() -> None:
+    part = Part("box", Outline(Loop.polygon([(0, 0), (40, 0), (40, 20), (0, 20)])), 4.0, "aluminium")
+    job = replace(make_job(part, CamSettings(hold=Hold(tab_width=1, tab_height=0.2)), (MILL,)), tabs=())
+    r = MILL.radius + BIAS
+    for gap in (0.0, 0.6, 1.0, 9.0):
+        start, end = 20 + gap / 2, 20 - gap / 2
+        corners = [(40 + r, -r), (40 + r, 20 + r), (-r, 20 + r), (-r, -r), (end, -r)]
+        feeds = tuple(Feed(x, y, None, 500.0) for x, y in corners)
+        moves: tuple[Move, ...] = (Rapid(start, -r), Rapid(z=1.0), Feed(None, None, -4.3, 100.0), *feeds)
+        section = ToolSection(MILL, 8000, "flood", (Operation("around", (*moves, Rapid(z=5.0))),))
+        proof = proof_of(Program("box", "G54", 5.0, (section,)), job)
+        # The wall's middle is as far from both discs: Pythagoras.
+        cusp = math.hypot(r, gap / 2) - MILL.radius
+        assert proof.leftover_reachable_max_mm == pytest.approx(cusp, abs=1e-3)
+
+
+def test_tabs_need_a_frame() -> None:
+    job = plate_job()
+    x0, y0, x1, y1 = job.stock
+    narrow = replace(job, stock=(x0 + 4, y0 + 4, x1 - 4, y1 - 4))  # the cutter takes all of that margin
+    proof = prove(CLEAN, narrow)
+    assert [c.name for c in proof.failures] == ["holding"]
+    assert "larger margin" in proof.failures[0].message
+
+
+def test_a_loose_piece_is_remarked_on() -> None:
+    ring = plate_program(mill=SMALL)
+    proof = proof_of(ring, plate_job(tools=(SPOT, SMALL, DRILL)))
+    assert proof.notes == ()  # the drill has taken the middle of the bore
+    undrilled = replace(ring, sections=ring.sections[2:])
+    notes = proof_of(undrilled, plate_job(tools=(SMALL,))).notes
+    assert len(notes) == 1
+    assert "comes loose at X" in notes[0]
 
 
 def test_a_hole_of_a_drill_s_size_is_reached_by_the_drill() -> None:
@@ -395,5 +435,3 @@ def test_a_hole_of_a_drill_s_size_is_reached_by_the_drill() -> None:
     # 1 mm below the underside a 118° point is 1.66 mm in radius: the ring outside it stays.
     ring = math.pi * (16 - math.tan(math.radians(59)) ** 2)
     assert cone.unreachable_area_mm2 == pytest.approx(ring, rel=1e-2)
-    assert BORE > 8.0
-    assert TOOLS

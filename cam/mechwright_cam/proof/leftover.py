@@ -2,13 +2,14 @@
 
 The cutters of the program sweep, at the bottom of each band, the discs around the part of their path that
 reaches it; higher up they sweep at least that. What the smallest of them could reach is everything outside
-the closing of the finished part by its radius. Two questions follow. How thick is the stock on the wall:
-at every corner of the reachable wall, the distance to the nearest path less that cutter's radius. Is there
-stock further out, up to one diameter of the smallest cutter from the part: an area.
+the closing of the finished part by its radius. The stock on a wall is, at samples of the reachable wall, the
+distance to the nearest path less that cutter's radius. Where it is nothing a disc touches the wall, and the
+band of one diameter along the wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +21,7 @@ from mechwright.part import Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
+from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape
 from mechwright_cam.proof.paths import NEAR, Paths
@@ -36,10 +38,12 @@ TAB_SLACK = 0.5
 the tab is cut off by hand."""
 CLEARED = TOLERANCES.arc_fit
 """A wall with no more stock than this is as clean as a path can make it, mm."""
+REFINED = 64
+"""So many of the worst wall samples are looked at closely."""
 REFINE = 17
-"""Trial points on each edge beside the deepest corner: an edge of 0.05 mm is searched every 3 µm."""
+"""Trial points on an edge beside a corner that is looked at closely."""
 COARSE = 0.002
-"""Accuracy of the area of stock away from walls, mm: a fifth of the leftover limit."""
+"""Accuracy of areas that are not reported, mm: a fifth of the leftover limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +74,7 @@ def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
     """What is cut at ``bottom`` by the feed moves that go down to ``height``."""
     cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
     pieces = paths.below(height, steps=cutting)
-    radius = np.round(paths.radius_at(pieces, max(bottom, height)), 6)
+    radius = np.round(paths.radius_at(pieces, bottom), 6)
     groups = []
     for one in np.unique(radius[radius > NEAR]):
         group = pieces.only(radius == one)
@@ -102,8 +106,8 @@ def remains(paths: Paths, job: Job) -> Remains:
             reached = closing(shapely.union_all([band.keep, *tabs]), smallest)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in tabs])
-        thick, place = _on_walls(reached, aside, job, groups)
-        for depth, where in ((thick, place), _away(reached, aside, band, job, groups, 2 * smallest)):
+        thick, place = _on_walls(reached, aside, job, groups, smallest)
+        for depth, where in ((min(thick, 2 * smallest), place), _on_floors(reached, band, job, groups)):
             if where is not None and depth > worst:
                 worst, at = depth, (*where, band.bottom)
     beyond = [
@@ -114,64 +118,89 @@ def remains(paths: Paths, job: Job) -> Remains:
 
 
 def _on_walls(
-    reached: Shape, aside: Shape | None, job: Job, groups: list[Sweep]
+    reached: Shape, aside: Shape | None, job: Job, groups: list[Sweep], smallest: float
 ) -> tuple[float, tuple[float, float] | None]:
-    """Thickest stock on the wall that can be reached, and its place."""
-    points = shapely.get_coordinates(reached)
+    """Thickest stock on the wall that can be reached, and its place; inf where no cutter went."""
+    # Between two discs that stand apart a cusp stays; one of the leftover limit is wider than this where it
+    # is CLEARED thick, so a sample meets it, and the refinement finds its peak.
+    limit = TOLERANCES.leftover
+    spacing = 2 * (limit - CLEARED) / math.sqrt(2 * limit / smallest)
+    wall = shapely.segmentize(reached, spacing)
+    points, owner = shapely.get_coordinates(shapely.get_rings(wall), return_index=True)
     x0, y0, x1, y1 = job.stock
     x, y = points.T
     # Where the part's edge is the stock's edge there is nothing to cut.
-    points = points[(x > x0 + NEAR) & (x < x1 - NEAR) & (y > y0 + NEAR) & (y < y1 - NEAR)]
-    if aside is not None and len(points):
+    asked = (x > x0 + NEAR) & (x < x1 - NEAR) & (y > y0 + NEAR) & (y < y1 - NEAR)
+    if aside is not None:
         shapely.prepare(aside)
-        points = points[~shapely.contains_xy(aside, points[:, 0], points[:, 1])]
-    if len(points) == 0:
+        asked &= ~shapely.contains_xy(aside, x, y)
+    index = np.flatnonzero(asked)
+    if index.size == 0:
         return 0.0, None
-    thick = _thickness(points, groups)
-    worst = int(np.argmax(thick))
-    return float(max(thick[worst], 0.0)), (float(points[worst, 0]), float(points[worst, 1]))
+    trees = [(shapely.STRtree(group.chords()), group.radius) for group in groups]
+    thick = _thickness(points[index], trees)
+    worst = index[np.argsort(thick)[-REFINED:]]
+    trial = _beside(points, owner, worst).reshape(-1, 2)
+    finer = _thickness(trial, trees)
+    best = int(np.argmax(finer))
+    return float(max(finer[best], 0.0)), (float(trial[best, 0]), float(trial[best, 1]))
 
 
-def _thickness(points: Array, groups: list[Sweep]) -> Array:
+def _beside(points: Array, owner: Ints, at: Ints) -> Array:
+    """Trial points (n, 2 REFINE, 2) along both edges that meet in each corner ``at``."""
+    last = len(points) - 1
+    before, after = np.maximum(at - 1, 0), np.minimum(at + 1, last)
+    before = np.where(owner[before] == owner[at], before, at)
+    after = np.where(owner[after] == owner[at], after, at)
+    t = np.linspace(0.0, 1.0, REFINE)[None, :, None]
+    here = points[at][:, None]
+    trial: Array = np.concatenate(
+        (here + (points[before][:, None] - here) * t, here + (points[after][:, None] - here) * t), axis=1
+    )
+    return trial
+
+
+def _thickness(points: Array, trees: list[tuple[shapely.STRtree, float]]) -> Array:
     """Distance (k,) from each point to the nearest swept disc, mm; inf where there is none."""
     spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
-    for group in groups:
+    for tree, radius in trees:
         # A point that one cutter has cleared needs no other; the smallest, which comes first, clears most.
         open_ = np.flatnonzero(thick > CLEARED)
         if open_.size == 0:
             break
-        most = float(thick[open_].max()) + group.radius
-        (index, _), distance = shapely.STRtree(group.chords()).query_nearest(
+        most = float(thick[open_].max()) + radius
+        (index, _), distance = tree.query_nearest(
             spots[open_],
             max_distance=most if np.isfinite(most) else None,
             return_distance=True,
             all_matches=False,
         )
         found = open_[index]
-        thick[found] = np.minimum(thick[found], distance - group.radius)
+        thick[found] = np.minimum(thick[found], distance - radius)
     return thick
 
 
-def _away(
-    reached: Shape, aside: Shape | None, band: Band, job: Job, groups: list[Sweep], reach: float
+def _on_floors(
+    reached: Shape, band: Band, job: Job, groups: list[Sweep]
 ) -> tuple[float, tuple[float, float] | None]:
-    """Greatest distance from the reachable wall to stock that stands off it, and the place."""
+    """Greatest distance from the reachable wall to stock that stands on a floor, and the place."""
+    # A floor has to be cleared all over; the waste of a through opening drops out.
+    floors = [
+        inside_of(feature)
+        for feature in job.features
+        if feature.top + feature.depth < job.thickness - NEAR
+        and not (isinstance(feature, Profile) and feature.side == "outside")
+        and -feature.top >= band.top - NEAR
+        and -(feature.top + feature.depth) <= band.bottom + NEAR
+    ]
+    if not floors:
+        return 0.0, None
     slack = TOLERANCES.leftover
-    zone = [grow(band.keep, reach, COARSE)]
-    for feature in job.features:
-        # A floor has to be cleared all over; the waste of a through opening may drop out.
-        blind = feature.top + feature.depth < job.thickness - NEAR
-        outside = isinstance(feature, Profile) and feature.side == "outside"
-        if blind and not outside and -feature.top >= band.top - NEAR >= -(feature.top + feature.depth):
-            zone.append(inside_of(feature))
-    region = shapely.intersection(shapely.union_all(zone) if len(zone) > 1 else zone[0], stock_shape(job))
-    cleared = [grow(g.chains, g.radius + slack / 2, COARSE) for g in groups]
-    gone = shapely.union_all([shape for group in cleared for shape in np.atleast_1d(group)])
-    rest = shapely.difference(region, gone)
-    rest = shapely.difference(rest, grow(reached, slack, COARSE))
-    if aside is not None:
-        rest = shapely.difference(rest, aside)
+    swept = [grow(g.chains, g.radius + slack / 2, COARSE) for g in groups]
+    gone = shapely.union_all([shape for group in swept for shape in np.atleast_1d(group)])
+    region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
+    rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
     if rest.is_empty:
         return 0.0, None
     corners = shapely.get_coordinates(rest)
@@ -210,13 +239,7 @@ def _deepest_points(parts: Any, edge: Boundary) -> tuple[Array, Array]:
     distance = edge.distance(shapely.points(points))
     order = np.lexsort((-distance, owner))
     best = order[np.unique(owner[order], return_index=True)[1]]
-    # The furthest point may lie between two corners: look along both edges that meet in the furthest corner.
-    before = points[np.where(owner[best - 1] == owner[best], best - 1, best)]
-    after_index = np.minimum(best + 1, len(points) - 1)
-    after = points[np.where(owner[after_index] == owner[best], after_index, best)]
-    t = np.linspace(0.0, 1.0, REFINE)[None, :, None]
-    here = points[best][:, None]
-    trial = np.concatenate((here + (before[:, None] - here) * t, here + (after[:, None] - here) * t), axis=1)
+    trial = _beside(points, owner, best)  # the furthest point may lie between two corners
     found = edge.distance(shapely.points(trial.reshape(-1, 2))).reshape(len(best), -1)
     column = np.argmax(found, axis=1)
     rows = np.arange(len(best))

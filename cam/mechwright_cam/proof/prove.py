@@ -13,6 +13,7 @@ from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands, inside_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
@@ -58,6 +59,8 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     checks.append(_depth_check(scene))
     left = remains(paths, job)
     checks.append(_leftover_check(left))
+    held, loose = holding(paths, job)
+    checks.append(held)
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
     return Proof(
@@ -72,7 +75,7 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
         time_estimate_s=float(seconds.sum()),
         cutting_length_mm=float(np.nansum(run.length[run.cutting])),
         operations=_operations(run, seconds),
-        notes=_notes(left),
+        notes=(*_notes(left), *loose),
     )
 
 
