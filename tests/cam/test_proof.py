@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 import shapely
-from shop import BIAS, BORE, DRILL, MILL, SPOT, TOOLS, bore, plate, plate_job, plate_program
+from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
 from mechwright.errors import ProofError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
@@ -18,7 +18,6 @@ from mechwright_cam.job import Job, make_job
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.proof.plane import closing
-from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
 CLEAN = LinuxCncPost().write(plate_program())
 
