@@ -1,7 +1,7 @@
 """What an engineer would object to in a design, and the figures worth knowing.
 
-The checks run from the rack to the mesh. Each group needs what the groups before it have found to be sound, so
-the first group with an error ends the list.
+The checks run from the rack to the mesh. Each group needs what the groups before it have found to be sound,
+so the first group with an error ends the list.
 """
 
 import math
@@ -30,7 +30,7 @@ SHAFT_PRESSURE_ANGLE = 50.0
 """Degrees above which the flanks mainly push the shafts apart and friction may block the drive."""
 
 FLANK_ERROR = 0.002
-"""Jump of a flank at the change from tooth to tooth, mm, that no longer comes from fitting: contact is lost."""
+"""Jump of a flank, mm, that no longer comes from fitting: contact is lost between two teeth."""
 
 _CACHED = 32
 """Designs whose findings are kept: parts ask for them again."""
@@ -81,8 +81,8 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
                 "gear.phase",
                 Severity.ERROR,
                 "tooth_offset",
-                f"wrong phase: with a tooth {params.tooth_offset:g} pitches from the far vertex, two gears of "
-                f"{params.teeth} teeth collide",
+                f"wrong phase: with a tooth {params.tooth_offset:g} pitches from the far vertex, two gears "
+                f"of {params.teeth} teeth collide",
                 params.tooth_offset,
                 nearest,
                 "",
@@ -234,8 +234,8 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
             "gear.contact",
             Severity.WARNING,
             "addendum",
-            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: a "
-            "tooth leaves contact before the next one takes over",
+            f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: "
+            "a tooth leaves contact before the next one takes over",
             proof.flank_error,
             FLANK_ERROR,
             "mm",
@@ -270,8 +270,8 @@ def _figures(params: EllipticGearParams) -> Iterator[Finding]:
         Severity.NOTE,
         "",
         f"module {teeth.rack.module:.4f} mm, semi-axes {teeth.ellipse.semi_major:.4f} and "
-        f"{teeth.ellipse.semi_minor:.4f} mm, centre distance {2 * teeth.ellipse.semi_major:.4f} mm; each gear "
-        f"{mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
+        f"{teeth.ellipse.semi_minor:.4f} mm, centre distance {2 * teeth.ellipse.semi_major:.4f} mm; each "
+        f"gear {mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
         2 * teeth.ellipse.semi_major,
         None,
         "mm",

@@ -45,7 +45,8 @@ def cut_findings(params: EllipticGearParams, cut: "shapely.Polygon") -> Iterator
             "gear.cut-mesh",
             Severity.NOTE,
             "",
-            f"as cut, the pair meshes: overlap {overlap:g} mm², transmission error {proof.error * 1e6:.1f} µrad",
+            f"as cut, the pair meshes: overlap {overlap:g} mm², transmission error "
+            f"{proof.error * 1e6:.1f} µrad",
             proof.error * 1e6,
             None,
             "µrad",
@@ -82,8 +83,8 @@ def _opening(opening: Opening, cut: "shapely.Polygon") -> Iterator[Finding]:
             "gear.cut-key",
             Severity.ERROR,
             "keyway_relief",
-            f"the key does not go in: the chosen cutters leave {depth:.3f} mm of the keyway's corners standing "
-            "in its way",
+            f"the key does not go in: the chosen cutters leave {depth:.3f} mm of the keyway's corners "
+            "standing in its way",
             depth,
             KEY_FIT,
             "mm",

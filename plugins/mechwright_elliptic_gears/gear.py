@@ -144,7 +144,7 @@ def part_of(params: EllipticGearParams) -> Part:
 
 
 def _tab_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
-    """The middle of every tip, where a tab's mark touches no flank, and the tip's chord as the tab's limit."""
+    """The middle of every tip, where a tab's mark touches no flank, and the tip's chord as its limit."""
     sites = []
     for segment in loop.segments:
         if segment.tag == "tip":

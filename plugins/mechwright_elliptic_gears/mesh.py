@@ -23,16 +23,17 @@ from dataclasses import dataclass
 import numpy as np
 from mechwright.motion import Array
 
-from mechwright_elliptic_gears.crossings import Flags, Ints, turns_to_edges
+from mechwright_elliptic_gears.crossings import turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.kinematics import Turning, driven
+from mechwright_elliptic_gears.zone import Near, Rim, half_span, level, turned
 
 POSITIONS_PER_TOOTH = 4
 """Positions per tooth. One more over the whole turn makes the step unrelated to the pitch, so that every part
 of the mesh cycle is met."""
 
-EDGES_PER_PITCH = 64
-"""Longer edges are cut, so that corners stand close enough to feel every contact."""
+EDGES_PER_PITCH = 16
+"""Longer edges are cut, so that an edge is a short piece of one flank."""
 
 _CHUNK = 32
 """Positions at a time: bounds the memory, a few ten MB."""
@@ -42,6 +43,9 @@ _REACH = 0.1
 
 _DEEPEST = 0.25
 """Pitches: half the thickness of a tooth. A point cannot stand deeper in material than that."""
+
+_SIGHT = 0.5
+"""Pitches: half the least arc on both sides of a point in which it looks for edges."""
 
 _AREAS = 64
 """Most positions, spread over those that overlap, whose overlap area is measured."""
@@ -74,14 +78,19 @@ class Mesh:
 
     @property
     def transmission_error(self) -> float:
-        """Peak to peak, rad: the larger one of the two flanks."""
-        return float(max(np.ptp(self.ahead), np.ptp(self.behind)))
+        """Peak to peak, rad: the larger one of the two flanks; inf if a flank finds nothing to drive."""
+        return max(swing(self.ahead), swing(self.behind))
 
     @property
     def free_play(self) -> Array:
         """Turn (n,), rad, of gear 4 from flank to flank."""
         play: Array = self.ahead + self.behind
         return play
+
+
+def swing(values: Array) -> float:
+    """Peak to peak of values (n,); inf if one of them is not finite."""
+    return float(np.ptp(values)) if np.isfinite(values).all() else math.inf
 
 
 def mesh(
@@ -112,18 +121,21 @@ def mesh(
         positions = POSITIONS_PER_TOOTH * teeth + 1
     pitch = ellipse.perimeter / teeth
     two, four = (_cut_edges(points, pitch / EDGES_PER_PITCH) for points in (gear2, gear4))
+    rims = Rim.of(two, ellipse), Rim.of(four, ellipse)
     # The pitch point of gear 2 moves along its ellipse by equal arcs; it lies at -θ2 in the part frame.
-    on_ellipse = ellipse.frame_at(ellipse.perimeter * np.arange(positions) / positions).point
+    arc = ellipse.perimeter * np.arange(positions) / positions
+    on_ellipse = ellipse.frame_at(arc).point
     theta2 = -np.unwrap(np.arctan2(on_ellipse[:, 1], on_ellipse[:, 0]))
     theta4 = driven(Turning.of(theta2, 1.0), ellipse.eccentricity).theta
-    widest = max(float(_level(points[:, 0], points[:, 1], ellipse).max()) for points in (two, four))
-    reach = (math.sqrt(widest) + _REACH * pitch / ellipse.semi_major) ** 2
-    parts = [
-        _positions(
-            two, four, theta2[i : i + _CHUNK], theta4[i : i + _CHUNK], ellipse, reach, _DEEPEST * pitch
-        )
-        for i in range(0, positions, _CHUNK)
-    ]
+    # Gear 4 rolls backwards from its near vertex.
+    u2, u4 = ellipse.angle(arc), ellipse.angle(ellipse.perimeter / 2 - arc)
+    scale = max(float(level(points, ellipse).max()) for points in (two, four))
+    scale += _REACH * pitch / ellipse.semi_major
+    parts = []
+    for i in range(0, positions, _CHUNK):
+        now = slice(i, i + _CHUNK)
+        near = _near(rims, ellipse, scale, theta2[now], theta4[now], u2[now], u4[now])
+        parts.append(_contact(*near, theta2[now].size, pitch))
     ahead, behind, depth, gap = (np.concatenate(column) for column in zip(*parts, strict=True))
     overlap = 0.0
     deep = np.flatnonzero(depth > allowance)
@@ -143,45 +155,36 @@ def _cut_edges(points: Array, longest: float) -> Array:
     return cut
 
 
-def _level(x: Array, y: Array, ellipse: Ellipse) -> Array:
-    """Square of the scale (...) at which the pitch ellipse, blown up about its centre, reaches the points."""
-    level: Array = ((x - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (y / ellipse.semi_minor) ** 2
-    return level
+def _near(
+    rims: tuple[Rim, Rim], ellipse: Ellipse, scale: float, theta2: Array, theta4: Array, u2: Array, u4: Array
+) -> tuple[Near, Near]:
+    """What of both gears is near contact in some positions, seen from gear 4."""
+    half = half_span(ellipse, scale)
+    distance = 2 * ellipse.semi_major
+    cos, sin = np.cos(theta2 - theta4), np.sin(theta2 - theta4)
+    axis2 = -distance * np.column_stack((np.cos(theta4), -np.sin(theta4)))
+    axis4 = distance * np.column_stack((np.cos(theta2), -np.sin(theta2)))
+    position, index = rims[0].span(u2, half)
+    placed = turned(rims[0].points[index], cos[position], sin[position]) + axis2[position]
+    near2 = Near.of(placed, position, level(placed, ellipse) < scale)
+    position, index = rims[1].span(u4, half)
+    placed = rims[1].points[index]
+    seen = turned(placed, cos[position], -sin[position]) + axis4[position]
+    return near2, Near.of(placed, position, level(seen, ellipse) < scale)
 
 
-def _positions(
-    two: Array, four: Array, theta2: Array, theta4: Array, ellipse: Ellipse, reach: float, deepest: float
-) -> tuple[Array, Array, Array, Array]:
-    """Play ahead and behind, depth and gap (k,) of some positions; ``reach``: level of the envelopes."""
-    k, distance = theta2.size, 2 * ellipse.semi_major
-    # Everything is seen from gear 4, so that only gear 2 has to be moved.
-    c, s = np.cos(theta2 - theta4)[:, None], np.sin(theta2 - theta4)[:, None]
-    at = -distance * np.column_stack((np.cos(theta4), -np.sin(theta4)))
-    x = c * two[:, 0] - s * two[:, 1] + at[:, :1]
-    y = s * two[:, 0] + c * two[:, 1] + at[:, 1:]
-    near2 = _level(x, y, ellipse) < reach
-    back = distance * np.column_stack((np.cos(theta2), -np.sin(theta2)))
-    near4 = (
-        _level(
-            c * four[:, 0] + s * four[:, 1] + back[:, :1],
-            c * four[:, 1] - s * four[:, 0] + back[:, 1:],
-            ellipse,
-        )
-        < reach
-    )
-    group2, _ = np.nonzero(near2)
-    group4, index4 = np.nonzero(near4)
-    points2, points4 = np.column_stack((x[near2], y[near2])), four[index4]
-    from2, to2 = _edges(near2)
-    edges2 = np.column_stack((x[from2], y[from2])), np.column_stack((x[to2], y[to2])), from2[0]
-    from4, to4 = _edges(near4)
-    edges4 = four[from4[1]], four[to4[1]], from4[0]
-    pitch_ring = float(np.median(np.hypot(*(edges4[1] - edges4[0]).T))) if len(edges4[0]) else 1.0
-    ahead, behind = np.full(k, np.inf), np.full(k, np.inf)
-    depth, gap = np.zeros(k), np.full(k, np.inf)
+def _contact(gear2: Near, gear4: Near, count: int, pitch: float) -> tuple[Array, Array, Array, Array]:
+    """Play ahead and behind, depth and gap (count,) of some positions."""
+    edge = np.hypot(*(gear4.ends - gear4.starts).T)
+    ring = float(np.median(edge)) if edge.size else math.inf
+    ahead, behind = np.full(count, np.inf), np.full(count, np.inf)
+    depth, gap = np.zeros(count), np.full(count, np.inf)
     groups, turns, distances = [], [], []
-    for points, group, edges, moving in ((points2, group2, edges4, False), (points4, group4, edges2, True)):
-        free = turns_to_edges(points, group, *edges, pitch_ring)
+    for own, other, moving in ((gear2, gear4, False), (gear4, gear2, True)):
+        group = own.position
+        free = turns_to_edges(
+            own.points, group, other.starts, other.ends, other.edge_position, ring, _SIGHT * pitch
+        )
         # Gear 4 turning ahead brings its leaving edges to points of gear 2 that lie ahead of them, and its
         # own points to entering edges of gear 2.
         forward = free.entering_ahead if moving else free.leaving_behind
@@ -192,7 +195,7 @@ def _positions(
         over, under = free.leaving_ahead, free.entering_behind
         nearer = np.minimum(over, under)
         inside = (over <= free.entering_ahead) & (under <= free.leaving_behind)
-        inside &= nearer * np.hypot(*points.T) < deepest
+        inside &= nearer * np.hypot(*own.points.T) < _DEEPEST * pitch
         retreats = inside & ((under <= over) if moving else (over <= under))
         advances = inside & ~retreats
         forward = np.where(retreats, -nearer, np.where(advances, np.inf, forward))
@@ -210,26 +213,14 @@ def _positions(
     return ahead, behind, depth, gap
 
 
-def _edges(near: Flags) -> tuple[tuple[Ints, Ints], tuple[Ints, Ints]]:
-    """Index arrays of the first and second corners of edges with an end near contact."""
-    row, column = np.nonzero(near | np.roll(near, -1, axis=1))
-    return (row, column), (row, (column + 1) % near.shape[1])
-
-
-def _turned(points: Array, angles: Array) -> Array:
-    """Points (n, 2) turned by angles (k,): (k, n, 2)."""
-    c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
-    x, y = points.T
-    return np.stack((c * x - s * y, s * x + c * y), axis=-1)
-
-
 def _overlap(gear2: Array, gear4: Array, theta2: Array, theta4: Array, distance: float) -> float:
     """Largest common area, mm², over some positions."""
     import shapely
 
     areas = []
-    shift = np.array([distance, 0.0])
-    for one, other in zip(_turned(gear2, theta2), _turned(gear4, theta4) + shift, strict=True):
+    for angle2, angle4 in zip(theta2, theta4, strict=True):
+        one = turned(gear2, np.cos(angle2), np.sin(angle2))
+        other = turned(gear4, np.cos(angle4), np.sin(angle4)) + np.array([distance, 0.0])
         low, high = np.maximum(one.min(0), other.min(0)), np.minimum(one.max(0), other.max(0))
         if (low < high).all():
             shapes = (shapely.clip_by_rect(shapely.Polygon(gear), *low, *high) for gear in (one, other))

@@ -11,12 +11,12 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import Turning, pitch_radii
-from mechwright_elliptic_gears.mesh import Mesh, mesh
+from mechwright_elliptic_gears.mesh import Mesh, mesh, swing
 from mechwright_elliptic_gears.params import EllipticGearParams
 
-FLATTEN = 5e-5
-"""Chord error of the polygons of the proof, in modules: over 64 points on a flank, which leaves 3 µrad of
-transmission error where 24 points leave 22."""
+FLATTEN = 2.5e-6
+"""Chord error of the polygons of the proof, in semi-major axes: that many radians of transmission error, give
+or take the ratio of the axes. For 40 teeth it puts 64 points on a flank."""
 
 _CACHED = 16
 """Proofs that are kept."""
@@ -55,7 +55,7 @@ class MeshProof:
 def prove(params: EllipticGearParams) -> MeshProof:
     """Run the finished outline against its copy."""
     outline = outline_of(params)
-    tolerance = min(FLATTEN * teeth_of(params).rack.module, TOLERANCES.flatten)
+    tolerance = min(FLATTEN * teeth_of(params).ellipse.semi_major, TOLERANCES.flatten)
     return prove_outlines(params, outline.outer.flatten(tolerance), 2 * (outline.deviation + tolerance))
 
 
@@ -72,8 +72,8 @@ def prove_outlines(params: EllipticGearParams, points: Array, allowance: float) 
     return MeshProof(
         result,
         allowance,
-        float(max(np.ptp(play * lever) for play, lever in flanks)),
-        float(max(np.ptp(play - normal / lever) for play, lever in flanks)),
+        max(swing(play * lever) for play, lever in flanks),
+        max(swing(play - normal / lever) for play, lever in flanks),
     )
 
 

@@ -31,8 +31,9 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
         "gear.undercut",
         Severity.ERROR,
         "teeth",
-        f"{int(bad.sum())} of {bad.size} flanks are undercut, most of all that on side {int(side) * 2 - 1:+d} of "
-        f"space {int(space)}: its regularity falls to {float(factor.min()):.3f} of that on the pitch curve",
+        f"{int(bad.sum())} of {bad.size} flanks are undercut, most of all that on side "
+        f"{int(side) * 2 - 1:+d} of space {int(space)}: its regularity falls to "
+        f"{float(factor.min()):.3f} of that on the pitch curve",
         params.teeth,
         None if better is None else better.teeth,
         "",
