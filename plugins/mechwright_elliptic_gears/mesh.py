@@ -176,7 +176,7 @@ def _near(
 def _contact(gear2: Near, gear4: Near, count: int, pitch: float) -> tuple[Array, Array, Array, Array]:
     """Play ahead and behind, depth and gap (count,) of some positions."""
     edge = np.hypot(*(gear4.ends - gear4.starts).T)
-    ring = float(np.median(edge)) if edge.size else math.inf
+    ring = float(edge.mean()) if edge.size else math.inf
     ahead, behind = np.full(count, np.inf), np.full(count, np.inf)
     depth, gap = np.zeros(count), np.full(count, np.inf)
     groups, turns, distances = [], [], []

@@ -76,7 +76,7 @@ def fit_curves(
     ...     return np.array([1.0, 2.0])[:, None, None] * arc
     >>> chains, deviation = fit_curves(quarters, 2, 1e-4)
     >>> [len(chain) for chain in chains], chains[0][0].degree, deviation < 1e-4
-    ([1, 1], 4, True)
+    ([1, 1], 5, True)
     """
     nets, deviation = fit_nets(curves, count, tolerance)
     chains = [[BSpline.bezier(piece[i], tag) for piece in nets] for i in range(count)]
