@@ -44,7 +44,12 @@ def tool_colours(program: Program) -> dict[int, str]:
     return {tool.number: COLOURS[i % len(COLOURS)] for i, tool in enumerate(program.tools)}
 
 
-def plan_view(job: Job, program: Program | None = None, spots: Sequence[Point] = ()) -> str:
+def plan_view(
+    job: Job,
+    program: Program | None = None,
+    spots: Sequence[Point] = (),
+    traced: Sequence[Traced] | None = None,
+) -> str:
     """A job seen from above.
 
     Parameters
@@ -55,6 +60,8 @@ def plan_view(job: Job, program: Program | None = None, spots: Sequence[Point] =
         The paths to draw; None for a picture of the job alone.
     spots
         Places to mark, work coordinates, mm.
+    traced
+        The program's strokes, if they are known already.
 
     Returns
     -------
@@ -65,7 +72,7 @@ def plan_view(job: Job, program: Program | None = None, spots: Sequence[Point] =
     frame = Frame(x0, y0, x1, y1)
     layers = [_stock(job), _part(job, frame)]
     if program is not None:
-        layers += _paths(program, frame)
+        layers += _paths(program, trace(program) if traced is None else traced, frame)
     layers += [_holding(job, frame), _dimensions(job, frame), _origin(frame), _spots(spots, frame)]
     margin = 4.6 * frame.letters
     box = (x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin)
@@ -134,10 +141,9 @@ def _tag(x: float, y: float, words: str, frame: Frame) -> str:
     )
 
 
-def _paths(program: Program, frame: Frame) -> list[str]:
+def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str]:
     colours = tool_colours(program)
     layers = []
-    traced = trace(program)
     for tool in program.tools:
         mine = [item for item in traced if item.section.tool.number == tool.number]
         cuts, rapids, holes = _path_data(mine)

@@ -23,9 +23,11 @@ def number(value: float) -> str:
 def signed(value: float, digits: int = 2) -> str:
     """A coordinate for people, with a true minus sign.
 
-    >>> signed(-10.3), signed(5)
-    ('−10.30', '+5.00')
+    >>> signed(-10.3), signed(5), signed(-0.0001)
+    ('−10.30', '+5.00', '0.00')
     """
+    if abs(value) < 0.5 * 10**-digits:
+        return f"{0:.{digits}f}"
     return f"{value:+.{digits}f}".replace("-", "−")
 
 

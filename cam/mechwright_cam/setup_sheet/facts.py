@@ -9,7 +9,7 @@ from mechwright.tooling import Tool, ToolKind
 
 from mechwright_cam.job import Job
 from mechwright_cam.picture import tool_colours
-from mechwright_cam.trace import Traced, trace
+from mechwright_cam.trace import Traced
 
 HOLDER_GAP = 3.0
 """Air between the holder and the highest thing below it, mm: chips pack in less."""
@@ -48,9 +48,11 @@ class OperationRow:
     stops: tuple[str, ...]
 
 
-def tool_rows(job: Job, program: Program, proof: Mapping[str, Any]) -> list[ToolRow]:
+def tool_rows(
+    job: Job, program: Program, traced: Sequence[Traced], proof: Mapping[str, Any]
+) -> list[ToolRow]:
     """One row per tool in the order of first use."""
-    traced, colours = trace(program), tool_colours(program)
+    colours = tool_colours(program)
     clamped = _after_stop(traced)
     seconds = _tool_seconds(proof)
     rows = []
@@ -78,17 +80,20 @@ def tool_rows(job: Job, program: Program, proof: Mapping[str, Any]) -> list[Tool
     return rows
 
 
-def operation_rows(program: Program, proof: Mapping[str, Any]) -> list[OperationRow]:
+def operation_rows(
+    program: Program, traced: Sequence[Traced], proof: Mapping[str, Any]
+) -> list[OperationRow]:
     """One row per operation; times are those of the proof, where it has them."""
     colours = tool_colours(program)
     times = _by_operation(program, proof)
     rows = []
-    for place, item in enumerate(trace(program)):
+    place = 0
+    for item, known in zip(traced, times, strict=True):
         number = item.section.tool.number
-        known = times[place]
+        place += item.bottom is not None  # an operation that only stops has no number
         rows.append(
             OperationRow(
-                place + 1,
+                place,
                 item.operation.name,
                 number,
                 colours[number],

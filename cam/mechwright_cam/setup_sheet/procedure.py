@@ -108,7 +108,7 @@ def _height(offset: str) -> Step:
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
             f"Enter {offset} Z = N − h on the offset page, or G10 L2 P{number} Z[N − h]. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
-            "If the nose cannot reach, use the longest tool in its place, for N and as H 0 below; "
+            "If the nose cannot reach, use the longest tool in its place, for N and as H0 below; "
             "the others then have negative H.",
         ),
     )

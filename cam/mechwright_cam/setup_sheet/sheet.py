@@ -14,6 +14,7 @@ from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.levels import side_view
 from mechwright_cam.setup_sheet.procedure import origin_words, steps
 from mechwright_cam.svg import signed
+from mechwright_cam.trace import trace
 
 
 def setup_html(
@@ -49,8 +50,9 @@ def setup_html(
         A page that needs no other file and no network, and prints on A4. The same input gives the same text.
     """
     proof = proof or {}
-    operations = facts.operation_rows(program, proof)
-    tools = facts.tool_rows(job, program, proof)
+    traced = trace(program)
+    operations = facts.operation_rows(program, traced, proof)
+    tools = facts.tool_rows(job, program, traced, proof)
     spots = facts.spot_rows(proof)
     marks = [(spot["x"] or 0.0, spot["y"] or 0.0) for spot in spots]
     deepest = min((row.bottom for row in tools), default=0.0)
@@ -67,7 +69,7 @@ def setup_html(
         steps=steps(job, [row.tool.number for row in tools], file_name=file_name, deepest=deepest),
         origin=origin_words(job),
         # Our own markup; all text in it is escaped where it is made.
-        plan=Markup(plan_view(job, program, marks)),  # noqa: S704
+        plan=Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         side=Markup(side_view(job, program, deepest)),  # noqa: S704
         file_name=file_name,
         tool_table=tool_table,
