@@ -1,0 +1,300 @@
+"""The plan view of a job as SVG: stock, part, holding, origin, cutter paths, and what no cutter reaches."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.geometry.segments import Point
+from mechwright.program import Program
+
+from mechwright_cam import svg
+from mechwright_cam.job import Job, Tab
+from mechwright_cam.trace import Stroke, Traced, trace
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#56b4e9", "#5d5d5d")
+"""One per tool, told apart by colour-blind eyes as well (after Okabe and Ito)."""
+
+DETAIL = 0.02
+"""Chord error of outlines in pictures, mm."""
+
+LETTERS = 0.026
+"""Height of letters as a share of the picture's larger side."""
+
+SAME = 2
+"""Decimals, mm: paths that lie over one another this closely (passes at several depths) are drawn once."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The drawn region, work coordinates, mm, and sizes that follow from it."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    @property
+    def letters(self) -> float:
+        """Height of letters, mm."""
+        return LETTERS * max(self.x1 - self.x0, self.y1 - self.y0)
+
+
+def tool_colours(program: Program) -> dict[int, str]:
+    """T number to the colour of its paths."""
+    return {tool.number: COLOURS[i % len(COLOURS)] for i, tool in enumerate(program.tools)}
+
+
+def plan_view(
+    job: Job,
+    program: Program | None = None,
+    spots: Sequence[Point] = (),
+    traced: Sequence[Traced] | None = None,
+) -> str:
+    """A job seen from above.
+
+    Parameters
+    ----------
+    job
+        Part, stock, holding.
+    program
+        The paths to draw; None for a picture of the job alone.
+    spots
+        Places to mark, work coordinates, mm.
+    traced
+        The program's strokes, if they are known already.
+
+    Returns
+    -------
+    svg
+        An ``<svg>`` element that scales to its container.
+    """
+    x0, y0, x1, y1 = job.stock
+    frame = Frame(x0, y0, x1, y1)
+    layers = [_stock(job), _part(job, frame)]
+    if program is not None:
+        layers += _paths(program, trace(program) if traced is None else traced, frame)
+    layers += [_holding(job, frame), _dimensions(job, frame), _origin(frame), _spots(spots, frame)]
+    margin = 4.6 * frame.letters
+    box = (x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin)
+    return svg.element(
+        "svg",
+        "\n".join(layer for layer in layers if layer),
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=" ".join(svg.number(value) for value in box),
+        font_family="Helvetica, Arial, sans-serif",
+        role="img",
+        aria_label=f"Plan view of {job.part.name}",
+    )
+
+
+def _stock(job: Job) -> str:
+    x0, y0, x1, y1 = job.stock
+    return svg.element(
+        "rect",
+        x=x0, y=-y1, width=x1 - x0, height=y1 - y0, fill="#f1ece2", stroke="#7a705c", stroke_width=_thin(job),
+    )  # fmt: skip
+
+
+def _thin(job: Job) -> float:
+    x0, y0, x1, y1 = job.stock
+    return max(0.06, 0.0022 * max(x1 - x0, y1 - y0))
+
+
+def _part(job: Job, frame: Frame) -> str:
+    outline = job.part.outline
+    assert outline is not None  # noqa: S101 - a job is about a plate
+    placed = outline.moved(-job.origin[0], -job.origin[1])
+    data = "".join(svg.path(loop.flatten(DETAIL), close=True) for loop in placed.loops)
+    return svg.element(
+        "path",
+        d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
+    )  # fmt: skip
+
+
+def _holding(job: Job, frame: Frame) -> str:
+    parts = []
+    for place, tab in enumerate(job.tabs, start=1):
+        shape = svg.path(list(tab.shape.exterior.coords)[:-1], close=True)
+        parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.75))
+        parts.append(_tag(*_beyond(job, tab), f"tab {place}", frame))
+    if job.clamp is not None:
+        x, y = job.clamp.centre
+        circle = {"cx": x, "cy": -y, "r": job.clamp.diameter / 2}
+        parts.append(svg.element("circle", **circle, fill="#e6a100", fill_opacity=0.45, stroke="#8a6100"))
+        parts.append(_tag(x, y - job.clamp.diameter / 2 + frame.letters, "clamp", frame))
+    return "".join(parts)
+
+
+def _beyond(job: Job, tab: Tab) -> Point:
+    """A place for a tab's name: on the frame, inside the stock."""
+    middle, tip = job.target.centroid, tab.shape.centroid
+    far = max(tab.shape.exterior.coords, key=lambda p: math.hypot(p[0] - middle.x, p[1] - middle.y))
+    x0, y0, x1, y1 = job.stock
+    return min(max(2 * far[0] - tip.x, x0), x1), min(max(2 * far[1] - tip.y, y0), y1)
+
+
+def _tag(x: float, y: float, words: str, frame: Frame) -> str:
+    size = 0.8 * frame.letters
+    halo = {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": 0.25 * size}
+    return svg.text(
+        x, y - size / 3, words, size, text_anchor="middle", fill="#5c4000", font_weight="bold", **halo
+    )
+
+
+def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str]:
+    colours = tool_colours(program)
+    layers = []
+    for tool in program.tools:
+        mine = [item for item in traced if item.section.tool.number == tool.number]
+        cuts, rapids, holes = _path_data(mine)
+        name = f"{program.name}-t{tool.number}"
+        pen = {
+            "fill": "none",
+            "stroke": colours[tool.number],
+            "stroke_linejoin": "round",
+            "stroke_linecap": "round",
+        }
+        width = 0.09 * frame.letters
+        if rapids:
+            dashes = f"{svg.number(4 * width)} {svg.number(4 * width)}"
+            look = {"stroke_width": 0.6 * width, "stroke_dasharray": dashes, "opacity": 0.55}
+            layers.append(svg.element("path", d=rapids, **pen, **look))
+        if cuts:
+            layers.append(svg.element("defs", svg.element("path", id=name, d=cuts)))
+            layers.append(
+                svg.element("use", href=f"#{name}", **pen, stroke_width=tool.diameter, opacity=0.16)
+            )
+            layers.append(svg.element("use", href=f"#{name}", **pen, stroke_width=width))
+        arm = max(tool.radius, 0.4 * frame.letters)
+        for x, y in holes:
+            level = f"M{svg.place(x - arm, y)}H{svg.number(x + arm)}"
+            cross = level + f"M{svg.place(x, y - arm)}V{svg.number(-y - arm)}"
+            layers.append(svg.element("path", d=cross, **pen, stroke_width=width))
+            layers.append(svg.element("circle", cx=x, cy=-y, r=tool.radius, **pen, stroke_width=width))
+    return layers
+
+
+def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:
+    """Cuts and rapids as path data, and the holes; what lies over one another counts once."""
+    drawn: set[tuple[object, ...]] = set()
+    data: dict[bool, list[str]] = {True: [], False: []}
+    pens: dict[bool, Point | None] = {True: None, False: None}
+    holes: dict[Point, None] = {}
+    for item in items:
+        for stroke in item.strokes:
+            if stroke.drilled:
+                holes[(round(stroke.end[0], SAME), round(stroke.end[1], SAME))] = None
+                continue
+            key = _key(stroke)
+            if key is None or key in drawn:
+                continue
+            drawn.add(key)
+            cutting = stroke.feed > 0
+            start, end = stroke.start[:2], stroke.end[:2]
+            if pens[cutting] != start:
+                data[cutting].append("M" + svg.place(*start))
+            if stroke.centre is None:
+                data[cutting].append("L" + svg.place(*end))
+            else:
+                data[cutting].append(svg.arc_to(start, end, stroke.centre, ccw=stroke.ccw))
+            pens[cutting] = end
+    return "".join(data[True]), "".join(data[False]), list(holes)
+
+
+def _key(stroke: Stroke) -> tuple[object, ...] | None:
+    """What a stroke looks like from above; None for one that is a point."""
+    start, end = (tuple(round(value, SAME) for value in place[:2]) for place in (stroke.start, stroke.end))
+    if stroke.centre is None:
+        return None if start == end else (start, end, stroke.feed > 0)
+    return start, end, tuple(round(value, SAME) for value in stroke.centre), stroke.ccw
+
+
+def _dimensions(job: Job, frame: Frame) -> str:
+    x0, y0, x1, y1 = job.stock
+    px0, py0, px1, py1 = job.target.bounds
+    step = 1.7 * frame.letters
+    rows = [
+        _level((x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}", frame),
+        _level((px0, px1), y1 + step, y1, f"part {px1 - px0:.2f}", frame),
+        _upright((y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}", frame),
+        _upright((py0, py1), x1 + step, x1, f"part {py1 - py0:.2f}", frame),
+    ]
+    # How far the origin is from the edges that are probed, unless it is on them.
+    if x0 < 0:
+        rows.append(_level((x0, 0.0), y0 - step, y0, f"{-x0:.2f}", frame, "#b00020"))
+    if y0 < 0:
+        rows.append(_upright((y0, 0.0), x0 - step, x0, f"{-y0:.2f}", frame, "#b00020"))
+    return "".join(rows)
+
+
+def _level(
+    ends: tuple[float, float], y: float, edge: float, words: str, frame: Frame, colour: str = "#333333"
+) -> str:
+    size, (a, b) = frame.letters, ends
+    beyond = y + math.copysign(0.4 * size, y - edge)
+    lines = f"M{svg.place(a, edge)}V{svg.number(-beyond)}M{svg.place(b, edge)}V{svg.number(-beyond)}"
+    main = f"M{svg.place(a, y)}H{svg.number(b)}"
+    label = svg.text((a + b) / 2, y + 0.3 * size, words, size, text_anchor="middle", fill=colour)
+    return _dimension_lines(lines, main, colour, size) + _heads((a, y), (b, y), colour, size) + label
+
+
+def _upright(
+    ends: tuple[float, float], x: float, edge: float, words: str, frame: Frame, colour: str = "#333333"
+) -> str:
+    size, (a, b) = frame.letters, ends
+    beyond = x + math.copysign(0.4 * size, x - edge)
+    lines = f"M{svg.place(edge, a)}H{svg.number(beyond)}M{svg.place(edge, b)}H{svg.number(beyond)}"
+    main = f"M{svg.place(x, a)}V{svg.number(-b)}"
+    at = (x - 0.3 * size, (a + b) / 2)
+    turn = f"rotate(-90 {svg.number(at[0])} {svg.number(-at[1])})"
+    label = svg.text(*at, words, size, text_anchor="middle", fill=colour, transform=turn)
+    return _dimension_lines(lines, main, colour, size) + _heads((x, a), (x, b), colour, size) + label
+
+
+def _dimension_lines(thin: str, main: str, colour: str, size: float) -> str:
+    return svg.element("path", d=thin + main, fill="none", stroke=colour, stroke_width=0.05 * size)
+
+
+def _heads(a: Point, b: Point, colour: str, size: float) -> str:
+    length = math.hypot(b[0] - a[0], b[1] - a[1]) or 1.0
+    ux, uy = (b[0] - a[0]) / length, (b[1] - a[1]) / length
+    return _head(a, (-ux, -uy), colour, size) + _head(b, (ux, uy), colour, size)
+
+
+def _head(tip: Point, direction: Point, colour: str, size: float) -> str:
+    """An arrow head at ``tip`` that points along the unit vector ``direction``."""
+    (x, y), (ux, uy) = tip, direction
+    back, across = (x - 0.7 * size * ux, y - 0.7 * size * uy), 0.16 * size
+    corners = [
+        tip,
+        (back[0] - across * uy, back[1] + across * ux),
+        (back[0] + across * uy, back[1] - across * ux),
+    ]
+    return svg.element("path", d=svg.path(corners, close=True), fill=colour)
+
+
+def _origin(frame: Frame) -> str:
+    """The quartered circle of a datum at X0 Y0, and the axes."""
+    size = frame.letters
+    r, arm = 0.75 * size, 3.4 * size
+    quarter = f"M0,0V{svg.number(-r)}A{svg.number(r)} {svg.number(r)} 0 0 1 {svg.place(r, 0)}Z"
+    other = f"M0,0V{svg.number(r)}A{svg.number(r)} {svg.number(r)} 0 0 1 {svg.place(-r, 0)}Z"
+    axes = f"M0,0H{svg.number(arm)}M0,0V{svg.number(-arm)}"
+    red = "#b00020"
+    halo = {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": 0.3 * size, "font_weight": "bold"}
+    return "".join(
+        [
+            svg.element("path", d=axes, stroke=red, stroke_width=0.12 * size),
+            _head((arm + 0.5 * size, 0.0), (1.0, 0.0), red, size),
+            _head((0.0, arm + 0.5 * size), (0.0, 1.0), red, size),
+            svg.element("circle", cx=0, cy=0, r=r, fill="#ffffff", stroke=red, stroke_width=0.12 * size),
+            svg.element("path", d=quarter + other, fill=red),
+            svg.text(arm + 0.9 * size, -0.35 * size, "X", size, fill=red, **halo),
+            svg.text(0.0, arm + 0.8 * size, "Y", size, fill=red, text_anchor="middle", **halo),
+        ]
+    )
+
+
+def _spots(spots: Sequence[Point], frame: Frame) -> str:
+    look = {"fill": "none", "stroke": "#d4001a", "stroke_width": 0.1 * frame.letters}
+    return "".join(svg.element("circle", cx=x, cy=-y, r=0.5 * frame.letters, **look) for x, y in spots)

@@ -1,0 +1,216 @@
+"""What the setup sheet says about tools, operations and proof, as plain rows."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mechwright.program import Program
+from mechwright.tooling import Tool, ToolKind
+
+from mechwright_cam.job import Job
+from mechwright_cam.picture import tool_colours
+from mechwright_cam.trace import Traced
+
+HOLDER_GAP = 3.0
+"""Air between the holder and the highest thing below it, mm: chips pack in less."""
+
+_KINDS = {ToolKind.END_MILL: "end mill", ToolKind.DRILL: "drill", ToolKind.SPOT_DRILL: "spot drill"}
+
+
+@dataclass(frozen=True)
+class ToolRow:
+    """A tool and what the job asks of it; lengths in mm, feeds in mm/min, spindle in rev/min."""
+
+    tool: Tool
+    colour: str
+    description: str
+    bottom: float
+    stick_out: float
+    over_clamp: bool
+    flutes_reach: bool
+    spindle: str
+    feed: str
+    coolant: str
+    seconds: float | None
+
+
+@dataclass(frozen=True)
+class OperationRow:
+    """An operation in cutting order; ``stops`` are messages at which the machine waits after it."""
+
+    number: int
+    name: str
+    tool: int
+    colour: str
+    bottom: float | None
+    seconds: float | None
+    cutting: float | None
+    stops: tuple[str, ...]
+
+
+def tool_rows(
+    job: Job, program: Program, traced: Sequence[Traced], proof: Mapping[str, Any]
+) -> list[ToolRow]:
+    """One row per tool in the order of first use."""
+    colours = tool_colours(program)
+    clamped = _after_stop(traced)
+    seconds = _tool_seconds(proof)
+    rows = []
+    for tool in program.tools:
+        mine = [item for item in traced if item.section.tool.number == tool.number]
+        bottom = min((item.bottom for item in mine if item.bottom is not None), default=0.0)
+        over_clamp = job.clamp is not None and any(item in clamped for item in mine)
+        above = job.clamp.top if job.clamp is not None and over_clamp else 0.0
+        feeds = [stroke.feed for item in mine for stroke in item.strokes if stroke.feed > 0]
+        rows.append(
+            ToolRow(
+                tool,
+                colours[tool.number],
+                describe(tool),
+                bottom,
+                max(0.0, -bottom) + above + HOLDER_GAP,
+                over_clamp,
+                tool.flute_length >= -bottom,
+                _range([item.section.spindle for item in mine]),
+                _range(feeds),
+                ", ".join(dict.fromkeys(item.section.coolant for item in mine)),
+                seconds.get(tool.number),
+            )
+        )
+    return rows
+
+
+def operation_rows(
+    program: Program, traced: Sequence[Traced], proof: Mapping[str, Any]
+) -> list[OperationRow]:
+    """One row per operation; times are those of the proof, where it has them."""
+    colours = tool_colours(program)
+    times = _by_operation(program, proof)
+    rows = []
+    place = 0
+    for item, known in zip(traced, times, strict=True):
+        number = item.section.tool.number
+        place += item.bottom is not None  # an operation that only stops has no number
+        rows.append(
+            OperationRow(
+                place,
+                item.operation.name,
+                number,
+                colours[number],
+                item.bottom,
+                _figure(known, "time_s"),
+                _figure(known, "cutting_mm"),
+                item.stops,
+            )
+        )
+    return rows
+
+
+def describe(tool: Tool) -> str:
+    """A tool in words.
+
+    >>> describe(Tool(name="em6", number=3, kind="end-mill", diameter=6, flutes=3, flute_length=13))
+    'end mill ⌀6, 3 flutes'
+    """
+    words = f"{_KINDS[tool.kind]} ⌀{tool.diameter:g}"
+    if tool.kind is ToolKind.END_MILL:
+        plunge = "" if tool.centre_cutting else ", not centre cutting"
+        return f"{words}, {tool.flutes} flute{'s' if tool.flutes != 1 else ''}{plunge}"
+    return f"{words}, {tool.point_angle:g}° point"
+
+
+def duration(seconds: float | None) -> str:
+    """A time as people say it.
+
+    >>> duration(7), duration(200), duration(3840), duration(None)
+    ('7 s', '3 min 20 s', '1 h 04 min', '–')
+    """
+    if seconds is None:
+        return "–"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
+
+
+def spot_rows(proof: Mapping[str, Any]) -> list[dict[str, float | None]]:
+    """Places that no cutter reaches: x, y, depth, area, mm; what the proof does not say is None."""
+    rows = proof.get("unreachable") or ()
+    return [
+        {
+            "x": _figure(row, "x"),
+            "y": _figure(row, "y"),
+            "depth": _figure(row, "depth_mm", "depth"),
+            "area": _figure(row, "area_mm2", "area"),
+        }
+        for row in rows
+        if _figure(row, "x") is not None and _figure(row, "y") is not None
+    ]
+
+
+def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:
+    """Name, answer and message of each check."""
+    checks: Mapping[str, Mapping[str, Any]] = proof.get("checks") or {}
+    return [
+        (name.replace("-", " ").replace("_", " "), bool(check.get("passed")), str(check.get("message", "")))
+        for name, check in checks.items()
+    ]
+
+
+def verdict(proof: Mapping[str, Any]) -> bool | None:
+    """Whether the program is proven; None if nobody tried."""
+    checks = check_rows(proof)
+    if "ok" in proof:
+        return bool(proof["ok"])
+    return all(passed for _, passed, _ in checks) if checks else None
+
+
+def _after_stop(traced: Sequence[Traced]) -> list[Traced]:
+    """The operations that follow the first stop: those cut around the clamp."""
+    for place, item in enumerate(traced):
+        if item.stops:
+            return list(traced[place + 1 :])
+    return list(traced)
+
+
+def _figure(row: Mapping[str, Any] | None, *names: str) -> float | None:
+    for name in names:
+        if row and isinstance(row.get(name), int | float):
+            return float(row[name])
+    return None
+
+
+def _tool_seconds(proof: Mapping[str, Any]) -> dict[int, float]:
+    seconds: dict[int, float] = {}
+    for row in proof.get("operations") or ():
+        time, tool = _figure(row, "time_s"), _figure(row, "tool")
+        if time is not None and tool is not None:
+            seconds[int(tool)] = seconds.get(int(tool), 0.0) + time
+    return seconds
+
+
+def _by_operation(program: Program, proof: Mapping[str, Any]) -> list[Mapping[str, Any] | None]:
+    """The proof's rows, one per operation of the program: matched by tool and name, in order."""
+    left = list(proof.get("operations") or ())
+    found: list[Mapping[str, Any] | None] = []
+    for section in program.sections:
+        for operation in section.operations:
+            wanted = (section.tool.number, operation.name.casefold())
+            match = next((row for row in left if _label(row) == wanted), None)
+            if match is not None:
+                left.remove(match)
+            found.append(match)
+    return found
+
+
+def _label(row: Mapping[str, Any]) -> tuple[object, str]:
+    return row.get("tool"), str(row.get("name", "")).casefold()
+
+
+def _range(values: Sequence[float]) -> str:
+    if not values:
+        return "–"
+    low, high = round(min(values)), round(max(values))
+    return f"{high}" if low == high else f"{low} … {high}"

@@ -1,0 +1,160 @@
+"""The work of setting up, in numbered steps with the numbers of one job.
+
+The work offset's Z is measured once with a Z setter; every tool's length offset then brings its own tip to
+the surface, so one Z serves however many tools. With the machine's Z read where the spindle nose presses the
+setter (N) and where a tool's tip does (Zn), a setter of height h gives
+
+    work offset Z = N - h,        length offset Hn = Zn - N.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright_cam.job import Job
+from mechwright_cam.svg import signed
+
+CHECK_HEIGHT = 50.0
+"""Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
+
+_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
+
+
+@dataclass(frozen=True)
+class Step:
+    """A heading and what to do."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+def steps(job: Job, tools: Sequence[int], *, file_name: str, deepest: float) -> list[Step]:
+    """The steps in order.
+
+    Parameters
+    ----------
+    job
+        What is set up.
+    tools
+        T numbers in the order of use.
+    file_name
+        The program's file.
+    deepest
+        Lowest z that any tool reaches, mm.
+    """
+    offset = job.settings.work_offset
+    return [
+        _stock(job, deepest),
+        _plane(job, offset),
+        _height(offset),
+        _lengths(offset, tools),
+        _check(offset, tools),
+        _run(job, offset, file_name),
+    ]
+
+
+def origin_words(job: Job) -> str:
+    """What X0 Y0 is."""
+    return {
+        "axis": "the axis of the part (its bore)",
+        "corner": "the lower left corner of the stock",
+        "centre": "the centre of the stock",
+    }[job.settings.origin]
+
+
+def _stock(job: Job, deepest: float) -> Step:
+    x0, y0, x1, y1 = job.stock
+    lines = [
+        f"Plate of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z), "
+        "edges parallel to X and Y. Indicate the rear edge to 0.02 mm.",
+    ]
+    if deepest < -job.thickness:
+        lines.append(
+            f"Put a spoil board under it: cutters go down to Z {signed(deepest)}, "
+            f"{-deepest - job.thickness:.2f} mm below the plate."
+        )
+    if job.tabs:
+        lines.append(
+            "Clamp the edge of the plate only. Keep clamps outside the picture's coloured band, and below "
+            f"Z {signed(job.settings.clearance, 1)} where rapids cross."
+        )
+    else:
+        lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
+    return Step("Clamp the stock", tuple(lines))
+
+
+def _plane(job: Job, offset: str) -> Step:
+    x0, y0, _, _ = job.stock
+    lines = [f"X0 Y0 is {origin_words(job)}."]
+    if job.settings.origin == "corner":
+        lines.append(
+            f"With an edge finder of radius r: on the left edge set {offset} X so that X reads −r, "
+            "on the front edge Y so that Y reads −r."
+        )
+    else:
+        lines.append(
+            f"The stock's left edge is X {signed(x0)}, its front edge is Y {signed(y0)}. With an edge "
+            f"finder of radius r: on the left edge set {offset} X so that X reads {signed(x0)} − r, on the "
+            f"front edge Y so that Y reads {signed(y0)} − r."
+        )
+    return Step(f"Set {offset} X and Y", tuple(lines))
+
+
+def _height(offset: str) -> Step:
+    number = _OFFSETS.index(offset) + 1
+    return Step(
+        f"Set {offset} Z once, with the Z setter",
+        (
+            "No length offset active: G49. Stand the setter (height h) on the clean top of the stock.",
+            "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
+            f"Enter {offset} Z = N − h on the offset page, or G10 L2 P{number} Z[N − h]. "
+            "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
+            "If the nose cannot reach, use the longest tool in its place, for N and as H0 below; "
+            "the others then have negative H.",
+        ),
+    )
+
+
+def _lengths(offset: str, tools: Sequence[int]) -> Step:
+    listed = ", ".join(f"T{tool}" for tool in tools)
+    return Step(
+        "Measure each tool's length offset",
+        (
+            f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
+            "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
+            "Enter Hn = Zn − N as the length (Z) of that tool in the tool table, and its diameter. "
+            "The table above has room for both.",
+            f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
+            f"{offset} Z names.",
+        ),
+    )
+
+
+def _check(offset: str, tools: Sequence[int]) -> Step:
+    first = tools[0] if tools else 1
+    return Step(
+        "Check before the first cut",
+        (
+            f"Beside the clamps, by hand: T{first} M6, {offset}, G43 H{first}, then G0 Z{CHECK_HEIGHT:g}. "
+            f"The tip must stand {CHECK_HEIGHT:g} mm above the stock: measure it. Repeat for every tool.",
+            "If it does not: stop. Length offset or work offset is wrong.",
+        ),
+    )
+
+
+def _run(job: Job, offset: str, file_name: str) -> Step:
+    lines = [
+        f"Load {file_name}. Single block and low feed override until the first cut looks right. "
+        f"{offset} must be the active offset.",
+    ]
+    if job.tabs:
+        width, height = job.settings.hold.tab_width, job.settings.hold.tab_height
+        lines.append(
+            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm hold the part to the end. "
+            "Saw them through, and file them flush."
+        )
+    if job.clamp is not None:
+        lines.append(
+            f"At the programmed stop fit the bore clamp, at most ⌀{job.clamp.diameter:g} and "
+            f"{job.clamp.top:g} mm high, before going on. Only then is the outside cut."
+        )
+    return Step("Run", tuple(lines))
