@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
-
 from mechwright_cam import svg
 from mechwright_cam.job import Job, Tab
 from mechwright_cam.trace import Stroke, Traced, trace

@@ -6,6 +6,8 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from plate_shapes import slotted_plate, wavy_plate
+
 from mechwright.part import Part
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright.tooling import CamSettings, Tool
@@ -15,7 +17,6 @@ from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import setup_html
 from mechwright_cam.setup_sheet.procedure import steps
 from mechwright_cam.trace import trace
-from plate_shapes import slotted_plate, wavy_plate
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRILL = Tool(name="d8", number=4, kind="drill", diameter=8, flutes=2, flute_length=40)

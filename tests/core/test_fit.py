@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mechwright.errors import GeometryError
 from mechwright.geometry.fit import HIGHEST_DEGREE, fit_curves, fit_nets
 

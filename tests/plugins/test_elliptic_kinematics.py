@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mechwright.errors import DesignError
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.kinematics import (

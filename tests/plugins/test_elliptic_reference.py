@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of

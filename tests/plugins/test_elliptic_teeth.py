@@ -7,6 +7,7 @@ import pytest
 import scipy.special
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from mechwright_elliptic_gears.contour import FIT, gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of

@@ -6,7 +6,6 @@ from typing import Any
 
 from mechwright.program import Program
 from mechwright.tooling import Tool, ToolKind
-
 from mechwright_cam.job import Job
 from mechwright_cam.picture import tool_colours
 from mechwright_cam.trace import Traced

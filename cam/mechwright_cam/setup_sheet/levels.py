@@ -1,7 +1,6 @@
 """A side view of the job: which height is which, and where the Z setter stands. Not to scale."""
 
 from mechwright.program import Program
-
 from mechwright_cam import svg
 from mechwright_cam.job import Job
 

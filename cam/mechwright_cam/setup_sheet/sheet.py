@@ -6,8 +6,8 @@ from typing import Any
 
 import jinja2
 from markupsafe import Markup
-from mechwright.program import Program
 
+from mechwright.program import Program
 from mechwright_cam.job import Job
 from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
