@@ -386,7 +386,7 @@ def test_a_gap_in_the_middle_of_a_straight_wall_is_found() -> None:
         proof = proof_of(Program("box", "G54", 5.0, (section,)), job)
         # The wall's middle is as far from both discs: Pythagoras.
         cusp = math.hypot(r, gap / 2) - MILL.radius
-        assert proof.leftover_reachable_max_mm == pytest.approx(cusp, abs=1e-3)
+        assert proof.leftover_reachable_max_mm == pytest.approx(cusp, rel=3e-3, abs=1e-3)
 
 
 def test_tabs_need_a_frame() -> None:
@@ -405,7 +405,7 @@ def test_a_loose_piece_is_remarked_on() -> None:
     undrilled = replace(ring, sections=ring.sections[2:])
     notes = proof_of(undrilled, plate_job(tools=(SMALL,))).notes
     assert len(notes) == 1
-    assert "comes loose at X" in notes[0]
+    assert "comes loose in bore" in notes[0]
 
 
 def test_a_hole_of_a_drill_s_size_is_reached_by_the_drill() -> None:

@@ -20,8 +20,8 @@ from mechwright_cam.proof.stock import Stock
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
-ANGLE_SLACK = 0.02
-"""Degrees by which a ramp may exceed its limit: a short ramp's rounding to the last decimal."""
+LAST_DECIMAL = 1e-4
+"""A ramp may end this much lower than its angle allows, mm: both its ends are rounded in the text."""
 SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
 
 
@@ -390,7 +390,8 @@ def entries(scene: Scene) -> Check:
     plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
-    suspect = (drop > NEAR) & (paths.end[steps, 2] < -NEAR) & (angle > limit + ANGLE_SLACK) & ~allowed
+    steep = drop > flat * np.tan(np.radians(limit)) + LAST_DECIMAL
+    suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
         if not scene.stock.meets(step):
