@@ -44,7 +44,7 @@ class Wall:
     def stations(self, spacing: float) -> Array:
         """Evenly spread stations, at most ``spacing`` apart."""
         count = max(int(np.ceil(self.length / spacing)), 1)
-        middles: Array = (np.arange(count) + 0.5) * (self.length / count)
+        middles: Array = (np.arange(count, dtype=np.float64) + 0.5) * (self.length / count)
         return middles
 
     def at(self, stations: Any) -> tuple[Array, Array]:
