@@ -123,6 +123,18 @@ def test_a_move_straight_down_is_seen() -> None:
     assert found.at == pytest.approx((12.0, 0.0, -3.0))
 
 
+@given(cuts())
+@settings(max_examples=50, deadline=None)
+def test_the_extent_of_each_move_is_that_of_its_points(text: str) -> None:
+    paths = paths_of(text)
+    least, most = paths.extent()
+    points, owner = paths.points(paths.below(math.inf))
+    for number in range(paths.steps.size):
+        mine = points[owner == number]
+        np.testing.assert_allclose(mine.min(axis=0), least[number], atol=4e-4)
+        np.testing.assert_allclose(mine.max(axis=0), most[number], atol=4e-4)
+
+
 # -- layers ----------------------------------------------------------------------------------------------
 
 

@@ -146,6 +146,26 @@ class Paths:
         points: Array = centre + radius * np.column_stack((np.cos(angle), np.sin(angle)))
         return points
 
+    def extent(self) -> tuple[Array, Array]:
+        """Least and greatest x and y, (m, 2) each, of every step in ``steps``, mm."""
+        run, step = self.run, self.steps
+        start, end = self.start[step, :2], self.end[step, :2]
+        least, most = np.minimum(start, end), np.maximum(start, end)
+        arc = np.flatnonzero(run.kind[step] == Kind.ARC)
+        centre, sweep = run.centre[step[arc]], run.sweep[step[arc]]
+        radius = run.radius[step[arc]]
+        spoke = start[arc] - centre
+        first = np.arctan2(spoke[:, 1], spoke[:, 0])
+        for axis, angle, side in ((0, 0.0, 1), (1, np.pi / 2, 1), (0, np.pi, -1), (1, -np.pi / 2, -1)):
+            # An arc reaches out furthest where it passes the direction of an axis.
+            passed = np.mod((angle - first) * np.sign(sweep), 2 * np.pi) <= np.abs(sweep)
+            at, reach = arc[passed], centre[passed, axis] + side * radius[passed]
+            if side > 0:
+                most[at, axis] = np.maximum(most[at, axis], reach)
+            else:
+                least[at, axis] = np.minimum(least[at, axis], reach)
+        return least, most
+
     def lines(self, pieces: Pieces) -> Geometries:
         """One line per piece; a point where it goes straight down."""
         if len(pieces) == 0:
