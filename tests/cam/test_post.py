@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from shop import DRILL, MILL, SPOT, TOOLS
 
@@ -170,6 +170,7 @@ def test_an_arc_too_short_for_the_decimals_becomes_no_full_circle() -> None:
 
 
 @given(st.text(max_size=300))
+@example("full width（parentheses）")
 def test_no_comment_can_hurt(text: str) -> None:
     for line in comment_lines(text, LinuxCncPost.active_comments):
         assert line.isascii()

@@ -19,6 +19,12 @@ from mechwright_cam.interpreter.groups import CYCLES, GROUPS, M_GROUPS, spell
 from mechwright_cam.interpreter.run import Coolant, Kind, Remark, Run, State
 
 INCH = 25.4
+MOST_TURNS = 1000
+"""Turns of one arc beyond which P is a slip of the pen."""
+MOST_PECKS = 10_000
+"""Pecks of one hole beyond which Q is a slip of the pen."""
+LARGEST = 1e5
+"""Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 _AXES = "XYZ"
 # A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
 _PLAIN = re.compile(
@@ -402,8 +408,8 @@ class _Machine:
         start = (self.x, self.y)
         x, y, z = self._target(block, words)
         turns = self._whole(block, "P", words.pop("P", 1.0))
-        if turns < 1:
-            raise fail(block.line, "P is the number of turns, 1 or more")
+        if not 1 <= turns <= MOST_TURNS:
+            raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
         if "R" in words:
             if words.keys() & {"I", "J"}:
                 raise fail(block.line, "an arc has either R, or I and J")
@@ -463,6 +469,8 @@ class _Machine:
     def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
         """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
         x, y, gap = self.x, self.y, self.dialect.peck_clearance
+        if plane - bottom > MOST_PECKS * step:
+            raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
         depth = plane - step
         while depth > bottom:
             self._feed_to(line, x, y, depth)
@@ -483,6 +491,13 @@ class _Machine:
     def result(self, lines: int) -> Run:
         """The record of the whole run."""
         table = np.array(self.rows, dtype=np.float64).reshape(-1, 15)
+        places = np.abs(table[:, 2:10])
+        beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
+        if beyond.size:
+            line = int(table[beyond[0], 1])
+            raise fail(
+                line, f"a coordinate or an arc's centre is beyond {LARGEST / 1000:g} m; that is no move"
+            )
         return Run(
             kind=_whole(table[:, 0]),
             line=_whole(table[:, 1]),

@@ -50,7 +50,8 @@ def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
     >>> comment_lines("logopen,/etc/passwd", active=("LOGOPEN",))
     ["'logopen,/etc/passwd"]
     """
-    plain = unicodedata.normalize("NFKD", text.translate(_SPELLED))
+    # Once more after the decomposition: it makes plain parentheses of full-width ones.
+    plain = unicodedata.normalize("NFKD", text.translate(_SPELLED)).translate(_SPELLED)
     ascii_text = "".join(c for c in plain if not unicodedata.combining(c)).encode("ascii", "replace").decode()
     printable = "".join(c if c.isprintable() else " " for c in ascii_text)
     lines = textwrap.wrap(" ".join(printable.split()), COMMENT_WIDTH - 1)

@@ -33,11 +33,9 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
     edge = Boundary(keep)
+    near = np.flatnonzero(shapely.dwithin(keep, lines, radius))
     gap = np.full(len(pieces), np.inf)
-    for reach in np.unique(np.ceil(radius)):
-        # Looking no further than each cutter's own radius keeps the search short.
-        group = np.ceil(radius) == reach
-        gap[group] = edge.distance(lines[group], within=float(radius[group].max()))
+    gap[near] = edge.distance(lines[near], within=float(radius.max()))
     inside = edge.inside(lines)
     if inside.size:
         gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)

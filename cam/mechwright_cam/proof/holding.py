@@ -1,13 +1,14 @@
-"""What holds the part when everything is cut, and what does not hold at all."""
+"""What holds the part when everything is cut, and what comes loose in its openings."""
 
 import numpy as np
 import shapely
+from mechwright.part import Profile
 
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import stock_shape
-from mechwright_cam.proof.leftover import ROUNDING, sweeps
-from mechwright_cam.proof.paths import NEAR, Geometries, Paths
-from mechwright_cam.proof.plane import grow
+from mechwright_cam.proof.bands import inside_of, stock_shape
+from mechwright_cam.proof.leftover import ROUNDING, Sweep, sweeps
+from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.report import Check
 
 ROUGHLY = 0.02
@@ -17,39 +18,75 @@ JAMS = 1.0
 
 
 def holding(paths: Paths, job: Job) -> tuple[Check, list[str]]:
-    """Whether the tabs join the part to a frame, and remarks on pieces that come loose.
+    """Whether the tabs join the part to a frame, and remarks on pieces that come loose in openings."""
+    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
+    loose = _loose(cut, job)
+    if not job.tabs:
+        return Check("holding", True, "the part is held by a clamp or from below"), loose
+    if not _rim_is_whole(cut, job):
+        free = _free_tab(cut, job)
+        if free is not None:
+            message = (
+                f"the tab at X{free.x:.1f} Y{free.y:.1f} leads to no frame: the cut around the part "
+                "leaves none; give the stock a larger margin"
+            )
+            return Check("holding", False, message), loose
+    return Check("holding", True, "the tabs join the part to the frame"), loose
 
-    At the underside, what is left of the plate falls into pieces. Without the tabs and the scraps beside
-    them, the piece at the outer end of each has to be one that another tab ends in as well: that is a frame.
+
+def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
+    """Whether nothing cuts the plate's edge or the way from any tab to it: the usual case, found quickly."""
+    edge = stock_shape(job).exterior
+    ways = [edge, *(shapely.shortest_line(tab.shape, edge) for tab in job.tabs)]
+    for sweep in cut:
+        for way in ways:
+            shapely.prepare(way)
+            if shapely.dwithin(way, sweep.chains, sweep.radius).any():
+                return False
+    return True
+
+
+def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
+    """What is cut away of a region, roughly."""
+    shapely.prepare(region)
+    shapes: list[Shape] = []
+    for sweep in cut:
+        near = sweep.chains[shapely.dwithin(region, sweep.chains, sweep.radius)]
+        shapes += grow(shapely.simplify(near, ROUGHLY), sweep.radius, ROUGHLY).tolist()
+    return shapes
+
+
+def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
+    """A tab that ends in nothing, if there is one.
+
+    Without the tabs and the scraps beside them, the piece at the outer end of each has to be one that another
+    tab ends in as well: that is a frame.
     """
     plate = stock_shape(job)
-    swept = []
-    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
-    for sweep in cut:
-        thin = shapely.simplify(sweep.chains, ROUGHLY)
-        swept += np.atleast_1d(grow(thin, sweep.radius, ROUGHLY)).tolist()
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
     tabs = [grow(tab.shape, scrap, ROUGHLY) for tab in job.tabs]
-    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*swept, *tabs])))
-    of_part = shapely.intersects(pieces, job.target.representative_point())
-    others = pieces[~of_part]
+    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
+    others = pieces[~shapely.intersects(pieces, job.target.representative_point())]
     ends = np.array([shapely.dwithin(others, tab, ROUGHLY) for tab in tabs]).reshape(len(tabs), len(others))
     frame = ends.sum(axis=0) >= 2
-    free = [number for number, row in enumerate(ends) if not (row & frame).any()]
-    if free:
-        x, y = tabs[free[0]].centroid.coords[0]
-        message = (
-            f"the tab at X{x:.1f} Y{y:.1f} leads to no frame: the cut around the part leaves none; "
-            "give the stock a larger margin"
-        )
-        return Check("holding", False, message), []
-    how = "the tabs join the part to the frame" if tabs else "the part is held by a clamp or from below"
-    return Check("holding", True, how), _remarks(others[shapely.distance(others, plate.exterior) > NEAR])
+    for tab, row in zip(job.tabs, ends, strict=True):
+        if not (row & frame).any():
+            return tab.shape.centroid
+    return None
 
 
-def _remarks(loose: Geometries) -> list[str]:
-    wide = loose[~shapely.is_empty(shapely.buffer(loose, -JAMS / 2, quad_segs=4))]
-    return [
-        f"a piece of {piece.area:.1f} mm² comes loose at X{at.x:.1f} Y{at.y:.1f}; stop to take it out"
-        for piece, at in zip(wide.tolist(), shapely.point_on_surface(wide).tolist(), strict=True)
-    ]
+def _loose(cut: list[Sweep], job: Job) -> list[str]:
+    """Remarks on what falls out of openings that are cut along their edge only."""
+    remarks = []
+    for feature in job.features:
+        through = feature.top + feature.depth >= job.thickness - NEAR
+        if not through or (isinstance(feature, Profile) and feature.side == "outside"):
+            continue
+        opening = inside_of(feature)
+        rest = shapely.get_parts(shapely.difference(opening, shapely.union_all(_swept(cut, opening))))
+        free = rest[shapely.distance(rest, opening.exterior) > ROUGHLY]
+        for piece in free[~shapely.is_empty(shapely.buffer(free, -JAMS / 2, quad_segs=4))].tolist():
+            remarks.append(
+                f"a piece of {piece.area:.1f} mm² comes loose in {feature.name}; stop to take it out"
+            )
+    return remarks

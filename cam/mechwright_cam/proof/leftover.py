@@ -21,11 +21,11 @@ from mechwright.part import Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, closing, grow
+from mechwright_cam.proof.wall import Wall
 
 ROUNDING = 1e-4
 """A path that should reach the underside may be short by the last decimal of the program, mm."""
@@ -40,8 +40,14 @@ CLEARED = TOLERANCES.arc_fit
 """A wall with no more stock than this is as clean as a path can make it, mm."""
 REFINED = 64
 """So many of the worst wall samples are looked at closely."""
-REFINE = 17
-"""Trial points on an edge beside a corner that is looked at closely."""
+EDGE = 9
+"""Trial points on an edge beside the deepest corner of a remainder."""
+REFINE = 33
+"""Trial points beside a place that is looked at closely: a wall sample is searched every 10 µm or less."""
+BESIDE = 0.1
+"""How far from its expected place a finishing path is looked for first, mm; found or not, the proof holds."""
+SWEEP_CHORD = 0.0005
+"""Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
 COARSE = 0.002
 """Accuracy of areas that are not reported, mm: a fifth of the leftover limit."""
 
@@ -64,10 +70,15 @@ class Sweep:
     chains: Any
 
     def chords(self) -> Any:
-        """The straight pieces of all chains: short ones make a tree of them quick to ask."""
+        """The straight pieces of all chains, and their points: short ones make a tree quick to ask."""
         points, owner = shapely.get_coordinates(self.chains, return_index=True)
         same = owner[:-1] == owner[1:]
-        return shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
+        chords = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
+        return np.concatenate((chords, self.chains[shapely.get_dimensions(self.chains) == 0]))
+
+
+Cutter = tuple[shapely.STRtree, float]
+"""The chords of a sweep as a tree, and its radius."""
 
 
 def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
@@ -78,7 +89,7 @@ def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
     groups = []
     for one in np.unique(radius[radius > NEAR]):
         group = pieces.only(radius == one)
-        groups.append(Sweep(float(one), paths.chains(group)))
+        groups.append(Sweep(float(one), paths.chains(group, SWEEP_CHORD)))
     return groups
 
 
@@ -125,59 +136,62 @@ def _on_walls(
     # is CLEARED thick, so a sample meets it, and the refinement finds its peak.
     limit = TOLERANCES.leftover
     spacing = 2 * (limit - CLEARED) / math.sqrt(2 * limit / smallest)
-    wall = shapely.segmentize(reached, spacing)
-    points, owner = shapely.get_coordinates(shapely.get_rings(wall), return_index=True)
+    wall = Wall(reached)
+    if wall.length == 0:
+        return 0.0, None
+    if aside is not None:
+        shapely.prepare(aside)
+    cutters = [(shapely.STRtree(group.chords()), group.radius) for group in groups]
+    stations = wall.stations(spacing)
+    _, thick, stations = _measured(wall, stations, aside, job, cutters)
+    if thick.size == 0:
+        return 0.0, None
+    worst = stations[np.argsort(thick)[-REFINED:]]
+    finer = (worst[:, None] + np.linspace(-spacing, spacing, REFINE)).ravel()
+    points, thick, _ = _measured(wall, np.clip(finer, 0.0, wall.length), aside, job, cutters)
+    best = int(np.argmax(thick))
+    return float(max(thick[best], 0.0)), (float(points[best, 0]), float(points[best, 1]))
+
+
+def _measured(
+    wall: Wall, stations: Array, aside: Shape | None, job: Job, cutters: list[Cutter]
+) -> tuple[Array, Array, Array]:
+    """Points (k, 2), thickness (k,) and stations (k,) where the wall is to be cut at all."""
+    points, outward = wall.at(stations)
     x0, y0, x1, y1 = job.stock
     x, y = points.T
     # Where the part's edge is the stock's edge there is nothing to cut.
     asked = (x > x0 + NEAR) & (x < x1 - NEAR) & (y > y0 + NEAR) & (y < y1 - NEAR)
     if aside is not None:
-        shapely.prepare(aside)
         asked &= ~shapely.contains_xy(aside, x, y)
-    index = np.flatnonzero(asked)
-    if index.size == 0:
-        return 0.0, None
-    trees = [(shapely.STRtree(group.chords()), group.radius) for group in groups]
-    thick = _thickness(points[index], trees)
-    worst = index[np.argsort(thick)[-REFINED:]]
-    trial = _beside(points, owner, worst).reshape(-1, 2)
-    finer = _thickness(trial, trees)
-    best = int(np.argmax(finer))
-    return float(max(finer[best], 0.0)), (float(trial[best, 0]), float(trial[best, 1]))
+    return points[asked], _thickness(points[asked], outward[asked], cutters), stations[asked]
 
 
-def _beside(points: Array, owner: Ints, at: Ints) -> Array:
-    """Trial points (n, 2 REFINE, 2) along both edges that meet in each corner ``at``."""
-    last = len(points) - 1
-    before, after = np.maximum(at - 1, 0), np.minimum(at + 1, last)
-    before = np.where(owner[before] == owner[at], before, at)
-    after = np.where(owner[after] == owner[at], after, at)
-    t = np.linspace(0.0, 1.0, REFINE)[None, :, None]
-    here = points[at][:, None]
-    trial: Array = np.concatenate(
-        (here + (points[before][:, None] - here) * t, here + (points[after][:, None] - here) * t), axis=1
-    )
-    return trial
+def _thickness(points: Array, outward: Array, cutters: list[Cutter]) -> Array:
+    """Distance (k,) from each point to the nearest swept disc, mm; inf where there is none.
 
-
-def _thickness(points: Array, trees: list[tuple[shapely.STRtree, float]]) -> Array:
-    """Distance (k,) from each point to the nearest swept disc, mm; inf where there is none."""
+    A path that finishes a wall runs one radius off it, so the nearest piece of path is looked for there
+    first: its distance from the point is an upper bound, and where that is within the limit it will do.
+    """
     spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
-    for tree, radius in trees:
+    for tree, radius in cutters:
         # A point that one cutter has cleared needs no other; the smallest, which comes first, clears most.
         open_ = np.flatnonzero(thick > CLEARED)
         if open_.size == 0:
             break
-        most = float(thick[open_].max()) + radius
-        (index, _), distance = tree.query_nearest(
-            spots[open_],
-            max_distance=most if np.isfinite(most) else None,
-            return_distance=True,
-            all_matches=False,
-        )
-        found = open_[index]
-        thick[found] = np.minimum(thick[found], distance - radius)
+        beside = shapely.points(points[open_] + radius * outward[open_])
+        found, chord = tree.query_nearest(beside, max_distance=BESIDE, all_matches=False)
+        at = open_[found]
+        distance = shapely.distance(spots[at], tree.geometries[chord]) - radius
+        thick[at] = np.minimum(thick[at], distance)
+    for tree, radius in cutters:
+        open_ = np.flatnonzero(thick > TOLERANCES.leftover)
+        if open_.size == 0:
+            break
+        (found, _), distance = tree.query_nearest(spots[open_], return_distance=True, all_matches=False)
+        at = open_[found]
+        thick[at] = np.minimum(thick[at], distance - radius)
     return thick
 
 
@@ -239,11 +253,25 @@ def _deepest_points(parts: Any, edge: Boundary) -> tuple[Array, Array]:
     distance = edge.distance(shapely.points(points))
     order = np.lexsort((-distance, owner))
     best = order[np.unique(owner[order], return_index=True)[1]]
-    trial = _beside(points, owner, best)  # the furthest point may lie between two corners
+    seen = distance[best] > VISIBLE / 2
+    if not seen.any():
+        return points[best], distance[best]
+    told, best = best, best[seen]
+    # The furthest point may lie between two corners: look along both edges that meet in the furthest corner.
+    last = len(points) - 1
+    before, after = np.maximum(best - 1, 0), np.minimum(best + 1, last)
+    before = np.where(owner[before] == owner[best], before, best)
+    after = np.where(owner[after] == owner[best], after, best)
+    t = np.linspace(0.0, 1.0, EDGE)[None, :, None]
+    here = points[best][:, None]
+    trial = np.concatenate(
+        (here + (points[before][:, None] - here) * t, here + (points[after][:, None] - here) * t), axis=1
+    )
     found = edge.distance(shapely.points(trial.reshape(-1, 2))).reshape(len(best), -1)
-    column = np.argmax(found, axis=1)
-    rows = np.arange(len(best))
-    return trial[rows, column], found[rows, column]
+    column, rows = np.argmax(found, axis=1), np.arange(len(best))
+    place, depth = points[told], distance[told]
+    place[seen], depth[seen] = trial[rows, column], found[rows, column]
+    return place, depth
 
 
 def _round_ended(group: Sweep, job: Job) -> bool:

@@ -115,13 +115,13 @@ class Paths:
         last = np.where(z1 > height, crossing, 1.0)
         return Pieces(steps, first, last, np.minimum(z0, z1))
 
-    def points(self, pieces: Pieces) -> tuple[Array, Ints]:
+    def points(self, pieces: Pieces, chord: float = CHORD) -> tuple[Array, Ints]:
         """Corners (k, 2) of all pieces, mm, and the piece (k,) that each belongs to."""
         run, step = self.run, pieces.step
         turn = run.sweep[step] * (pieces.last - pieces.first)
         arc = run.kind[step] == Kind.ARC
         radius = np.where(arc, run.radius[step], 1.0)
-        largest = 2 * np.arccos(np.maximum(1 - CHORD / np.maximum(radius, CHORD), 0.0))
+        largest = 2 * np.arccos(np.maximum(1 - chord / np.maximum(radius, chord), 0.0))
         count = np.where(arc, np.ceil(np.abs(turn) / largest), 1).astype(np.int64) + 1
         count = np.maximum(count, 2)
         owner = np.repeat(np.arange(step.size), count)
@@ -146,24 +146,52 @@ class Paths:
         points: Array = centre + radius * np.column_stack((np.cos(angle), np.sin(angle)))
         return points
 
+    def extent(self) -> tuple[Array, Array]:
+        """Least and greatest x and y, (m, 2) each, of every step in ``steps``, mm."""
+        run, step = self.run, self.steps
+        start, end = self.start[step, :2], self.end[step, :2]
+        least, most = np.minimum(start, end), np.maximum(start, end)
+        arc = np.flatnonzero(run.kind[step] == Kind.ARC)
+        centre, sweep = run.centre[step[arc]], run.sweep[step[arc]]
+        radius = run.radius[step[arc]]
+        spoke = start[arc] - centre
+        first = np.arctan2(spoke[:, 1], spoke[:, 0])
+        for axis, angle, side in ((0, 0.0, 1), (1, np.pi / 2, 1), (0, np.pi, -1), (1, -np.pi / 2, -1)):
+            # An arc reaches out furthest where it passes the direction of an axis.
+            passed = np.mod((angle - first) * np.sign(sweep), 2 * np.pi) <= np.abs(sweep)
+            at, reach = arc[passed], centre[passed, axis] + side * radius[passed]
+            if side > 0:
+                most[at, axis] = np.maximum(most[at, axis], reach)
+            else:
+                least[at, axis] = np.minimum(least[at, axis], reach)
+        return least, most
+
     def lines(self, pieces: Pieces) -> Geometries:
-        """One line per piece."""
+        """One line per piece; a point where it goes straight down."""
         if len(pieces) == 0:
             return np.empty(0, dtype=object)
-        points, owner = self.points(pieces)
-        lines: Geometries = shapely.linestrings(points, indices=owner)
-        return lines
+        return _lines(*self.points(pieces))
 
-    def chains(self, pieces: Pieces) -> Geometries:
+    def chains(self, pieces: Pieces, chord: float = CHORD) -> Geometries:
         """The pieces joined into chains, repeated passes once.
 
         All pieces have to be of one tool.
         """
         if len(pieces) == 0:
             return np.empty(0, dtype=object)
-        points, owner = self.points(pieces)
+        points, owner = self.points(pieces, chord)
         joined = (np.diff(pieces.step) == 1) & (pieces.last[:-1] == 1.0) & (pieces.first[1:] == 0.0)
         chain = np.concatenate(([0], np.cumsum(~joined)))[owner]
-        lines: Geometries = shapely.linestrings(points, indices=chain)
-        distinct = {line.wkb: line for line in lines}
+        distinct = {line.wkb: line for line in _lines(points, chain)}
         return np.array(list(distinct.values()), dtype=object)
+
+
+def _lines(points: Array, owner: Ints) -> Geometries:
+    """Lines through points (k, 2); a line without length becomes a point.
+
+    GEOS 3.14 finds a line of length 0 outside any distance of a prepared polygon; a point it finds.
+    """
+    lines: Geometries = shapely.linestrings(points, indices=owner)
+    still = np.flatnonzero(shapely.length(lines) == 0)
+    lines[still] = shapely.points(points[np.searchsorted(owner, still)])
+    return lines

@@ -15,7 +15,8 @@ from mechwright_cam.proof.bands import bands, inside_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.paths import NEAR, Paths, Pieces
+from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES, Scene
 from mechwright_cam.proof.stock import Stock
@@ -116,9 +117,6 @@ def _depth_check(scene: Scene) -> Check:
     """Every feature is cut down to its floor, somewhere at least; the rest is for the leftover check."""
     paths, job = scene.paths, scene.job
     cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-    pieces = paths.below(-NEAR, steps=cutting)
-    lines = paths.lines(pieces)
-    radius = paths.radius[pieces.step]
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
         shape = inside_of(feature)
@@ -127,10 +125,9 @@ def _depth_check(scene: Scene) -> Check:
         if shape.is_empty or shape.area <= NEAR:
             continue
         shapely.prepare(shape)
-        near = shapely.dwithin(shape, lines, float(radius.max(initial=0.0)))
-        # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
-        near[near] = shapely.dwithin(shape, lines[near], np.maximum(radius[near] - NEAR, NEAR))
-        low = float(pieces.low[near].min(initial=0.0))
+        low = _lowest(paths, paths.below(floor + ROUNDING, steps=cutting), shape)
+        if low > floor + ROUNDING:
+            low = _lowest(paths, paths.below(-NEAR, steps=cutting), shape)
         if low > floor + ROUNDING:
             return Check(
                 "depth",
@@ -142,6 +139,14 @@ def _depth_check(scene: Scene) -> Check:
                 "mm",
             )
     return Check("depth", True, "every feature is cut to its full depth")
+
+
+def _lowest(paths: Paths, pieces: Pieces, shape: Shape) -> float:
+    """Lowest z at which any piece cuts into a shape; 0 if none does."""
+    # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
+    radius = np.maximum(paths.radius[pieces.step] - NEAR, NEAR)
+    near = shapely.dwithin(shape, paths.lines(pieces), radius)
+    return float(pieces.low[near].min(initial=0.0))
 
 
 def _leftover_check(left: Remains) -> Check:

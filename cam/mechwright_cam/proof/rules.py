@@ -20,8 +20,8 @@ from mechwright_cam.proof.stock import Stock
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
-ANGLE_SLACK = 0.02
-"""Degrees by which a ramp may exceed its limit: a short ramp's rounding to the last decimal."""
+LAST_DECIMAL = 1e-4
+"""A ramp may end this much lower than its angle allows, mm: both its ends are rounded in the text."""
 SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
 
 
@@ -252,24 +252,25 @@ def travel(scene: Scene) -> Check:
     paths, machine = scene.paths, scene.job.settings.machine
     if paths.steps.size == 0:
         return Check("travel", True, "no moves")
-    pieces = paths.below(np.inf)
-    points, owner = paths.points(pieces)
-    heights = np.concatenate((scene.run.start[paths.steps, 2], scene.run.end[paths.steps, 2]))
-    at_rest = np.isinf(heights)
-    heights[at_rest] = np.median(heights[~at_rest]) if not at_rest.all() else 0.0
-    for axis, values, limit in (
-        ("X", points[:, 0], machine.travel_x),
-        ("Y", points[:, 1], machine.travel_y),
-        ("Z", heights, machine.travel_z),
+    least, most = paths.extent()
+    heights = np.stack((scene.run.start[paths.steps, 2], scene.run.end[paths.steps, 2]))
+    heights[np.isinf(heights)] = np.nan  # the machine's upper end is within its travel
+    low, high = np.fmin(*heights), np.fmax(*heights)
+    for axis, lower, upper, limit in (
+        ("X", least[:, 0], most[:, 0], machine.travel_x),
+        ("Y", least[:, 1], most[:, 1], machine.travel_y),
+        ("Z", low, high, machine.travel_z),
     ):
-        # Furthest from the middle: the move that a stray coordinate belongs to.
-        extent = float(np.ptp(values))
+        if np.isnan(lower).all():
+            continue
+        extent = float(np.nanmax(upper) - np.nanmin(lower))
         if extent > limit:
-            far = int(np.argmax(np.abs(values - np.median(values))))
-            step = int(paths.steps[far % paths.steps.size] if axis == "Z" else pieces.step[owner[far]])
+            # Furthest from the middle: the move that a stray coordinate belongs to.
+            middle = np.nanmedian(lower)
+            far = int(np.nanargmax(np.maximum(np.abs(upper - middle), np.abs(lower - middle))))
             return scene.bad(
                 "travel",
-                step,
+                int(paths.steps[far]),
                 f"the moves span {extent:.1f} mm in {axis}, the machine travels {limit:g} mm",
                 extent,
                 limit,
@@ -390,7 +391,8 @@ def entries(scene: Scene) -> Check:
     plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
-    suspect = (drop > NEAR) & (paths.end[steps, 2] < -NEAR) & (angle > limit + ANGLE_SLACK) & ~allowed
+    steep = drop > flat * np.tan(np.radians(limit)) + LAST_DECIMAL
+    suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
         if not scene.stock.meets(step):
@@ -425,6 +427,9 @@ def clamp(scene: Scene) -> Check:
     stops = np.flatnonzero(run.kind == Kind.STOP)
     # Without a stop it can only have been there from the start.
     pieces = paths.below(held.top - NEAR, steps=paths.steps[paths.steps > (stops[0] if stops.size else -1)])
+    # No path leads further than its length.
+    away = np.hypot(*(paths.start[pieces.step, :2] - held.centre).T) - np.nan_to_num(run.length[pieces.step])
+    pieces = pieces.only(away < held.diameter / 2 + paths.radius[pieces.step])
     if len(pieces):
         gap = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
         room = gap - paths.radius[pieces.step] - held.diameter / 2
