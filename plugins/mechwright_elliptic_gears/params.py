@@ -80,9 +80,7 @@ class EllipticGearParams(Parameters):
         le=20,
         description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
     )
-    speed: RevPerMin = Field(
-        60.0, ge=0.001, le=20000, description="Constant speed of gear 2, counter-clockwise."
-    )
+    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of gear 2.")
 
     @model_validator(mode="before")
     @classmethod

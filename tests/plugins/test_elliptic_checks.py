@@ -95,7 +95,7 @@ def test_wrong_phase(teeth, offset, right):
         ("gear.tip", "addendum", {"addendum": 1.1, "pressure_angle": 30, "dedendum": 1.3, "tip_radius": 0}),
         ("gear.tip", "backlash", {"teeth": 61, "backlash": 2.0}),
         ("bore.rim", "bore", {"bore": 50.0}),
-        ("bore.rim", "keyway_depth", {"semi_major": 20, "teeth": 41, "keyway_width": 3, "keyway_depth": 21.5}),
+        ("bore.rim", "keyway_depth", {"semi_major": 20, "teeth": 41, "keyway_width": 3, "keyway_depth": 22}),
         ("bore.size", "bore", {"bore": 0.1}),
         ("bore.size", "keyway_width", {"keyway_width": 0.2}),
         ("bore.size", "keyway_relief", {"keyway_width": 3.0, "keyway_relief": 0.01}),
