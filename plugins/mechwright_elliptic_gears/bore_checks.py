@@ -16,6 +16,9 @@ LEAST_RIM = 1.0
 FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
 
+LEAST_WIDTH = 0.3
+"""Smallest bore, keyway or relief, mm: there are no end mills for smaller ones."""
+
 SMALLEST_EDGE = 0.01
 """Straight length, mm, that must stay between reliefs, and between relief and bore."""
 
@@ -25,10 +28,28 @@ _PITCH_SAMPLES = 4096
 
 def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
     """Bore and keyway by themselves, then their rim."""
-    found = list(_keyway(params)) if params.keyway_width > 0 else []
+    found = list(_smallest(params))
+    if not found and params.keyway_width > 0:
+        found += _keyway(params)
     yield from found
     if not errors(found):
         yield from _rim(params)
+
+
+def _smallest(params: EllipticGearParams) -> Iterator[Finding]:
+    for name in ("bore", "keyway_width", "keyway_relief"):
+        value = getattr(params, name)
+        if 0 < value < LEAST_WIDTH:
+            yield Finding(
+                "bore.size",
+                Severity.ERROR,
+                name,
+                f"{value:.3g} mm is too small to be milled",
+                value,
+                LEAST_WIDTH,
+                "mm",
+                f"set {name} to 0 for none, or to {LEAST_WIDTH:g} or more",
+            )
 
 
 def _keyway(params: EllipticGearParams) -> Iterator[Finding]:

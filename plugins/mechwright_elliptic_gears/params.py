@@ -6,7 +6,8 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mechwright.materials import MATERIALS, material
 from mechwright.parameters import Parameters
-from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from pydantic import AfterValidator, Field, model_validator
 
 MaterialName = Annotated[
     str,
@@ -40,19 +41,14 @@ class EllipticGearParams(Parameters):
         description="Eccentricity of the pitch ellipse; the speed ratio swings up to (1 + e) / (1 - e).",
     )
     teeth: int = Field(25, ge=6, le=MOST_TEETH, description="Number of teeth of each gear.")
-    module: Millimetres | None = Field(
-        None,
-        ge=LEAST_MODULE,
-        le=25,
-        description="Pitch on the pitch ellipse over π; give this or semi_major.",
+    module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
+        None, description="Pitch on the ellipse over π; give this or semi_major."
     )
-    semi_major: Millimetres | None = Field(
-        50.0, ge=2, le=1000, description="Half the major axis, half the centre distance; give this or module."
+    semi_major: Annotated[float, Field(ge=2, le=1000), Unit("mm")] | None = Field(
+        50.0, description="Half the major axis, half the centre distance; give this or module."
     )
-    tooth_offset: Ratio | None = Field(
+    tooth_offset: Annotated[float, Field(ge=0, lt=1), Unit("")] | None = Field(
         None,
-        ge=0,
-        lt=1,
         description=(
             "Arc from the far vertex to the middle of a tooth, in pitches: 0 or 0.5 for an odd number of "
             "teeth, 0.25 or 0.75 for an even one; left out, the smaller."
@@ -70,16 +66,14 @@ class EllipticGearParams(Parameters):
         le=2,
         description="Circumferential play of the pair on the pitch curve; each flank gives a quarter of it.",
     )
-    thickness: Millimetres = Field(10.0, gt=0, le=200, description="Face width.")
+    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.")
     material: MaterialName = Field("aluminium", description="Workpiece material.")
     bore: Millimetres = Field(10.0, ge=0, le=300, description="Diameter of the shaft bore; 0 for none.")
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the hub keyway, towards the far vertex; 0 for none."
     )
-    keyway_depth: Millimetres | None = Field(
+    keyway_depth: Annotated[float, Field(ge=0.1, le=30), Unit("mm")] | None = Field(
         None,
-        gt=0,
-        le=30,
         description="Hub depth t2 over the bore (DIN 6885); left out, the standard one of this width.",
     )
     keyway_relief: Millimetres = Field(
@@ -88,7 +82,7 @@ class EllipticGearParams(Parameters):
         le=20,
         description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
     )
-    speed: RevPerMin = Field(60.0, gt=0, le=20000, description="Constant speed of gear 2, counter-clockwise.")
+    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of gear 2.")
 
     @model_validator(mode="before")
     @classmethod

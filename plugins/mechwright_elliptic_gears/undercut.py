@@ -1,5 +1,6 @@
 """Undercut, flank by flank, and the least number of teeth that is free of it."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -57,6 +58,11 @@ def least_teeth(params: EllipticGearParams) -> EllipticGearParams | None:
             continue
         candidate = params.model_copy(update={"teeth": teeth})
         rack, ellipse = rack_of(candidate), teeth_of(candidate).ellipse
+        # Some flank ends within half a pitch of the far vertex, where the curve is at its tightest: a cheap
+        # test that nearly all numbers of teeth fail.
+        radius = float(ellipse.frame_at(np.array(rack.pitch / 2)).radius)
+        if rack.straight_depth > radius * math.sin(rack.pressure_angle) ** 2:
+            continue
         if rack.dedendum < ellipse.least_radius and not is_undercut(candidate):
             return candidate
     return None

@@ -6,12 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.motion import Array
+from numpy.typing import NDArray
 
 _SAMPLES = 8192
-"""Grid over a period; it decides only which stretch is the longest, bisection finds its ends."""
+"""Grid over a period; it decides only which stretch is the longest."""
 
-_BISECTIONS = 50
-"""Halvings of one grid step: rounding."""
+_STARTS = 65
+"""Starts tried on each of the finer grids around the best one."""
+
+_ZOOMS = 3
+"""Finer grids; the last one has 3e-5 of the step of the search grid."""
+
+_BISECTIONS = 40
+"""Halvings of two grid steps: rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,20 +63,46 @@ def near_constant(
     values = np.asarray(speed(step * np.arange(samples, dtype=np.float64)), dtype=np.float64)
     if values.max() - values.min() <= band:
         return Window(0.0, period, float(values.min()))
-    length, low, high = _longest_runs(values, band)
+    length = _longest_runs(values, band)
     first = int(np.argmax(length))
-    start, end = step * first, step * (first + int(length[first]) - 1)
-    least, most = float(low[first]), float(high[first])
-    end = _extend(speed, end, step, most - band, least + band)
-    edge = float(speed(np.array([end]))[0])
-    least, most = min(least, edge), max(most, edge)
-    start = _extend(speed, start, -step, most - band, least + band)
-    least = min(least, float(speed(np.array([start]))[0]))
+    last = first + int(length[first]) - 1
+    inside = values[np.arange(first + 1, last) % samples]
+    start, end = _refine(speed, band, step * first, step * last, step, inside)
+    least = min(float(inside.min(initial=np.inf)), *speed(np.array([start, end])).tolist())
     return Window(start % period, min(end - start, period), least)
 
 
-def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
-    """For every start the number of samples whose range is within the band, their least and greatest.
+def _refine(
+    speed: Callable[[Array], Array], band: float, start: float, end: float, step: float, inside: Array
+) -> tuple[float, float]:
+    """Move both ends of a window by up to a step so that it becomes longest.
+
+    Where the speed rises or falls through the whole window, a later start is paid back by a later end, so the
+    start is sought on ever finer grids, each with the last end that the band allows.
+    """
+    centre, half = start, step
+    best = start, end
+    for _ in range(_ZOOMS):
+        starts = centre + half * np.linspace(-1, 1, _STARTS)
+        at_start = speed(starts)
+        least = np.minimum(inside.min(initial=np.inf), at_start)
+        most = np.maximum(inside.max(initial=-np.inf), at_start)
+        good, bad = np.maximum(end - step, starts), np.maximum(end, starts) + step
+        for _ in range(_BISECTIONS):
+            middle = (good + bad) / 2
+            values = speed(middle)
+            fits = (values <= least + band) & (values >= most - band)
+            good, bad = np.where(fits, middle, good), np.where(fits, bad, middle)
+        length = np.where(most - least <= band, good - starts, -np.inf)
+        top = int(np.argmax(length))
+        if length[top] > best[1] - best[0]:
+            best = float(starts[top]), float(good[top])
+        centre, half = best[0], half * 2 / (_STARTS - 1)
+    return best
+
+
+def _longest_runs(values: Array, band: float) -> NDArray[np.int64]:
+    """For every start the number of samples whose range is within the band.
 
     Tables of minima and maxima over 2^k samples, then steps of falling size: n log n, no loop over samples.
     """
@@ -88,14 +121,4 @@ def _longest_runs(values: Array, band: float) -> tuple[Array, Array, Array]:
         fits = (new_high - new_low <= band) & (length + 2**k <= n)
         length = np.where(fits, length + 2**k, length)
         low, high = np.where(fits, new_low, low), np.where(fits, new_high, high)
-    return length.astype(float), low, high
-
-
-def _extend(speed: Callable[[Array], Array], inside: float, step: float, least: float, most: float) -> float:
-    """Move an end of the window outwards by up to a step, as far as the speed stays in [least, most]."""
-    good, bad = 0.0, 1.0
-    for _ in range(_BISECTIONS):
-        middle = (good + bad) / 2
-        value = float(speed(np.array([inside + middle * step]))[0])
-        good, bad = (middle, bad) if least <= value <= most else (good, middle)
-    return inside + good * step
+    return length

@@ -32,7 +32,7 @@ def half_span(ellipse: Ellipse, scale: float) -> float:
     An ellipse lies inside each circle that touches it with its own greatest radius of curvature, so two
     envelopes overlap less than two such circles do.
     """
-    radius, height = scale * ellipse.greatest_radius, (scale - 1) * ellipse.semi_major
+    radius, height = scale * ellipse.greatest_radius, max(0.0, scale - 1) * ellipse.semi_major
     reach = math.hypot(math.sqrt(2 * radius * height), height)
     # An arc is at most π/2 times its chord, and b rad of it belong to one of eccentric angle at least.
     return min(math.pi, math.pi / 2 * reach / ellipse.semi_minor)

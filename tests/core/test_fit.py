@@ -1,5 +1,7 @@
 """Fitting of curves by Bézier segments."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -40,7 +42,7 @@ def test_ends_are_exact_and_pieces_share_their_bits(sweep, tolerance):
     for chain, (first, last) in zip(chains, ends, strict=True):
         assert chain[0].start == tuple(first)
         assert chain[-1].end == tuple(last)
-        assert all(a.end == b.start for a, b in zip(chain, chain[1:], strict=False))
+        assert all(a.end == b.start for a, b in pairwise(chain))
         assert {segment.tag for segment in chain} == {"flank"}
 
 

@@ -124,7 +124,8 @@ def test_the_window_is_the_longest_one(seed, band):
         low, high = np.minimum.accumulate(values[i : i + n]), np.maximum.accumulate(values[i : i + n])
         longest = max(longest, int((high - low <= band).sum()))
     window = near_constant(speed, band)
-    assert (longest - 1) * math.tau / n - 1e-9 <= window.length <= (longest + 1) * math.tau / n
+    # Another stretch may be longer by up to a step of the search grid.
+    assert (longest - 1) * math.tau / n - math.tau / 8192 <= window.length <= (longest + 1) * math.tau / n
     inside = speed(window.start + np.linspace(0, window.length, 5001))
     # An extreme inside the window is known to half a grid step: some 1e-6 of the curvature.
     assert inside.max() - inside.min() <= band + 1e-5

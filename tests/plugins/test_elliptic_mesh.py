@@ -1,0 +1,139 @@
+"""The mesh proof against known pairs, known defects and an independent measurement."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from mechwright_elliptic_gears.crossings import turns_to_edges
+from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.gear import outline_of, teeth_of
+from mechwright_elliptic_gears.kinematics import Turning, driven
+from mechwright_elliptic_gears.mesh import mesh, swing
+from mechwright_elliptic_gears.params import EllipticGearParams as Params
+from mechwright_elliptic_gears.proof import contact_levers, prove, prove_outlines
+
+REFERENCE = Params(eccentricity=0.4, teeth=39, module=2.0, bore=0.0)
+
+
+def closed(radius):
+    """The reference outline as a round cutter leaves it."""
+    target = outline_of(REFERENCE).polygon(1e-4)
+    cut = target.buffer(radius, quad_segs=64).buffer(-radius, quad_segs=64)
+    return shapely.get_coordinates(shapely.orient_polygons(cut).exterior)[:-1]
+
+
+@pytest.mark.parametrize(
+    "params",
+    [
+        REFERENCE,
+        Params(),
+        Params(teeth=40, module=2.0),
+        Params(teeth=41, tooth_offset=0.5),
+        Params(teeth=40, tooth_offset=0.75),
+        Params(eccentricity=0.6, teeth=25),
+        Params(eccentricity=0.8, teeth=39),
+        Params(eccentricity=0.0, teeth=18),
+        Params(eccentricity=0.2, teeth=19),
+    ],
+    ids=lambda params: f"e{params.eccentricity}-z{params.teeth}",
+)
+def test_sound_pairs_run_without_overlap(params):
+    proof = prove(params)
+    assert not proof.collides
+    assert proof.mesh.overlap == 0
+    assert proof.error <= 25e-6
+    assert proof.mesh.theta2.size >= 4 * params.teeth
+    assert proof.mesh.gap.max() < 2e-4
+    assert np.abs(proof.mesh.free_play).max() < 4e-5
+
+
+def test_transmission_error_falls_with_the_fit_of_the_polygon():
+    ellipse, outer = teeth_of(REFERENCE).ellipse, outline_of(REFERENCE).outer
+    errors = [
+        mesh(points, points, ellipse, 39, allowance=1e-3).transmission_error
+        for points in (outer.flatten(tolerance) for tolerance in (1e-2, 1e-3, 1e-4))
+    ]
+    assert errors[0] > 5 * errors[1] > 10 * errors[2]
+
+
+@pytest.mark.parametrize("teeth", [39, 40])
+def test_the_wrong_phase_collides(teeth):
+    offset = 0.25 if teeth % 2 else 0.0
+    proof = prove(Params(teeth=teeth, module=2.0, tooth_offset=offset))
+    assert proof.collides
+    assert proof.mesh.overlap == pytest.approx(25, abs=1.5)
+
+
+def test_fillets_left_by_cutters():
+    # A 2.0 mm end mill leaves 0.022 mm and the pair meshes; 2.5 mm leaves 0.55 mm and it collides.
+    small = prove_outlines(REFERENCE, closed(1.0), 1e-3)
+    assert not small.collides
+    assert small.error < 25e-6
+    large = prove_outlines(REFERENCE, closed(1.25), 1e-3)
+    assert large.collides
+    assert large.mesh.overlap == pytest.approx(0.34, abs=0.02)
+    assert large.mesh.free_play.min() < 0
+
+
+def test_backlash_is_the_play_of_the_pair():
+    # Each of the four flanks gives a quarter: 0.05 mm here, 0.1 mm on each side of a tooth in its slot.
+    proof = prove(REFERENCE.model_copy(update={"backlash": 0.2}))
+    play = proof.mesh
+    assert play.ahead.min() == pytest.approx(0.0017, abs=1e-4)
+    assert play.ahead.max() == pytest.approx(0.0042, abs=1e-4)
+    ahead, behind = contact_levers(teeth_of(REFERENCE).ellipse, play.theta2, math.radians(20))
+    normal = 0.1 * math.cos(math.radians(20))
+    np.testing.assert_allclose(play.ahead * ahead, normal, rtol=0, atol=3e-4)
+    np.testing.assert_allclose(play.behind * behind, normal, rtol=0, atol=3e-4)
+    np.testing.assert_allclose(play.gap, normal, rtol=0, atol=3e-4)
+    assert proof.error < 25e-6 < play.transmission_error
+
+
+def test_gap_and_depth_agree_with_an_independent_measurement():
+    for params, widen in ((REFERENCE.model_copy(update={"backlash": 0.1}), 0.0), (REFERENCE, 0.02)):
+        ellipse = teeth_of(params).ellipse
+        polygon = outline_of(params).polygon(1e-4).buffer(widen, quad_segs=16)
+        points = shapely.get_coordinates(shapely.orient_polygons(polygon).exterior)[:-1]
+        found = mesh(points, points, ellipse, 39, positions=8, allowance=1e-3)
+        theta4 = driven(Turning.of(found.theta2, 1.0), 0.4).theta
+        for i in range(8):
+            one = shapely.affinity.rotate(polygon, found.theta2[i], origin=(0, 0), use_radians=True)
+            two = shapely.affinity.rotate(polygon, theta4[i], origin=(0, 0), use_radians=True)
+            two = shapely.affinity.translate(two, 2 * ellipse.semi_major)
+            if widen:
+                # Both flanks grew by this much along their normals.
+                assert found.depth[i] == pytest.approx(2 * widen, rel=0.03)
+                assert found.gap[i] == 0
+                assert one.intersection(two).area > 0
+            else:
+                assert found.gap[i] == pytest.approx(one.distance(two), abs=2e-4)
+                assert found.depth[i] == 0
+        assert (found.overlap > 0) == (widen > 0)
+
+
+def test_gears_that_do_not_touch_have_no_play_to_measure():
+    circle = 10 * np.column_stack((np.cos(np.linspace(0, 6.2, 60)), np.sin(np.linspace(0, 6.2, 60))))
+    found = mesh(circle, circle, Ellipse(20.0, 0.0), 20, allowance=1e-3)
+    assert found.transmission_error == math.inf
+    assert found.overlap == 0
+    assert swing(np.array([1.0, 3.0])) == 2.0
+
+
+def test_turns_to_the_edges_of_a_wedge():
+    # A wedge of material between the directions 0.1 and 0.4 rad, in radii from 1 to 3.
+    corners = np.array(
+        [[r * math.cos(a), r * math.sin(a)] for r, a in ((1, 0.1), (3, 0.1), (3, 0.4), (1, 0.4))]
+    )
+    ends = np.roll(corners, -1, axis=0)
+    angles = np.array([0.0, 0.2, 0.5])
+    queries = 2 * np.column_stack((np.cos(angles), np.sin(angles)))
+    zero = np.zeros(3, dtype=np.int64)
+    free = turns_to_edges(queries, zero, corners, ends, np.zeros(4, dtype=np.int64), 0.1, 4.0)
+    np.testing.assert_allclose(free.entering_ahead, [0.1, np.inf, np.inf])
+    np.testing.assert_allclose(free.leaving_ahead, [0.4, 0.2, np.inf])
+    np.testing.assert_allclose(free.entering_behind, [np.inf, 0.1, 0.4])
+    np.testing.assert_allclose(free.leaving_behind, [np.inf, np.inf, 0.1])
+    np.testing.assert_allclose(free.distance, [0.2, 0.2, 0.2])
+    elsewhere = turns_to_edges(queries, zero + 1, corners, ends, np.zeros(4, dtype=np.int64), 0.1, 4.0)
+    assert np.isinf(elsewhere.distance).all()
