@@ -62,7 +62,7 @@ class RackGear:
 def outline(gear: RackGear) -> Outline:
     """Six segments per tooth: root arc, fillet, flank, tip arc, flank, fillet, fitted by Bezier curves."""
     t = (1 - np.cos(np.pi * np.arange(SAMPLES) / (SAMPLES - 1))) / 2
-    fillet, worst1 = _fitted(gear.fillet(t), t, 6)
+    fillet, worst1 = _fitted(gear.fillet(t), t, 7)
     flank, worst2 = _fitted(gear.flank(t), t, 4)
     flank[0] = fillet[-1]
     pitch = math.tau / gear.teeth
