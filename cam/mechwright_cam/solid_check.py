@@ -33,7 +33,7 @@ COARSE = (0.02, 0.5)
 
 SURPLUS = 4
 """The walls may have this many triangles per corner of the outline's polygon, and as many more per wall.
-Right ones stay below 1, since the polygon is much finer than the triangles; degenerate ones reach thousands."""
+Right ones stay below 1, since the polygon is much finer than the triangles; broken ones reach thousands."""
 
 TURN_STEPS = 8
 """Steps in each smooth piece between which a tangent may not turn by more than a right angle."""
