@@ -19,6 +19,11 @@ from OCP.GCPnts import GCPnts_TangentialDeflection
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_Orientation
+from shapely.geometry.polygon import orient
+
+READING = TOLERANCES.flatten / 5
+"""Chord error of outlines read back, mm. With ``flatten`` itself the chords alone would give a pair of gears
+a transmission error of 30 µrad; with this it is below 5."""
 
 
 def read_step_solids(path: Path) -> list[cq.Solid]:
@@ -36,7 +41,7 @@ def read_step_solids(path: Path) -> list[cq.Solid]:
     return cq.Shape.cast(reader.OneShape()).Solids()
 
 
-def read_step_outline(source: bytes | Path, tolerance: float = TOLERANCES.flatten) -> list[shapely.Polygon]:
+def read_step_outline(source: bytes | Path, tolerance: float = READING) -> list[shapely.Polygon]:
     """The plan view of every plate in a STEP file.
 
     Parameters
@@ -49,7 +54,8 @@ def read_step_outline(source: bytes | Path, tolerance: float = TOLERANCES.flatte
     Returns
     -------
     polygons
-        One per solid, in the order of the file, mm, holes included: its uppermost plane face.
+        One per solid, in the order of the file, mm, holes included: its uppermost plane face. Outsides run
+        counter-clockwise.
 
     Raises
     ------
@@ -84,9 +90,10 @@ def top_face(solid: cq.Solid) -> cq.Face:
 
 def _plan(solid: cq.Solid, tolerance: float) -> shapely.Polygon:
     face = top_face(solid)
-    return shapely.Polygon(
+    polygon = shapely.Polygon(
         _ring(face.outerWire(), tolerance), [_ring(wire, tolerance) for wire in face.innerWires()]
     )
+    return orient(polygon)
 
 
 def _ring(wire: cq.Wire, tolerance: float) -> Array:
