@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
-from mechwright.part import Part
+from mechwright.part import Instance, Part
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright.tooling import CamSettings, Tool
 from mechwright_cam import svg
@@ -188,6 +188,15 @@ def test_several_programs_have_an_index_and_a_sheet_each():
     names = [attributes["id"] for tag, attributes in found.tags if "id" in attributes]
     assert names == ["wheel", "wheel-t7", "hub", "hub-t7"]
     assert found.text.count("Setting up") == 2
+
+
+def test_as_many_as_the_mechanism_needs():
+    instances = (Instance("driver"), Instance("driven"))
+    pair = replace(job(), part=replace(job().part, instances=instances))
+    text = read(sheet(pair, program(), PROOF)).text
+    assert "Make 2 Tools" in text
+    assert "Make 2. A further plate against the same stops keeps G54 X and Y; set G54 Z again if" in text
+    assert "Make 1 Tools" in read(sheet(job(), program(), PROOF)).text
 
 
 def test_clamp_and_its_stop():

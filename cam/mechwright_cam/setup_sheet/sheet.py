@@ -12,7 +12,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.levels import side_view
-from mechwright_cam.setup_sheet.procedure import origin_words, steps
+from mechwright_cam.setup_sheet.procedure import origin_words, quantity, steps
 from mechwright_cam.svg import signed
 from mechwright_cam.trace import trace
 
@@ -73,6 +73,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "operations": facts.operation_rows(program, traced, proof),
         "steps": steps(job, [row.tool.number for row in tools], file_name=file_name, deepest=deepest),
         "origin": origin_words(job),
+        "quantity": quantity(job),
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         "side": Markup(side_view(job, program, deepest)),  # noqa: S704
