@@ -153,8 +153,8 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
     ]
     if quantity(job) > 1:
         lines.append(
-            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set {offset} Z "
-            "again if its top is not as high as the last one. The length offsets stay."
+            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set "
+            f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
         )
     if job.tabs:
         width, height = job.settings.hold.tab_width, job.settings.hold.tab_height
