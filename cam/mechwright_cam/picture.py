@@ -115,7 +115,7 @@ def _holding(job: Job, frame: Frame) -> str:
     for place, tab in enumerate(job.tabs, start=1):
         shape = svg.path(list(tab.shape.exterior.coords)[:-1], close=True)
         parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.75))
-        parts.append(_tag(*_beyond(job, tab), f"tab {place}", frame))
+        parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
     if job.clamp is not None:
         x, y = job.clamp.centre
         circle = {"cx": x, "cy": -y, "r": job.clamp.diameter / 2}
@@ -124,12 +124,11 @@ def _holding(job: Job, frame: Frame) -> str:
     return "".join(parts)
 
 
-def _beyond(job: Job, tab: Tab) -> Point:
-    """A place for a tab's name: on the frame, inside the stock."""
-    middle, tip = job.target.centroid, tab.shape.centroid
+def _outer_end(job: Job, tab: Tab) -> Point:
+    """A place for a tab's name: on the tab, towards the frame."""
+    middle, centre = job.target.centroid, tab.shape.centroid
     far = max(tab.shape.exterior.coords, key=lambda p: math.hypot(p[0] - middle.x, p[1] - middle.y))
-    x0, y0, x1, y1 = job.stock
-    return min(max(2 * far[0] - tip.x, x0), x1), min(max(2 * far[1] - tip.y, y0), y1)
+    return (centre.x + 2 * far[0]) / 3, (centre.y + 2 * far[1]) / 3
 
 
 def _tag(x: float, y: float, words: str, frame: Frame) -> str:

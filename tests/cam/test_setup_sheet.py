@@ -2,13 +2,12 @@
 
 import math
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
-from plate_shapes import slotted_plate, wavy_plate
-
-from mechwright.part import Part
+from mechwright.part import Instance, Part
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright.tooling import CamSettings, Tool
 from mechwright_cam import svg
@@ -60,6 +59,10 @@ def program(offset="G54", stop=None):
     return Program("wheel", offset, 5.0, sections, ("stock 10 mm steel",))
 
 
+def sheet(job, program, proof, **files):
+    return setup_html([(job, program, proof)], **files)
+
+
 class Text(HTMLParser):
     """The words of a page, the tags it opens, and whether they all close."""
 
@@ -94,17 +97,17 @@ def read(page):
 
 
 def test_page_stands_alone():
-    page = setup_html(job(), program(), PROOF, file_name="wheel.nc")
+    page = sheet(job(), program(), PROOF)
     found = read(page)
     assert not {tag for tag, _ in found.tags} & {"script", "link", "img", "iframe", "object"}
     assert set(re.findall(r"https?://[^\"' )]*", page)) == {"http://www.w3.org/2000/svg"}
     assert "@import" not in page
     assert "url(" not in page
-    assert page == setup_html(job(), program(), PROOF, file_name="wheel.nc")
+    assert page == sheet(job(), program(), PROOF)
 
 
 def test_numbers_of_the_job_are_on_the_page():
-    text = read(setup_html(job(), program(), PROOF, file_name="wheel.nc", tool_table="tool.tbl")).text
+    text = read(sheet(job(), program(), PROOF, tool_table="tool.tbl")).text
     for words in (
         "Setup sheet for wheel.nc",
         "PROVEN",
@@ -134,10 +137,10 @@ def test_numbers_of_the_job_are_on_the_page():
 
 
 def test_operations_stand_in_order_with_their_times():
-    text = read(setup_html(job(), program(), PROOF)).text
+    text = read(sheet(job(), program(), PROOF)).text
     rows = text[text.index("Operations") : text.index("What the proof found")]
     assert re.search(r"1 holes T4 −12.40 11 20 s 2 outside T7 −10.30 5000 11 min 40 s", rows)
-    without = read(setup_html(job(), program(), {"ok": True})).text
+    without = read(sheet(job(), program(), {"ok": True})).text
     assert "1 holes T4 −12.40 – – 2 outside" in without
 
 
@@ -153,7 +156,7 @@ def test_operations_stand_in_order_with_their_times():
     ],
 )
 def test_verdict(proof, words):
-    text = read(setup_html(job(), program(), proof)).text
+    text = read(sheet(job(), program(), proof)).text
     assert words in text
     if words == "DO NOT RUN":
         assert " PROVEN " not in text
@@ -167,16 +170,37 @@ def test_text_of_a_design_file_is_only_text():
     }
     machine = {"name": evil}
     made = program(stop=evil)
-    page = setup_html(job(machine=machine), made, proof, file_name=evil, tool_table=evil, design=evil)
+    page = sheet(job(machine=machine), made, proof, suffix=evil, tool_table=evil, design=evil)
     found = read(page)
     assert "script" not in {tag for tag, _ in found.tags}
     assert "<script" not in page
     assert found.text.count(evil) == 8
 
 
+def test_several_programs_have_an_index_and_a_sheet_each():
+    other = replace(program(), name="hub")
+    part = replace(job().part, name="hub")
+    failed = {"ok": False, "time_estimate_s": 61.0}
+    page = setup_html([(job(), program(), PROOF), (replace(job(), part=part), other, failed)], suffix=".ngc")
+    found = read(page)
+    assert "wheel wheel.ngc proven 2 12 min 34 s hub hub.ngc FAILED 2 1 min 01 s" in found.text
+    names = [attributes["id"] for tag, attributes in found.tags if "id" in attributes]
+    assert names == ["wheel", "wheel-t7", "hub", "hub-t7"]
+    assert found.text.count("Setting up") == 2
+
+
+def test_as_many_as_the_mechanism_needs():
+    instances = (Instance("driver"), Instance("driven"))
+    pair = replace(job(), part=replace(job().part, instances=instances))
+    text = read(sheet(pair, program(), PROOF)).text
+    assert "Make 2 Tools" in text
+    assert "Make 2. A further plate against the same stops keeps G54 X and Y; set G54 Z again if" in text
+    assert "Make 1 Tools" in read(sheet(job(), program(), PROOF)).text
+
+
 def test_clamp_and_its_stop():
     held = job(hold={"method": "bore", "clamp_diameter": 12, "clamp_height": 18})
-    text = read(setup_html(held, program(stop="fit the clamp"), PROOF)).text
+    text = read(sheet(held, program(stop="fit the clamp"), PROOF)).text
     assert "STOP fit the clamp" in text
     assert "clamp through the bore" in text
     assert "at most ⌀12 and 18 mm high" in text
@@ -221,7 +245,7 @@ def test_length_offsets_of_the_procedure_are_right():
 
 def test_origin_words():
     for origin, words in (("corner", "lower left corner"), ("centre", "centre of the stock")):
-        text = read(setup_html(job(origin=origin), program(), PROOF)).text
+        text = read(sheet(job(origin=origin), program(), PROOF)).text
         assert f"X0 Y0 the {words}" in text
     corner = " ".join(steps(job(origin="corner"), [4], file_name="", deepest=0.0)[1].lines)
     assert "X reads −r" in corner

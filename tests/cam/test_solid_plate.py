@@ -115,7 +115,7 @@ def test_gate_counts_triangles(monkeypatch):
     outline = wavy_plate()
     solid = solids._extruded(outline, 8.0)
     check_plate(solid, outline, 8.0)
-    monkeypatch.setattr("mechwright_cam.solid_check.SURPLUS", 0.1)
+    monkeypatch.setattr("mechwright_cam.solid_check.SURPLUS", 0.01)
     with pytest.raises(GeometryError, match="triangles, limit"):
         check_plate(solid, outline, 8.0)
 

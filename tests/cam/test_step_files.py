@@ -113,6 +113,8 @@ def test_outline_read_back(name):
     outline = PLATES[name]()
     (polygon,) = read_step_outline(StepExporter().part(Part(name, outline, 6.0, "brass")), 1e-4)
     assert polygon.is_valid
+    assert polygon.exterior.is_ccw
+    assert not any(hole.is_ccw for hole in polygon.interiors)
     assert len(polygon.interiors) == len(outline.inner)
     exact = outline.polygon(1e-5)
     assert shapely.hausdorff_distance(polygon.boundary, exact.boundary, densify=0.1) < 0.5

@@ -1,6 +1,7 @@
 """File formats of parts. This package is light; the modules that write import their libraries."""
 
 from mechwright_cam.exporters.formats import (
+    Curves,
     DxfExporter,
     GlbExporter,
     StepExporter,
@@ -8,4 +9,4 @@ from mechwright_cam.exporters.formats import (
     ThreeMfExporter,
 )
 
-__all__ = ["DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]
+__all__ = ["Curves", "DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]

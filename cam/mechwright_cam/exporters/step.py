@@ -59,7 +59,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     whole = solids.assembly(name, parts, motion, sample)
     label, document = toCAF(whole, coloredSTEP=True)
     _name_products(label, [part.name for part in parts for _ in part.instances])
-    return _write(document, name)
+    return _write(document, name, occurrences=True)
 
 
 def _name_products(label: TDF_Label, names: list[str]) -> None:
@@ -71,7 +71,7 @@ def _name_products(label: TDF_Label, names: list[str]) -> None:
         TDataStd_Name.Set_s(product, TCollection_ExtendedString(name))
 
 
-def _write(document: TDocStd_Document, name: str) -> bytes:
+def _write(document: TDocStd_Document, name: str, *, occurrences: bool = False) -> bytes:
     text = io.BytesIO()
     # The first writer of a process makes the settings known; before that they cannot be set.
     writer = STEPCAFControl_Writer(XSControl_WorkSession(), False)
@@ -82,7 +82,8 @@ def _write(document: TDocStd_Document, name: str) -> bytes:
             raise GeometryError(f"the CAD kernel cannot turn {name} into STEP entities")
         model = writer.ChangeWriter().Model()
         _set_header(model, name)
-        _number_occurrences(model)
+        if occurrences:
+            _number_occurrences(model)
         status = writer.WriteStream(text)
     if status != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise GeometryError(f"the CAD kernel cannot write {name} as STEP ({status.name})")

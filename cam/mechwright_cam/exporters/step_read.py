@@ -16,6 +16,11 @@ from OCP.GCPnts import GCPnts_TangentialDeflection
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_Orientation
+from shapely.geometry.polygon import orient
+
+READING = TOLERANCES.flatten / 5
+"""Chord error of outlines read back, mm. With ``flatten`` itself the chords alone would give a pair of gears
+a transmission error of 30 µrad; with this it is below 5."""
 
 from mechwright.errors import GeometryError, OutputError
 from mechwright.motion import Array
@@ -37,7 +42,7 @@ def read_step_solids(path: Path) -> list[cq.Solid]:
     return cq.Shape.cast(reader.OneShape()).Solids()
 
 
-def read_step_outline(source: bytes | Path, tolerance: float = TOLERANCES.flatten) -> list[shapely.Polygon]:
+def read_step_outline(source: bytes | Path, tolerance: float = READING) -> list[shapely.Polygon]:
     """The plan view of every plate in a STEP file.
 
     Parameters
@@ -50,7 +55,8 @@ def read_step_outline(source: bytes | Path, tolerance: float = TOLERANCES.flatte
     Returns
     -------
     polygons
-        One per solid, in the order of the file, mm, holes included: its uppermost plane face.
+        One per solid, in the order of the file, mm, holes included: its uppermost plane face. Outsides run
+        counter-clockwise.
 
     Raises
     ------
@@ -85,9 +91,10 @@ def top_face(solid: cq.Solid) -> cq.Face:
 
 def _plan(solid: cq.Solid, tolerance: float) -> shapely.Polygon:
     face = top_face(solid)
-    return shapely.Polygon(
+    polygon = shapely.Polygon(
         _ring(face.outerWire(), tolerance), [_ring(wire, tolerance) for wire in face.innerWires()]
     )
+    return orient(polygon)
 
 
 def _ring(wire: cq.Wire, tolerance: float) -> Array:

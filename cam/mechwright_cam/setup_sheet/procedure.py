@@ -61,6 +61,11 @@ def origin_words(job: Job) -> str:
     }[job.settings.origin]
 
 
+def quantity(job: Job) -> int:
+    """How many of the part the mechanism needs."""
+    return max(1, len(job.part.instances))
+
+
 def _stock(job: Job, deepest: float) -> Step:
     x0, y0, x1, y1 = job.stock
     lines = [
@@ -146,6 +151,11 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
         f"Load {file_name}. Single block and low feed override until the first cut looks right. "
         f"{offset} must be the active offset.",
     ]
+    if quantity(job) > 1:
+        lines.append(
+            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set "
+            f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
+        )
     if job.tabs:
         width, height = job.settings.hold.tab_width, job.settings.hold.tab_height
         lines.append(
