@@ -168,7 +168,9 @@ def check_rules(job: Job, program: Program) -> None:
     slope = math.tan(math.radians(job.settings.ramp_angle))
     done: list[Motion] = []
     plunges = 0
-    for motion in motions(program):
+    every = motions(program)
+    fastest = {m.tool.number: max(n.feed for n in every if n.tool is m.tool) for m in every}
+    for motion in every:
         start, end = motion.points[0], motion.points[-1]
         moved = not np.array_equal(motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0))
         if motion.kind == "rapid":
@@ -181,7 +183,12 @@ def check_rules(job: Job, program: Program) -> None:
             way = np.hypot(*np.diff(motion.points[:, :2], axis=0).T).sum()
             if way > 0:
                 assert (start[2] - end[2]) <= slope * way * 1.0005 + 1.1e-4, "a ramp is too steep"
-            elif end[2] < start[2] and end[2] < 0 and motion.tool.kind is ToolKind.END_MILL:
+            elif (
+                end[2] < start[2]
+                and end[2] < 0
+                and motion.tool.kind is ToolKind.END_MILL
+                and not (motion.tool.centre_cutting and motion.feed <= 0.31 * fastest[motion.tool.number])
+            ):
                 plunges += 1
                 # Plenty of the same kind: every fifth is enough of a sample.
                 if plunges % 5 == 1:
@@ -206,6 +213,6 @@ def _check_plunge(motion: Motion, done: list[Motion], stock: shapely.Geometry) -
         elif old.kind == "drill" and old.points[1, 2] <= z:
             swept.append(shapely.Point(old.points[1, :2]).buffer(old.tool.radius))
     rest = disc.difference(shapely.union_all(swept))
-    assert motion.tool.centre_cutting and "plunge" in motion.operation or rest.area < 0.03 * disc.area + 1e-6, (
+    assert rest.area < 0.03 * disc.area + 1e-6, (
         f"{motion.operation}: plunge into {rest.area:.3f} mm² of stock at {x:.3f} {y:.3f} {z:.3f}"
     )

@@ -18,14 +18,14 @@ from functools import cached_property
 from typing import Literal
 
 import shapely
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import finishing_choice, usable_mills
 from mechwright_cam.reach import opening_keep
-from mechwright_cam.toolpath.offsets import ROUGH, filled, grow, polygons
+from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
@@ -128,6 +128,11 @@ def inner_zones(job: Job) -> list[Zone]:
         bottom = bottom_of(job, feature.top, feature.depth)
         mills = usable_mills(job, -bottom)
         keep = opening_keep(shape, 2 * mills[0].diameter)
+        if shapely.is_empty(grow(shape, -mills[-1].radius - BIAS, ROUGH)):
+            raise ToolError(
+                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest that "
+                f"cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+            )
         zones.append(
             Zone(
                 feature.name,
@@ -179,10 +184,16 @@ def outer_zones(job: Job) -> list[Zone]:
     return zones
 
 
-def roughing_mills(job: Job, mills: list[Tool], part: shapely.Geometry) -> list[Tool]:
-    """The mills whose channel around the part leaves a frame that holds the tabs, largest first."""
+def roughing_mills(
+    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None
+) -> list[Tool]:
+    """The mills whose channel around the part leaves a frame, largest first.
+
+    Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
+    error if no mill leaves one.
+    """
     fit = [mill for mill in mills if _frame(job, part, channel_width(job, mill)) is not None]
-    if fit or not job.tabs:
+    if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
     x0, y0, x1, y1 = part.bounds
     least = channel_width(job, mills[-1])
