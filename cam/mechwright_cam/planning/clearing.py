@@ -4,16 +4,18 @@ Coverage: a point that the cutter can reach lies within one step of the next rin
 way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 
 from mechwright.geometry.segments import Point
+from mechwright.motion import Array
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import SLACK, Zone
-from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
     BIAS,
     CHORD,
@@ -43,18 +45,29 @@ TIGHT = 0.49
 
 @dataclass(frozen=True)
 class Run:
-    """A path at one depth, and whether its start is clear of stock."""
+    """A path at one depth.
+
+    Parameters
+    ----------
+    path
+        Where the centre goes.
+    open
+        The start is clear of stock, so the cutter may be sunk there.
+    linked
+        The cutter may go straight from the end of the run before to the start of this one at depth.
+    """
 
     path: Path
     open: bool
-    order: int
+    linked: bool
 
 
 @dataclass(frozen=True)
 class Cavity:
-    """Connected stock and the runs that remove it, in cutting order."""
+    """Connected stock and the runs that remove it, in cutting order; ``back``: the last leads to the first."""
 
     runs: tuple[Run, ...]
+    back: bool
 
 
 class Roughing:
@@ -109,12 +122,10 @@ class Roughing:
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
-        if not polygons(self.take):
-            return []
-        found = self._pieces()
+        parts = polygons(self.take)
+        found = self._pieces() if parts else []
         if not found:
             return []
-        parts = polygons(self.take)
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
         near = grow(self.zone.left, self.tool.radius - CLEAR, ROUGH)
@@ -122,18 +133,50 @@ class Roughing:
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
             groups.setdefault(part, []).append(piece)
-        waiting = [Cavity(tuple(self._ordered(group, near))) for group in groups.values()]
+        waiting = [(part, self._ordered(group, near)) for part, group in groups.items()]
         ordered = [waiting.pop(0)]
         while waiting:
-            here = ordered[-1].runs[-1].path.end
-            starts = np.array([cavity.runs[0].path.start for cavity in waiting])
+            here = ordered[-1][1][-1][-1]
+            starts = np.array([runs[0][0] for _, runs in waiting])
             ordered.append(waiting.pop(int(np.argmin(np.hypot(*(starts - here).T)))))
-        return ordered
+        paths = iter(fit_all([points for _, runs in ordered for points in runs], self.fit))
+        # Slack for rounding: a link along a ring's chord may cut its corner by this much.
+        free = grow(self.free, 2 * self.chord + self.fit, ROUGH)
+        shapely.prepare(free)
+        cavities = []
+        for part, runs in ordered:
+            shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
+            if shapes:
+                cavities.append(self._linked(shapes, parts[part], near, free))
+        return cavities
+
+    def _linked(
+        self, paths: list[Path], stock: shapely.Polygon, near: shapely.Geometry, free: shapely.Geometry
+    ) -> Cavity:
+        """Find out which runs may be entered from the one before without lifting the cutter."""
+        radius = self.tool.radius
+        swept: shapely.Geometry = shapely.Polygon()
+        starts = np.array([path.start for path in paths])
+        is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
+        runs = [Run(paths[0], bool(is_open[0]), False)]
+        for last, path, clear in zip(paths, paths[1:], is_open[1:].tolist(), strict=False):
+            linked = _inside(free, last.end, path.start, radius)
+            if linked and math.dist(last.end, path.start) > BESIDE * self.step:
+                # A longer way must go through what is cleared, or is being cleared by the runs so far.
+                trail = shapely.linestrings(last.points(radius / 3))
+                swept = shapely.union(swept, shapely.buffer(trail, radius, quad_segs=6))
+                way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)
+                uncut = shapely.difference(shapely.intersection(way, stock), swept)
+                linked = bool(uncut.area <= SLIVER * self.tool.diameter)
+            runs.append(Run(path, clear, linked))
+        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start, radius))
 
     def _pieces(self) -> list[Piece]:
         radius = self.tool.radius
         shapely.prepare(self.room)
         blocked, take, found = self.blocked, self.take, []
+        near = grow(take, radius + CLEAR, ROUGH)
+        shapely.prepare(near)
         order = 0
         while True:
             if order:
@@ -144,9 +187,7 @@ class Roughing:
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)
             wanted = grow(take, radius - SLIVER, ROUGH)
-            near = grow(take, radius + CLEAR, ROUGH)
             shapely.prepare(wanted)
-            shapely.prepare(near)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
                 dense = densified(ring, radius / 2)
@@ -154,30 +195,24 @@ class Roughing:
                 inside = shapely.contains_xy(near, x, y)
                 if not inside.any():
                     continue
-                new = pieces(
-                    dense,
-                    shapely.contains_xy(wanted, x, y),
-                    inside,
-                    shapely.contains_xy(self.room, x, y),
-                    order,
-                )
+                new = pieces(dense, shapely.contains_xy(wanted, x, y), inside, self.room, order)
                 found.extend(new)
                 some = some or bool(new)
             if order and not some:
                 return found
             order += 1
 
-    def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Run]:
+    def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Array]:
         """Far rings first; among those of one order the nearest next; closed rings entered where it is best."""
-        runs: list[Run] = []
-        here: Point | None = None
+        runs: list[Array] = []
+        here: Array | None = None
         waiting = sorted(group, key=lambda piece: -piece.order)
         while waiting:
-            order = waiting[0].order
-            same = [piece for piece in waiting if piece.order == order]
+            same = [piece for piece in waiting if piece.order == waiting[0].order]
             piece = same[0]
             if here is not None and len(same) > 1:
-                piece = min(same, key=lambda p: float(np.hypot(*(p.points[0] - here))))
+                starts = np.array([other.points[0] for other in same])
+                piece = same[int(np.argmin(np.hypot(*(starts - here).T)))]
             waiting.remove(piece)
             points = piece.points
             if piece.closed:
@@ -188,87 +223,55 @@ class Roughing:
                 elif here is not None:
                     at = int(np.argmin(np.hypot(*(points[:-1] - here).T)))
                 points = np.concatenate((points[at:-1], points[: at + 1]))
-            is_open = not shapely.contains_xy(near, points[0, 0], points[0, 1])
-            path = fit(points, self.fit)
-            if path.cuts:
-                runs.append(Run(path, is_open, piece.order))
-                here = path.end
+            runs.append(points)
+            here = points[-1]
         return runs
 
-    def write(self, pen: Pen, step_down: float, top: float | None = None) -> None:
+    def write(self, pen: Pen, step_down: float) -> None:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
-        zone = self.zone
-        top = zone.top if top is None else top
-        # Slack for rounding: a link along a ring's chord may cut its corner by this much.
-        shapely.prepare(free := grow(self.free, 2 * self.chord + self.fit, ROUGH))
-        near = grow(zone.left, self.tool.radius - CLEAR, ROUGH)
-        shapely.prepare(near)
-        heights = levels(top, zone.bottom, step_down)
+        heights = levels(self.zone.top, self.zone.bottom, step_down)
         for cavity in self.cavities():
-            if not cavity.runs:
-                continue
             first = cavity.runs[0]
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
-                self._spiral(pen, first, heights, top)
-                continue
-            above = top
-            pen.retract()
-            begun = False
-            for z in heights:
-                for number, run in enumerate(cavity.runs):
-                    self._enter(pen, run, z, above, begun, number > 0, free, near)
-                    pen.follow(run.path)
-                    begun = True
-                above = z
+                _spiral(pen, first.path, self.zone.top, heights)
+            else:
+                _levels(pen, cavity, self.zone.top, heights)
         pen.retract()
 
-    def _spiral(self, pen: Pen, run: Run, heights: list[float], top: float) -> None:
-        """One closed ring: down along it without a stop, and once round at the bottom."""
-        pen.above(run.path.start)
-        pen.sink(top)
-        for z in heights:
-            pen.ramp(run.path, z)
-        pen.follow(run.path)
 
-    def _enter(
-        self,
-        pen: Pen,
-        run: Run,
-        z: float,
-        above: float,
-        begun: bool,
-        beside: bool,
-        free: shapely.Geometry,
-        near: shapely.Geometry,
-    ) -> None:
-        """Bring the cutter to the start of a run at height z."""
-        start = run.path.start
-        if begun and pen.place is not None:
-            way = _between(pen.place, start, self.tool.radius / 4)
-            allowed = bool(shapely.contains_xy(free, way[:, 0], way[:, 1]).all())
-            short = np.hypot(start[0] - pen.place[0], start[1] - pen.place[1]) <= BESIDE * self.step
-            cleared = not shapely.contains_xy(near, way[:, 0], way[:, 1]).any()
-            if allowed and beside and (short or cleared):
-                pen.straight(start)
-                return
-            # Back to the first run, through what this level has already cleared.
-            if allowed and not beside:
-                pen.straight(start)
+def _spiral(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
+    """One closed ring: down along it without a stop, and once round at the bottom."""
+    pen.above(path.start)
+    pen.sink(top)
+    for z in heights:
+        pen.ramp(path, z)
+    pen.follow(path)
+
+
+def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
+    """All runs at one height, then all at the next."""
+    above = top
+    for level, z in enumerate(heights):
+        for number, run in enumerate(cavity.runs):
+            if run.linked:
+                pen.straight(run.path.start)
+            else:
+                # Back to the first run goes through what this level has already cleared.
+                if number == 0 and level and cavity.back:
+                    pen.straight(run.path.start)
+                else:
+                    pen.above(run.path.start)
                 if run.open:
                     pen.sink(z)
                 else:
+                    pen.sink(above)
                     pen.ramp(run.path, z)
-                return
-        pen.above(start)
-        if run.open:
-            pen.sink(z)
-        else:
-            pen.sink(above)
-            pen.ramp(run.path, z)
+            pen.follow(run.path)
+        above = z
 
 
-def _between(a: Point, b: Point, step: float) -> np.ndarray:  # type: ignore[type-arg]
-    count = max(1, int(np.ceil(np.hypot(b[0] - a[0], b[1] - a[1]) / step)))
-    t = np.arange(count + 1)[:, None] / count
-    line: np.ndarray = np.array(a) + t * (np.array(b) - np.array(a))  # type: ignore[type-arg]
-    return line
+def _inside(free: shapely.Geometry, a: Point, b: Point, radius: float) -> bool:
+    """Whether the centre may go straight from a to b, tested at every quarter of the radius."""
+    count = max(1, math.ceil(math.dist(a, b) / (radius / 4)))
+    t = np.arange(count + 1) / count
+    return bool(shapely.contains_xy(free, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])).all())

@@ -56,8 +56,8 @@ class Finishing:
         found = []
         for ring in rings(self.blocked, self.settings.climb):
             dense = densified(ring, self.tool.radius / 4)
-            inside = shapely.contains_xy(self.room, dense[:, 0], dense[:, 1])
-            found.extend(pieces(dense, inside, inside, inside, 0))
+            everywhere = np.ones(len(dense), dtype=bool)
+            found.extend(pieces(dense, everywhere, everywhere, self.room, 0))
         return found
 
     def _is_clear(self, points: Array) -> NDArray[np.bool_]:

@@ -1,2 +1,250 @@
-def check_tools(): ...
-def choose_tools(): ...
+"""Which cutters a part needs, and whether those at hand can make it."""
+
+from collections.abc import Sequence
+
+import shapely
+from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
+from mechwright.findings import Finding, Severity
+from mechwright.part import Bore, Part, Profile
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import CamSettings, Tool, ToolKind
+
+from mechwright_cam.job import Job, make_job
+from mechwright_cam.library import Library
+from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, usable_mills
+from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_bore, starting_drill
+from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
+from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
+
+ROUGHING_SHARE = 0.15
+"""Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
+BRISK = 0.25
+"""A mill below this share of a bore's diameter bores too slowly to save another tool."""
+SLENDER = 5.0
+"""Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
+
+
+def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, ...]:
+    """Give the tools named in the settings, or, if none is named, those that the part needs.
+
+    The choice: the largest roughing mill that is sensible for the size of the part and leaves a frame in the
+    stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
+    one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Only
+    mills long enough for the cut and with cutting data for the material count.
+
+    Raises
+    ------
+    ToolError
+        A name is not in the library (close matches are listed), or no cutter can make the part.
+    """
+    if settings.tools:
+        doubles = {name for name in settings.tools if settings.tools.count(name) > 1}
+        if doubles:
+            raise DesignError(f"cam.tools: {min(doubles)!r} is listed twice; list it once")
+        return tuple(library.get(name) for name in settings.tools)
+    if part.outline is None:
+        raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
+    every = Job(part, settings, library.tools, (0.0, 0.0), _stock(part, settings))
+    mills = _mills(every)
+    chosen = {mill.name: mill for mill in mills}
+    drills = _drills(every, [job_mill for job_mill in chosen.values()])
+    return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter))
+
+
+def _stock(part: Part, settings: CamSettings) -> tuple[float, float, float, float]:
+    """The plate if its size is given, else one that is large enough for any channel."""
+    assert part.outline is not None  # noqa: S101 - choose_tools refuses the others
+    x0, y0, x1, y1 = part.outline.bounds
+    wanted = settings.stock
+    if wanted.length is not None and wanted.width is not None:
+        mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2
+    else:
+        mx = my = 1000.0 if wanted.margin is None else wanted.margin
+    return x0 - mx, y0 - my, x1 + mx, y1 + my
+
+
+def _mills(every: Job) -> list[Tool]:
+    """The end mills of the choice; ``every`` has the whole library."""
+    part = every.part
+    fit = usable_mills(every, -every.floor)
+    x0, y0, x1, y1 = part.outline.bounds if part.outline is not None else (0.0, 0.0, 0.0, 0.0)
+    sensible = [mill for mill in fit if mill.diameter <= ROUGHING_SHARE * min(x1 - x0, y1 - y0)] or fit[-1:]
+    chosen: list[Tool] = []
+    openings = []
+    for feature in every.features:
+        if not isinstance(feature, Profile):
+            continue
+        shape = shapely.Polygon(feature.loop.flatten())
+        if feature.side == "outside":
+            roughing = _roughing(every, sensible, shape)
+            chosen += [roughing[0], _finest_needed(roughing, shape)]
+        else:
+            openings.append((feature, shape))
+    for feature, shape in openings:
+        able = usable_mills(every, -bottom_of(every, feature.top, feature.depth))
+        _, radius = entry_place(shape)
+        able = [mill for mill in able if mill.diameter <= ROOMY * 2 * radius] or able[-1:]
+        chosen.append(_finest_needed(able, opening_keep(shape, 2 * able[0].diameter)))
+    for feature in every.features:
+        if isinstance(feature, Bore):
+            chosen += _boring(every, feature, chosen)
+    return chosen or fit[:1]
+
+
+def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
+    """The mills for an outside: with tabs only those whose channel leaves a frame."""
+    if every.settings.hold.method != "tabs" or every.settings.stock == type(every.settings.stock)():
+        return mills
+    return roughing_mills(every, mills, part, framed=True)
+
+
+def _finest_needed(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
+    """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest."""
+    low, high = 0, len(mills)
+    while low < high:
+        middle = (low + high) // 2
+        if leaves_at_most(keep, mills[middle].radius, SAME_REACH):
+            high = middle
+        else:
+            low = middle + 1
+    return mills[low] if low < len(mills) else finishing_choice(mills, keep)
+
+
+def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
+    """A mill for a bore, unless one is chosen already or a drill makes the bore."""
+    depth = -bottom_of(every, bore.top, bore.depth)
+    able = usable_mills(every, depth)
+    brisk = [mill for mill in chosen if BRISK * bore.diameter <= mill.diameter <= ROOMY * bore.diameter]
+    if any(mill in able for mill in brisk):
+        return []
+    largest = max((mill.diameter for mill in chosen), default=able[0].diameter)
+    mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
+    return [] if mill is None else [mill]
+
+
+def _drills(every: Job, mills: list[Tool]) -> list[Tool]:
+    """Spot drill and drills for all holes through the plate."""
+    drills: dict[str, Tool] = {}
+    for feature in every.features:
+        if not through(every, feature.top + feature.depth):
+            continue
+        drill = None
+        if isinstance(feature, Bore):
+            drill = plan_bore(every, feature).drill
+        elif isinstance(feature, Profile) and feature.side == "inside":
+            _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))
+            drill = starting_drill(every, 2 * radius, -every.floor)
+        if drill is not None:
+            drills[drill.name] = drill
+    spots = [
+        tool for tool in every.tools if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
+    ]
+    first = [max(spots, key=lambda tool: tool.diameter)] if spots and drills else []
+    return first + sorted(drills.values(), key=lambda tool: -tool.diameter)
+
+
+def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Finding]:
+    """Find what stands in the way of cutting a part, and what is worth knowing about its cutters.
+
+    Errors: a tool that is not in the library, a wall, bore or opening that no listed cutter makes, a clamp or
+    stock in the way. Warnings: a cutter that cannot run at its cutting speed on this machine, a listed tool
+    without data for the material. Notes: slender cutters, and stock that stays in corners.
+    """
+    try:
+        tools = choose_tools(part, settings, library)
+        job = make_job(part, settings, tools)
+    except MechwrightError as error:
+        return [_refusal(error)]
+    found: list[Finding] = []
+    for feature in job.features:
+        if isinstance(feature, Bore):
+            _try(found, lambda bore=feature: plan_bore(job, bore))  # type: ignore[misc]
+    _try(found, lambda: inner_zones(job))
+    _try(found, lambda: outer_zones(job))
+    if not found:
+        found += _corners(job)
+    return found + _remarks(job)
+
+
+def _try(found: list[Finding], action: object) -> None:
+    try:
+        action()  # type: ignore[operator]
+    except MechwrightError as error:
+        found.append(_refusal(error))
+
+
+def _refusal(error: MechwrightError) -> Finding:
+    """An error that names its parameter in front, as a finding."""
+    text = str(error)
+    parameter, _, message = text.partition(": ")
+    if not parameter.startswith("cam") or " " in parameter:
+        parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
+    return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
+
+
+def _corners(job: Job) -> list[Finding]:
+    """The remainder on every wall."""
+    found = []
+    for zone in [*inner_zones(job), *outer_zones(job)]:
+        if zone.tabs is not None:
+            continue
+        depth = remainder(zone.wall, zone.finisher.radius)
+        if depth > TOLERANCES.leftover:
+            found.append(
+                Finding(
+                    "cam.unreachable",
+                    Severity.NOTE,
+                    "cam.tools",
+                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} of {job.part.name}",
+                    depth,
+                    TOLERANCES.leftover,
+                    "mm",
+                )
+            )
+    return found
+
+
+def _remarks(job: Job) -> list[Finding]:
+    found = []
+    machine, material = job.settings.machine, job.part.material
+    for tool in job.tools:
+        data = tool.cutting.get(material)
+        if data is None:
+            found.append(
+                Finding(
+                    "cam.tool-unused",
+                    Severity.WARNING,
+                    "cam.tools",
+                    f"{tool.name} has no cutting data for {material} and is not used",
+                    remedy=f"add {material} to its table in the tool library",
+                )
+            )
+            continue
+        speed = rates(tool, material, machine).spindle
+        if speed <= machine.spindle_min and speed * tool.diameter * 3.1416 > 1000 * data.cutting_speed * 1.01:
+            found.append(
+                Finding(
+                    "cam.too-fast",
+                    Severity.WARNING,
+                    "cam.machine.spindle_min",
+                    f"{tool.name} runs faster than {data.cutting_speed:g} m/min in {material}",
+                    machine.spindle_min,
+                    1000 * data.cutting_speed / (3.1416 * tool.diameter),
+                    "rpm",
+                    "take a smaller tool",
+                )
+            )
+        if tool.kind is ToolKind.END_MILL and -job.floor > SLENDER * tool.diameter:
+            found.append(
+                Finding(
+                    "cam.slender",
+                    Severity.NOTE,
+                    "cam.tools",
+                    f"{tool.name} cuts {-job.floor:g} mm deep, {-job.floor / tool.diameter:.1f} diameters",
+                    -job.floor / tool.diameter,
+                    SLENDER,
+                    "",
+                )
+            )
+    return found

@@ -18,17 +18,19 @@ from functools import cached_property
 from typing import Literal
 
 import shapely
-
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import finishing_choice, usable_mills
 from mechwright_cam.reach import opening_keep
-from mechwright_cam.toolpath.offsets import ROUGH, filled, grow, polygons
+from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
+
+HEAVY = 0.1
+"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 
 
 @dataclass
@@ -42,6 +44,9 @@ class Zone:
     top: float
     bottom: float
     mills: list[Tool]
+    """Those long enough, largest first."""
+    finisher: Tool
+    """The mill that finishes the wall."""
     kind: Literal["outside", "inside", "pocket"]
     channel: shapely.Geometry | None = None
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
@@ -50,6 +55,9 @@ class Zone:
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
     left: shapely.Geometry = field(init=False)
+    begun: bool = field(default=False, init=False)
+    """Whether an end mill has been in it."""
+    _rough: dict[float, shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.left = self.clear
@@ -59,10 +67,12 @@ class Zone:
         """What must stay."""
         return self.wall if self.tabs is None else shapely.union(self.wall, self.tabs)
 
-    @cached_property
-    def finisher(self) -> Tool:
-        """The mill that finishes the wall."""
-        return finishing_choice(self.mills, self.keep)
+    def forget_waste(self, mill: Tool, allowance: float) -> None:
+        """After a mill has roughed: what it left beside tabs, away from the part, stays with the frame."""
+        if self.tabs is not None:
+            beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
+            band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
+            self.left = shapely.difference(self.left, shapely.difference(beside, band))
 
     @property
     def height(self) -> float:
@@ -79,10 +89,17 @@ class Zone:
 
     def rough_keep(self, allowance: float) -> shapely.Geometry:
         """``keep`` with stock on the part's walls, and next to none on the tabs, thinned."""
-        wall = grow(shapely.simplify(self.wall, ROUGH), allowance, ROUGH)
-        if self.tabs is None:
-            return wall
-        return shapely.union(wall, grow(self.tabs, min(allowance, 2 * ROUGH), ROUGH))
+        if allowance not in self._rough:
+            wall = grow(self.thinned, allowance, ROUGH)
+            if self.tabs is not None:
+                wall = shapely.union(wall, grow(self.tabs, min(allowance, 2 * ROUGH), ROUGH))
+            self._rough[allowance] = shapely.simplify(wall, ROUGH / 2)
+        return self._rough[allowance]
+
+    @cached_property
+    def thinned(self) -> shapely.Geometry:
+        """``wall`` for roughing."""
+        return shapely.simplify(self.wall, ROUGH)
 
 
 def through(job: Job, depth: float) -> bool:
@@ -109,15 +126,21 @@ def inner_zones(job: Job) -> list[Zone]:
             continue
         bottom = bottom_of(job, feature.top, feature.depth)
         mills = usable_mills(job, -bottom)
-        margin = 2 * mills[0].diameter
+        keep = opening_keep(shape, 2 * mills[0].diameter)
+        if shapely.is_empty(grow(shape, -mills[-1].radius - BIAS, ROUGH)):
+            raise ToolError(
+                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest that "
+                f"cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+            )
         zones.append(
             Zone(
                 feature.name,
-                opening_keep(shape, margin),
+                keep,
                 shape,
                 -feature.top,
                 bottom,
                 mills,
+                finishing_choice(mills, keep),
                 "pocket" if isinstance(feature, Pocket) else "inside",
             )
         )
@@ -139,34 +162,37 @@ def outer_zones(job: Job) -> list[Zone]:
         part = shapely.Polygon(feature.loop.flatten())
         roughers = roughing_mills(job, mills, part)
         clear, channel = _channel(job, part, roughers[0])
+        finisher = finishing_choice(mills, part)
+
+        def layer(
+            name: str, top: float, bottom: float, clear: shapely.Geometry, tabs: shapely.Geometry | None = None
+        ) -> Zone:
+            return Zone(
+                name, part, clear, top, bottom, mills, finisher, "outside", channel, roughers, tabs  # noqa: B023
+            )
+
         top = -feature.top
         if job.tabs:
             height = max(tab.top for tab in job.tabs)
             tabs = shapely.union_all([tab.shape for tab in job.tabs])
-            zones.append(Zone(feature.name, part, clear, top, height, mills, "outside", channel, roughers))
-            zones.append(
-                Zone(
-                    f"{feature.name} below the tabs",
-                    part,
-                    clear.difference(tabs),
-                    height,
-                    job.floor,
-                    mills,
-                    "outside",
-                    channel,
-                    roughers,
-                    tabs=tabs,
-                )
-            )
+            zones.append(layer(feature.name, top, height, clear))
+            name = f"{feature.name} below the tabs"
+            zones.append(layer(name, height, job.floor, clear.difference(tabs), tabs))
         else:
-            zones.append(Zone(feature.name, part, clear, top, job.floor, mills, "outside", channel, roughers))
+            zones.append(layer(feature.name, top, job.floor, clear))
     return zones
 
 
-def roughing_mills(job: Job, mills: list[Tool], part: shapely.Geometry) -> list[Tool]:
-    """The mills whose channel around the part leaves a frame that holds the tabs, largest first."""
+def roughing_mills(
+    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None
+) -> list[Tool]:
+    """The mills whose channel around the part leaves a frame, largest first.
+
+    Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
+    error if no mill leaves one.
+    """
     fit = [mill for mill in mills if _frame(job, part, channel_width(job, mill)) is not None]
-    if fit or not job.tabs:
+    if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
     x0, y0, x1, y1 = part.bounds
     least = channel_width(job, mills[-1])

@@ -8,6 +8,7 @@ h, the circle is u² + v² - 2kv = h², so the least-squares k is Σ v(u² + v²
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,8 @@ LONGEST_TURN = 3.0
 """An arc turns by less than half a circle, rad: then both its ends and its side fix it."""
 LONGEST_RUN = 250
 """Edges under one arc at most: bounds the search; a longer arc comes in two pieces."""
+NEAR = 1e-6
+"""Vertices nearer than this are one, mm."""
 SAMPLES = 12
 """Vertices tested per trial; those of the chosen arcs are all tested afterwards."""
 GREATEST_RADIUS = 2000.0
@@ -37,19 +40,35 @@ def fit(points: Array, tolerance: float) -> Path:
     points
         (n, 2), mm; a closed polyline repeats its first point.
     tolerance
-        Largest distance of a vertex from its line or arc, mm.
+        Largest distance of a vertex or of the middle of an edge from its line or arc, mm.
 
     Returns
     -------
     path
         From the first point to the last, both rounded as programs print them. Corners are kept.
     """
-    points = np.asarray(points, dtype=float)
-    step = np.hypot(*np.diff(points, axis=0).T)
-    points = points[np.append(True, step > 1e-6)]
-    if len(points) < 3:
-        return _assemble(points, np.arange(len(points)), tolerance)
-    return _assemble(points, _verified(points, _chain(_reach(points, tolerance)), tolerance), tolerance)
+    return fit_all([points], tolerance)[0]
+
+
+def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
+    """Fit several polylines in one go; see :func:`fit`."""
+    if not polylines:
+        return []
+    parts = [_distinct(np.asarray(points, dtype=float)) for points in polylines]
+    points = np.concatenate(parts)
+    bounds = np.cumsum([0, *(len(part) for part in parts)])
+    ends = np.zeros(len(points), dtype=bool)
+    ends[bounds[:-1]] = ends[bounds[1:] - 1] = True
+    nodes = _verified(points, _chain(_reach(points, ends, tolerance)), tolerance)
+    at = np.searchsorted(nodes, bounds)
+    return [
+        _assemble(points, nodes[first:last], tolerance) for first, last in zip(at[:-1], at[1:], strict=True)
+    ]
+
+
+def _distinct(points: Array) -> Array:
+    step = np.diff(points, axis=0)
+    return points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]
 
 
 def _chain(reach: Index) -> Index:
@@ -72,9 +91,11 @@ def _verified(points: Array, nodes: Index, tolerance: float) -> Index:
         nodes = np.sort(np.concatenate((nodes, (first[bad] + last[bad]) // 2)))
 
 
-def _reach(points: Array, tolerance: float) -> Index:
-    """The farthest vertex that one line or arc from each vertex can reach."""
+def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float) -> Index:
+    """The farthest vertex that one line or arc from each vertex can reach; none goes beyond an end."""
     n = len(points)
+    if n < 3:
+        return np.minimum(np.arange(n) + 1, n - 1)
     edge = np.diff(points, axis=0)
     step = np.hypot(edge[:, 0], edge[:, 1])
     heading = np.arctan2(edge[:, 1], edge[:, 0])
@@ -90,6 +111,7 @@ def _reach(points: Array, tolerance: float) -> Index:
     corner = np.concatenate(([False], np.abs(turn) > CORNER, [True]))
     corner[:-1] |= straight
     corner[1:] |= straight
+    corner |= ends
     corners = np.flatnonzero(corner)
     stop = corners[np.minimum(np.searchsorted(corners, index, side="right"), len(corners) - 1)]
     high = np.minimum.reduce([index + LONGEST_RUN, limit, stop, np.full(n, n - 1)])

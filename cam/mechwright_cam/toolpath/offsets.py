@@ -76,6 +76,9 @@ def densified(ring: Array, step: float) -> Array:
     """The ring with edges of at most ``step``."""
     return shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
 
+HALVINGS = 12
+"""Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough for the far side."""
+
 
 @dataclass(frozen=True, eq=False)
 class Piece:
@@ -91,7 +94,7 @@ class Piece:
 
 
 def pieces(
-    ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: NDArray[np.bool_], order: int
+    ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: shapely.Geometry, order: int
 ) -> list[Piece]:
     """The runs of a ring that have to be cut.
 
@@ -99,33 +102,44 @@ def pieces(
     ----------
     ring
         (n + 1, 2), mm, densified.
-    wanted, near, room
-        (n + 1,) per vertex: it cuts something; it is near something to cut; the centre may be there. A run
-        goes on while it is near, so that it starts and ends in the clear, and has a wanted vertex.
+    wanted, near
+        (n + 1,) per vertex: it cuts something; it is near something to cut. A run goes on while it is near,
+        so that it starts and ends in the clear, and has a wanted vertex.
+    room
+        Where the centre may be, prepared; a run that leaves it ends on its edge.
     order
         Goes into the pieces.
     """
-    go = (near & room)[:-1]
+    inside = shapely.contains_xy(room, ring[:, 0], ring[:, 1])
+    go = (near & inside)[:-1]
     if go.all():
         return [Piece(ring, order)] if wanted.any() else []
     if not go.any():
         return []
-    # Start at a vertex that is left out, so that no run crosses the seam.
+    # Start at a vertex that is left out, so that no run crosses the seam; it stands at both ends.
     shift = int(np.flatnonzero(~go)[0])
-    points = np.roll(ring[:-1], -shift, axis=0)
-    go, want, inside = (np.roll(flags, -shift) for flags in (go, wanted[:-1], room[:-1]))
-    edges = np.diff(np.concatenate(([False], go, [False])).astype(int))
+    turned = [np.roll(rows[:-1], -shift, axis=0) for rows in (ring, wanted, inside)]
+    points, want, inside = (np.concatenate((rows, rows[:1])) for rows in turned)
+    go = np.append(np.roll(go, -shift), False)
+    edges = np.diff(go.astype(int))
     found = []
-    for first, last in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
-        if not want[first:last].any():
-            continue
-        # One vertex more at each end if the centre may be there: it is clear of everything.
-        begin = first - 1 if inside[first - 1] else first
-        end = last + 1 if last < len(points) and inside[last] else last
-        if end == len(points) and last == len(points) and inside[0]:
-            run = np.concatenate((points[begin:end], points[:1]))
-        else:
-            run = points[begin:end]
-        if len(run) > 1:
+    for first, last in zip(np.flatnonzero(edges == 1) + 1, np.flatnonzero(edges == -1), strict=True):
+        if want[first : last + 1].any():
+            # One vertex more at each end: it is clear of everything, or it is where the room ends.
+            begin = _last_inside(points[first], points[first - 1], inside[first - 1], room)
+            end = _last_inside(points[last], points[last + 1], inside[last + 1], room)
+            run = np.concatenate((begin[None], points[first : last + 1], end[None]))
             found.append(Piece(run, order))
     return found
+
+
+def _last_inside(a: Array, b: Array, whole: bool, room: shapely.Geometry) -> Array:
+    """The last point in the room on the way from a, which is in it, to b; b if ``whole``."""
+    if whole:
+        return b
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        x, y = a + middle * (b - a)
+        low, high = (middle, high) if shapely.contains_xy(room, x, y) else (low, middle)
+    return a + low * (b - a)

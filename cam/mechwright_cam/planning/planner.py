@@ -29,13 +29,11 @@ from mechwright_cam.planning.holes import (
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
-from mechwright_cam.planning.zone import Zone, inner_zones, outer_zones
+from mechwright_cam.planning.zone import HEAVY, Zone, inner_zones, outer_zones
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
 WORTH_A_TOOL = 0.25
 """An intermediate roughing mill is used if it takes this share of what is left: less does not pay a change."""
-HEAVY = 0.1
-"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 CLAMP_GAP = 1.0
 """Least distance of the cutter from the clamp, mm."""
 
@@ -169,7 +167,7 @@ class _Planner:
     def _wall(self, zones: list[Zone], after: frozenset[int], mills: list[Tool]) -> None:
         """Rough, rough the rest, and finish one wall; ``zones`` are its layers from the top down."""
         job, settings = self.job, self.job.settings
-        finest = min((zone.finisher for zone in zones), key=lambda mill: mill.diameter)
+        finest = zones[0].finisher
         for mill in [m for m in mills if m.diameter > finest.diameter]:
             cuts = [self._roughing(zone, mill, settings.stock_to_leave) for zone in zones]
             # The layers share their cutters: the tallest one decides.
@@ -191,10 +189,13 @@ class _Planner:
 
     def _rough(self, cut: Roughing, after: frozenset[int]) -> frozenset[int]:
         zone, mill = cut.zone, cut.tool
-        what = "rough" if zone.left is zone.clear else "rough the rest"
+        what = "rough the rest" if zone.begun else "rough"
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
         after = self._milled(f"{zone.name}: {what}", mill, after, lambda pen: cut.write(pen, step_down))
         cut.commit()
+        if not zone.begun:
+            zone.forget_waste(mill, self.job.settings.stock_to_leave)
+            zone.begun = True
         return after
 
     def _rough_heavy(self, zone: Zone, mill: Tool, after: frozenset[int]) -> frozenset[int]:

@@ -1,0 +1,218 @@
+"""A crude, independent simulation of neutral programs for the planning tests.
+
+It knows nothing of how paths are made: it samples every move and measures distances to the finished part.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from mechwright.part import Bore, Pocket, Profile
+from mechwright.program import Drill, Feed, FeedArc, Pause, Program, Rapid
+from mechwright.tooling import Tool, ToolKind
+from mechwright_cam.job import Job
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    tool: Tool
+    operation: str
+    kind: str  # rapid, feed, arc, drill
+    points: np.ndarray  # (n, 3)
+    feed: float
+
+
+def motions(program: Program, step: float = 0.1) -> list[Motion]:
+    """Every move as points at most ``step`` apart on arcs (lines: their two ends)."""
+    out = []
+    for section in program.sections:
+        first = section.operations[0].moves[0]
+        if isinstance(first, Pause):
+            first = section.operations[0].moves[1]
+        assert isinstance(first, Rapid), "a section starts with a rapid"
+        assert first.x is not None and first.y is not None
+        assert first.z is None
+        x, y, z = first.x, first.y, program.clearance
+        for operation in section.operations:
+            for move in operation.moves:
+                if isinstance(move, Pause):
+                    assert z >= program.clearance, "the machine stops high"
+                    continue
+                if isinstance(move, Drill):
+                    assert (move.x, move.y) == (x, y)
+                    points = np.array([[x, y, z], [x, y, move.bottom], [x, y, move.retract]])
+                    out.append(Motion(section.tool, operation.name, "drill", points, move.feed))
+                    z = move.retract
+                    continue
+                nx = x if move.x is None else move.x
+                ny = y if move.y is None else move.y
+                nz = z if move.z is None else move.z
+                kind, feed = "rapid", 0.0
+                points = np.array([[x, y, z], [nx, ny, nz]])
+                if isinstance(move, Feed):
+                    assert not np.array_equal(points[0], points[1]), f"{move} goes nowhere"
+                if isinstance(move, Feed):
+                    kind, feed = "feed", move.feed
+                if isinstance(move, FeedArc):
+                    kind, feed = "arc", move.feed
+                    points = _arc(x, y, z, nx, ny, nz, move, step)
+                out.append(Motion(section.tool, operation.name, kind, points, feed))
+                x, y, z = nx, ny, nz
+        assert z >= program.clearance, "a section ends high"
+    return out
+
+
+def _arc(x, y, z, nx, ny, nz, move, step):
+    cx, cy = x + move.i, y + move.j
+    radius, end_radius = math.hypot(move.i, move.j), math.hypot(nx - cx, ny - cy)
+    assert abs(radius - end_radius) < 0.002, f"arc radii {radius} and {end_radius}"
+    assert radius > 1e-3
+    a, b = math.atan2(y - cy, x - cx), math.atan2(ny - cy, nx - cx)
+    sweep = (b - a) % math.tau if move.ccw else -((a - b) % math.tau)
+    if (nx, ny) == (x, y):
+        sweep = math.tau if move.ccw else -math.tau
+    count = max(2, math.ceil(abs(sweep) * radius / step), math.ceil(abs(sweep) / 0.1))
+    t = np.linspace(0, 1, count + 1)
+    points = np.column_stack(
+        (cx + radius * np.cos(a + sweep * t), cy + radius * np.sin(a + sweep * t), z + (nz - z) * t)
+    )
+    points[-1] = (nx, ny, nz)
+    return points
+
+
+def keep_at(job: Job, z: float) -> shapely.Geometry:
+    """What must stand at height z (tabs included below their tops)."""
+    keep = job.target
+    for feature in job.features:
+        depth = feature.top + feature.depth
+        if depth < job.thickness - 1e-9 and -depth < z < -feature.top:
+            keep = keep.difference(_plan(feature))
+    low = [tab.shape for tab in job.tabs if z < tab.top - 1e-6]
+    return shapely.union_all([keep, *low])
+
+
+def _plan(feature):
+    if isinstance(feature, Bore):
+        return shapely.Point(feature.centre).buffer(feature.diameter / 2, quad_segs=200)
+    if isinstance(feature, Profile):
+        return shapely.Polygon(feature.loop.flatten())
+    assert isinstance(feature, Pocket)
+    return shapely.Polygon(feature.boundary.flatten(), [loop.flatten() for loop in feature.islands])
+
+
+def gouge(job: Job, program: Program) -> float:
+    """The deepest entry of a cutter into the part or its tabs, mm."""
+    worst = -math.inf
+    found = motions(program)
+    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
+        -(f.top + f.depth) for f in job.features
+    }, reverse=True)
+    for top, bottom in zip(heights, heights[1:], strict=False):
+        keep = keep_at(job, (top + bottom) / 2)
+        shapely.prepare(keep)
+        for number in {motion.tool.number for motion in found}:
+            group = [m for m in found if m.tool.number == number and m.kind != "rapid"]
+            tool = group[0].tool
+            lines = np.array(
+                [shapely.linestrings(m.points[:, :2]) for m in group if m.points[:, 2].min() < top - 1e-6]
+            )
+            if not lines.size:
+                continue
+            near = lines[shapely.dwithin(keep, lines, tool.radius + 0.01)]
+            if near.size:
+                worst = max(worst, float((tool.radius - shapely.distance(near, keep)).max()))
+    return worst
+
+
+def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
+    """Area, mm², of reachable stock thicker than ``thickness`` beside the part's walls."""
+    found = [m for m in motions(program, 0.02) if m.kind != "rapid"]
+    mills = {m.tool.number: m.tool for m in found if m.tool.kind is ToolKind.END_MILL}
+    if not mills:
+        return 0.0
+    finest = min(tool.radius for tool in mills.values())
+    area = 0.0
+    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
+        -(f.top + f.depth) for f in job.features
+    }, reverse=True)
+    for top, bottom in zip(heights, heights[1:], strict=False):
+        keep = keep_at(job, (top + bottom) / 2)
+        left = keep.buffer(finest + 0.003, quad_segs=96).buffer(-finest - 0.003, quad_segs=96)
+        band = job.target.buffer(2 * finest, quad_segs=64).intersection(shapely.box(*job.stock))
+        todo = band.difference(left)
+        # The sides of tabs are no walls of the part.
+        low = [tab.shape.buffer(2.1 * finest) for tab in job.tabs if tab.top > bottom + 1e-6]
+        todo = todo.difference(shapely.union_all(low)) if low else todo
+        for tool in {m.tool.number: m.tool for m in found}.values():
+            lines = []
+            for motion in found:
+                if motion.tool.number != tool.number:
+                    continue
+                deep = motion.points[:, 2] <= bottom + 2e-4
+                if motion.kind == "drill":
+                    if motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2)) <= bottom:
+                        lines.append(shapely.Point(motion.points[1, :2]))
+                elif deep.all():
+                    lines.append(shapely.LineString(motion.points[:, :2]))
+            swept = shapely.union_all(shapely.buffer(lines, tool.radius + 1e-4, quad_segs=64))
+            todo = todo.difference(swept)
+        area += todo.buffer(-thickness / 2, quad_segs=4).area
+    return area
+
+
+def check_rules(job: Job, program: Program) -> None:
+    """Rapids, ramps, plunges and cutting depth."""
+    stock = shapely.box(*job.stock)
+    shapely.prepare(stock)
+    slope = math.tan(math.radians(job.settings.ramp_angle))
+    done: list[Motion] = []
+    plunges = 0
+    every = motions(program)
+    fastest = {m.tool.number: max(n.feed for n in every if n.tool is m.tool) for m in every}
+    for motion in every:
+        start, end = motion.points[0], motion.points[-1]
+        moved = not np.array_equal(motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0))
+        if motion.kind == "rapid":
+            assert not moved or start[2] >= program.clearance, "a rapid in XY below clearance"
+            assert not moved or end[2] == start[2]
+            assert end[2] > start[2] or moved or end[2] > 0, "a rapid down into the stock"
+        elif motion.kind in {"feed", "arc"}:
+            assert motion.feed > 0
+            assert end[2] >= job.floor - 1e-6
+            way = np.hypot(*np.diff(motion.points[:, :2], axis=0).T).sum()
+            if way > 0:
+                assert (start[2] - end[2]) <= slope * way * 1.0005 + 1.1e-4, "a ramp is too steep"
+            elif (
+                end[2] < start[2]
+                and end[2] < 0
+                and motion.tool.kind is ToolKind.END_MILL
+                and not (motion.tool.centre_cutting and motion.feed <= 0.31 * fastest[motion.tool.number])
+            ):
+                plunges += 1
+                # Plenty of the same kind: every fifth is enough of a sample.
+                if plunges % 5 == 1:
+                    _check_plunge(motion, done, stock)
+            done.append(motion)
+        else:
+            done.append(motion)
+
+
+def _check_plunge(motion: Motion, done: list[Motion], stock: shapely.Geometry) -> None:
+    x, y, z = motion.points[-1]
+    disc = shapely.Point(x, y).buffer(motion.tool.radius - 0.03).intersection(stock)
+    swept = []
+    for old in done:
+        if np.hypot(old.points[:, 0] - x, old.points[:, 1] - y).min() > 200:
+            continue
+        deep = old.points[:, 2] <= z + 2e-4
+        if deep.all():
+            line = shapely.LineString(old.points[:, :2])
+            if line.distance(disc) < old.tool.radius:
+                swept.append(line.buffer(old.tool.radius + 0.005))
+        elif old.kind == "drill" and old.points[1, 2] <= z:
+            swept.append(shapely.Point(old.points[1, :2]).buffer(old.tool.radius))
+    rest = disc.difference(shapely.union_all(swept))
+    assert rest.area < 0.03 * disc.area + 1e-6, (
+        f"{motion.operation}: plunge into {rest.area:.3f} mm² of stock at {x:.3f} {y:.3f} {z:.3f}"
+    )
