@@ -11,13 +11,14 @@ from pathlib import Path
 import cadquery as cq
 import numpy as np
 from harness import race, report, require
+from rack_gear import RackGear, outline
+
 from mechwright.geometry import BSpline
 from mechwright.motion import Channel, Motion, Poses
 from mechwright.part import Instance, Part
 from mechwright_cam import solids
 from mechwright_cam.exporters import dxf, mesh, step
 from mechwright_cam.solid_check import check_plate
-from rack_gear import RackGear, outline
 
 GEAR = RackGear()
 THICKNESS = 10.0

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+
 from mechwright.geometry import Arc, BSpline, Loop, Outline, circle
 
 PRESSURE_ANGLE = math.radians(20)

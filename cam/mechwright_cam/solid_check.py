@@ -7,10 +7,6 @@ number of faces, size, area, and every edge against its segment. This module imp
 import cadquery as cq
 import numpy as np
 import shapely
-from mechwright.errors import GeometryError
-from mechwright.geometry import BSpline, Outline, Segment
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
 from OCP.Bnd import Bnd_Box
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepBndLib import BRepBndLib
@@ -18,7 +14,7 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Outline, Segment
+from mechwright.geometry import BSpline, Outline, Segment
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.tessellate import forget, triangle_count, triangulate

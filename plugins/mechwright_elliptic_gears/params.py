@@ -7,7 +7,6 @@ from pydantic import AfterValidator, Field, model_validator
 from mechwright.materials import MATERIALS, material
 from mechwright.parameters import Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from pydantic import AfterValidator, Field, model_validator
 
 MaterialName = Annotated[
     str,

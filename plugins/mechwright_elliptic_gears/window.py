@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.motion import Array
-from numpy.typing import NDArray
 
 _SAMPLES = 8192
 """Grid over a period; it decides only which stretch is the longest."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.program import Drill, Feed, FeedArc, Pause, Program, Rapid
 from mechwright.tooling import Tool, ToolKind
@@ -105,9 +106,10 @@ def gouge(job: Job, program: Program) -> float:
     """The deepest entry of a cutter into the part or its tabs, mm."""
     worst = -math.inf
     found = motions(program)
-    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
-        -(f.top + f.depth) for f in job.features
-    }, reverse=True)
+    heights = sorted(
+        {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
+        reverse=True,
+    )
     for top, bottom in zip(heights, heights[1:], strict=False):
         keep = keep_at(job, (top + bottom) / 2)
         shapely.prepare(keep)
@@ -133,9 +135,10 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
         return 0.0
     finest = min(tool.radius for tool in mills.values())
     area = 0.0
-    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
-        -(f.top + f.depth) for f in job.features
-    }, reverse=True)
+    heights = sorted(
+        {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
+        reverse=True,
+    )
     for top, bottom in zip(heights, heights[1:], strict=False):
         keep = keep_at(job, (top + bottom) / 2)
         left = keep.buffer(finest + 0.003, quad_segs=96).buffer(-finest - 0.003, quad_segs=96)
@@ -151,7 +154,10 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
                     continue
                 deep = motion.points[:, 2] <= bottom + 2e-4
                 if motion.kind == "drill":
-                    if motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2)) <= bottom:
+                    if (
+                        motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2))
+                        <= bottom
+                    ):
                         lines.append(shapely.Point(motion.points[1, :2]))
                 elif deep.all():
                     lines.append(shapely.LineString(motion.points[:, :2]))
@@ -172,7 +178,9 @@ def check_rules(job: Job, program: Program) -> None:
     fastest = {m.tool.number: max(n.feed for n in every if n.tool is m.tool) for m in every}
     for motion in every:
         start, end = motion.points[0], motion.points[-1]
-        moved = not np.array_equal(motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0))
+        moved = not np.array_equal(
+            motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0)
+        )
         if motion.kind == "rapid":
             assert not moved or start[2] >= program.clearance, "a rapid in XY below clearance"
             assert not moved or end[2] == start[2]

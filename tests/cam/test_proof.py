@@ -10,6 +10,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from mechwright.errors import ProgramError, ProofError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.part import Bore, Part, Pocket, Profile

@@ -7,6 +7,8 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shop import DRILL, MILL, TOOLS, plate_job
+
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Hold, Machine, Tool
@@ -19,7 +21,6 @@ from mechwright_cam.proof.plane import Boundary, grow
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.timing import step_times
-from shop import DRILL, MILL, TOOLS, plate_job
 
 START = "G17 G21 G90\nT3 M6\nG0 X0 Y0 Z5\n"
 

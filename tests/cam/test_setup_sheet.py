@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+
 from mechwright.part import Instance, Part
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright.tooling import CamSettings, Tool

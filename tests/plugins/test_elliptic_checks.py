@@ -6,11 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
+
 from mechwright.errors import DesignError
 from mechwright.findings import Severity, errors
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.keyway import KEYS, Opening, key_for_bore
-from pydantic import ValidationError
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

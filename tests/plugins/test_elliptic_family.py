@@ -8,13 +8,14 @@ import pytest
 import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from pydantic import ValidationError
+
 from mechwright.errors import DesignError, GeometryError
 from mechwright.findings import Severity, errors
 from mechwright.host import Host
 from mechwright.part import Bore, Profile
 from mechwright_elliptic_gears import plugin
 from mechwright_elliptic_gears.family import EllipticGears
-from pydantic import ValidationError
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

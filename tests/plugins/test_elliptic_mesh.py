@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
+
 from mechwright_elliptic_gears.crossings import turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of

@@ -18,13 +18,13 @@ from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_Orientation
 from shapely.geometry.polygon import orient
 
-READING = TOLERANCES.flatten / 5
-"""Chord error of outlines read back, mm. With ``flatten`` itself the chords alone would give a pair of gears
-a transmission error of 30 µrad; with this it is below 5."""
-
 from mechwright.errors import GeometryError, OutputError
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
+
+READING = TOLERANCES.flatten / 5
+"""Chord error of outlines read back, mm. With ``flatten`` itself the chords alone would give a pair of gears
+a transmission error of 30 µrad; with this it is below 5."""
 
 
 def read_step_solids(path: Path) -> list[cq.Solid]:

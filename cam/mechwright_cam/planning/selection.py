@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 
 import shapely
+
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.findings import Finding, Severity
 from mechwright.part import Bore, Part, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Tool, ToolKind
-
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, usable_mills
@@ -138,7 +138,9 @@ def _drills(every: Job, mills: list[Tool]) -> list[Tool]:
         if drill is not None:
             drills[drill.name] = drill
     spots = [
-        tool for tool in every.tools if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
+        tool
+        for tool in every.tools
+        if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
     ]
     first = [max(spots, key=lambda tool: tool.diameter)] if spots and drills else []
     return first + sorted(drills.values(), key=lambda tool: -tool.diameter)

@@ -18,6 +18,7 @@ from functools import cached_property
 from typing import Literal
 
 import shapely
+
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
@@ -165,10 +166,24 @@ def outer_zones(job: Job) -> list[Zone]:
         finisher = finishing_choice(mills, part)
 
         def layer(
-            name: str, top: float, bottom: float, clear: shapely.Geometry, tabs: shapely.Geometry | None = None
+            name: str,
+            top: float,
+            bottom: float,
+            clear: shapely.Geometry,
+            tabs: shapely.Geometry | None = None,
         ) -> Zone:
             return Zone(
-                name, part, clear, top, bottom, mills, finisher, "outside", channel, roughers, tabs  # noqa: B023
+                name,
+                part,
+                clear,
+                top,
+                bottom,
+                mills,
+                finisher,
+                "outside",
+                channel,
+                roughers,
+                tabs,  # noqa: B023
             )
 
         top = -feature.top

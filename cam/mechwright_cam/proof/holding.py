@@ -2,8 +2,8 @@
 
 import numpy as np
 import shapely
-from mechwright.part import Profile
 
+from mechwright.part import Profile
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import inside_of, stock_shape
 from mechwright_cam.proof.leftover import ROUNDING, Sweep, sweeps

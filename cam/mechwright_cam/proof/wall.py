@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import shapely
-from mechwright.motion import Array
 
+from mechwright.motion import Array
 from mechwright_cam.proof.plane import Shape
 
 

@@ -76,6 +76,7 @@ def densified(ring: Array, step: float) -> Array:
     """The ring with edges of at most ``step``."""
     return shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
 
+
 HALVINGS = 12
 """Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough for the far side."""
 
