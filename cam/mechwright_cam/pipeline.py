@@ -17,8 +17,8 @@ from mechwright.part import Part
 from mechwright.program import Program
 from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import check_tools, choose_tools, load_library
-from mechwright_cam.planning import plan
+from mechwright_cam.library import load_library
+from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.reach import cut_outline
 from mechwright_cam.setup_sheet import setup_html
@@ -50,14 +50,15 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         One for each part; fewer if a finding is an error.
     """
     library = load_library(design.tool_library)
+    for name in design.cam.tools:
+        library.get(name)  # a name that is not there is a mistake in the file, not a finding
     findings: list[Finding] = []
     jobs = []
     for part in parts:
-        tools = choose_tools(part, design.cam, library)
-        found = check_tools(part, design.cam, tools)
+        found = check_tools(part, design.cam, library)
         findings += found
         if not errors(found):
-            jobs.append(make_job(part, design.cam, tools))
+            jobs.append(make_job(part, design.cam, choose_tools(part, design.cam, library)))
     if len(jobs) == len(parts):
         cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
         findings += design.family.check_cut(design.params, cut)
@@ -128,4 +129,4 @@ def verify(design: Design, part: Part, text: str) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand."""
     library = load_library(design.tool_library)
     job = make_job(part, design.cam, choose_tools(part, design.cam, library))
-    return prove(text, replace(job, tools=tuple(library.values())))
+    return prove(text, replace(job, tools=library.tools))

@@ -182,9 +182,9 @@ def test_several_programs_have_an_index_and_a_sheet_each():
     other = replace(program(), name="hub")
     part = replace(job().part, name="hub")
     failed = {"ok": False, "time_estimate_s": 61.0}
-    page = setup_html([(job(), program(), PROOF), (replace(job(), part=part), other, failed)], suffix=".ngc")
+    page = setup_html([(job(), program(), PROOF), (replace(job(), part=part), other, failed)], suffix=".tap")
     found = read(page)
-    assert "wheel wheel.ngc proven 2 12 min 34 s hub hub.ngc FAILED 2 1 min 01 s" in found.text
+    assert "wheel wheel.tap proven 2 12 min 34 s hub hub.tap FAILED 2 1 min 01 s" in found.text
     names = [attributes["id"] for tag, attributes in found.tags if "id" in attributes]
     assert names == ["wheel", "wheel-t7", "hub", "hub-t7"]
     assert found.text.count("Setting up") == 2
