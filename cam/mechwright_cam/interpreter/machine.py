@@ -6,25 +6,17 @@ The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's document
 
 import math
 import re
-from collections.abc import Iterable
-from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from mechwright_cam.interpreter.arcs import centre_of, sweep_of
+from mechwright_cam.interpreter.arcs import centre_of
 from mechwright_cam.interpreter.blocks import NUMBER, Block, fail, read_block
 from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
-from mechwright_cam.interpreter.groups import CYCLES, GROUPS, M_GROUPS, spell
-from mechwright_cam.interpreter.run import Coolant, Kind, Remark, Run, State
+from mechwright_cam.interpreter.groups import CYCLES, GROUPS, spell
+from mechwright_cam.interpreter.modes import Modal
+from mechwright_cam.interpreter.run import Kind, Remark, Run
 
-INCH = 25.4
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
-MOST_PECKS = 10_000
-"""Pecks of one hole beyond which Q is a slip of the pen."""
-LARGEST = 1e5
-"""Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 _AXES = "XYZ"
 # A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
 _PLAIN = re.compile(
@@ -32,12 +24,6 @@ _PLAIN = re.compile(
     + "".join(rf"(?:{letter}({NUMBER}) ?)?" for letter in "XYZIJ")
     + rf"(?:F({NUMBER}) ?)?"
 )
-_COOLANT: dict[tuple[bool, bool], Coolant] = {
-    (False, False): "off",
-    (True, False): "mist",
-    (False, True): "flood",
-    (True, True): "both",
-}
 
 
 def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = False) -> Run:
@@ -92,27 +78,14 @@ def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = Fa
     return machine.result(len(lines))
 
 
-class _Machine:
-    """Positions and modes while a program runs; lengths in mm."""
+class _Machine(Modal):
+    """The machine while a program runs; lengths in mm."""
 
     def __init__(self, dialect: Dialect) -> None:
-        self.dialect = dialect
-        self.x = self.y = self.z = math.nan
-        self.scale = 1.0
-        self.absolute = True
-        self.absolute_centres = dialect.absolute_centres
+        super().__init__(dialect)
         self.motion: int | None = None
-        self.feed = 0.0
-        self.selected: int | None = None
-        self.to_initial = True
         self.sticky: dict[str, float] = {}
         self.initial = math.nan
-        self.ended = False
-        self.states: list[State] = [State()]
-        self.state = State()
-        self.index = 0
-        self.rows: list[tuple[float, ...]] = []
-        self.remarks: list[Remark] = []
 
     # -- motion lines -----------------------------------------------------------------------------------
 
@@ -142,48 +115,6 @@ class _Machine:
             centre = (self.x + float(i) * scale, self.y + float(j) * scale)
             self._arc_to(line, x, y, z, centre, motion == 30)
         return True
-
-    def _row(
-        self,
-        kind: Kind,
-        line: int,
-        x: float,
-        y: float,
-        z: float,
-        *,
-        feed: float = 0.0,
-        seconds: float = 0.0,
-        arc: tuple[float, float, float, float] = (math.nan, math.nan, 0.0, 0.0),
-    ) -> None:
-        self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
-        self.x, self.y, self.z = x, y, z
-
-    def _feed_to(self, line: int, x: float, y: float, z: float) -> None:
-        if not self.feed > 0:
-            raise fail(line, "a feed move without a feed; write F above 0")
-        self._row(Kind.FEED, line, x, y, z, feed=self.feed)
-
-    def _arc_to(
-        self, line: int, x: float, y: float, z: float, centre: tuple[float, float], ccw: bool, turns: int = 1
-    ) -> None:
-        if not self.feed > 0:
-            raise fail(line, "a feed move without a feed; write F above 0")
-        if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
-            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
-        cx, cy = centre
-        first = math.hypot(self.x - cx, self.y - cy)
-        error = abs(first - math.hypot(x - cx, y - cy))
-        if first == 0:
-            raise fail(line, "an arc of radius 0")
-        if error > self.dialect.arc_absolute and error > self.dialect.arc_relative * first:
-            raise fail(
-                line,
-                f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
-                f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
-            )
-        sweep = sweep_of((self.x, self.y), (x, y), centre, ccw)
-        sweep += math.copysign(math.tau * (turns - 1), sweep)
-        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(cx, cy, sweep, error))
 
     # -- any line ---------------------------------------------------------------------------------------
 
@@ -226,107 +157,6 @@ class _Machine:
         for code in block.m:
             if code not in self.dialect.m_codes:
                 raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
-
-    def _take(self, block: Block, letter: str, missing: str) -> float:
-        try:
-            return block.words.pop(letter)
-        except KeyError:
-            raise fail(block.line, missing) from None
-
-    def _set(self, **changes: Any) -> None:
-        self.state = replace(self.state, **changes)
-
-    def _state(self, group: str) -> None:
-        self._set(stated=self.state.stated | {group})
-
-    def _keep_state(self) -> None:
-        if self.state != self.states[self.index]:
-            self.states.append(self.state)
-            self.index = len(self.states) - 1
-
-    def _units(self, block: Block) -> None:
-        for code in block.g:
-            if code in GROUPS["units"]:
-                self.scale = INCH if code == 200 else 1.0
-                self._state("units")
-
-    def _speeds(self, block: Block, words: dict[str, float]) -> None:
-        if "F" in words:
-            self.feed = words.pop("F") * self.scale
-            if self.feed < 0:
-                raise fail(block.line, "F is below 0")
-        if "S" in words:
-            rpm = words.pop("S")
-            if rpm < 0:
-                raise fail(block.line, "S is below 0")
-            self._set(rpm=rpm)
-
-    def _tool(self, block: Block, words: dict[str, float]) -> None:
-        if "T" in words:
-            self.selected = self._whole(block, "T", words.pop("T"))
-        if 6 in block.m:
-            if self.selected is None:
-                raise fail(block.line, "M6 without a tool; write T before it")
-            self._set(tool=self.selected)
-            if self.dialect.change_stops_spindle:
-                self._set(spindle=0)
-            self._keep_state()
-            self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
-
-    def _whole(self, block: Block, letter: str, value: float) -> int:
-        if value < 0 or value != int(value):
-            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
-        return int(value)
-
-    def _spindle_and_coolant(self, block: Block) -> None:
-        for code in block.m:
-            if code in M_GROUPS["spindle"]:
-                self._set(spindle={3: 1, 4: -1, 5: 0}[code])
-        mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
-        if 9 in block.m:
-            if 7 in block.m or 8 in block.m:
-                raise fail(block.line, "M9 excludes M7 and M8 (coolant)")
-            mist = flood = False
-        self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
-
-    def _modes(self, block: Block, words: dict[str, float]) -> None:
-        for code in block.g:
-            if code in {900, 910}:
-                self.absolute = code == 900
-                self._state("distance")
-            elif code in {901, 911}:
-                self.absolute_centres = code == 901
-            elif code in {980, 990}:
-                self.to_initial = code == 980
-            elif code == 170:
-                self._state("plane")
-            elif code == 400:
-                self._state("cutter compensation")
-            elif code == 640:
-                words.pop("P", None)
-                words.pop("Q", None)
-
-    def _length_offset(self, block: Block, words: dict[str, float]) -> None:
-        offset = self.state.length_offset
-        if 430 in block.g:
-            offset = self._whole(block, "H", words.pop("H", self.state.tool))
-        elif 431 in block.g:
-            self._take(block, "Z", "G43.1 needs the length, Z")
-            offset = -1
-        elif 490 in block.g:
-            offset = 0
-        if offset != self.state.length_offset:
-            self._set(length_offset=offset)
-            if math.isfinite(self.z):
-                self.z = math.nan
-
-    def _work_offset(self, block: Block) -> None:
-        for code in block.g:
-            if code in GROUPS["work offset"] and spell(code) != self.state.work_offset:
-                self._set(work_offset=spell(code))
-                self.x = self.y = math.nan
-                if math.isfinite(self.z):
-                    self.z = math.nan
 
     def _home(self, block: Block, words: dict[str, float]) -> None:
         """G28: by way of a point in work coordinates to the machine's home; without axes all go."""
@@ -462,24 +292,6 @@ class _Machine:
             self._feed_to(line, x, y, plane if code == 850 else up)
         self._rapid(line, x, y, up)
 
-    def _rapid(self, line: int, x: float, y: float, z: float) -> None:
-        if (x, y, z) != (self.x, self.y, self.z):
-            self._row(Kind.RAPID, line, x, y, z)
-
-    def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
-        """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
-        x, y, gap = self.x, self.y, self.dialect.peck_clearance
-        if plane - bottom > MOST_PECKS * step:
-            raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
-        depth = plane - step
-        while depth > bottom:
-            self._feed_to(line, x, y, depth)
-            if code == 830:
-                self._rapid(line, x, y, plane)
-            self._rapid(line, x, y, depth + gap)
-            depth -= step
-        self._feed_to(line, x, y, bottom)
-
     def _stop(self, block: Block) -> None:
         for code in block.m:
             if code in {0, 1}:
@@ -487,34 +299,3 @@ class _Machine:
             elif code in {2, 30}:
                 self._row(Kind.END, block.line, self.x, self.y, self.z)
                 self.ended = True
-
-    def result(self, lines: int) -> Run:
-        """The record of the whole run."""
-        table = np.array(self.rows, dtype=np.float64).reshape(-1, 15)
-        places = np.abs(table[:, 2:10])
-        beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
-        if beyond.size:
-            line = int(table[beyond[0], 1])
-            raise fail(
-                line, f"a coordinate or an arc's centre is beyond {LARGEST / 1000:g} m; that is no move"
-            )
-        return Run(
-            kind=_whole(table[:, 0]),
-            line=_whole(table[:, 1]),
-            start=table[:, 2:5],
-            end=table[:, 5:8],
-            centre=table[:, 8:10],
-            sweep=table[:, 10],
-            arc_error=table[:, 11],
-            feed=table[:, 12],
-            seconds=table[:, 13],
-            state=_whole(table[:, 14]),
-            states=tuple(self.states),
-            remarks=tuple(self.remarks),
-            ended=self.ended,
-            lines=lines,
-        )
-
-
-def _whole(column: Iterable[float]) -> Any:
-    return np.asarray(column).astype(np.int64)

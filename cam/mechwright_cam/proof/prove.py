@@ -18,7 +18,8 @@ from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
-from mechwright_cam.proof.rules import RULES, Scene
+from mechwright_cam.proof.rules import RULES
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.timing import step_times
 

@@ -1,0 +1,133 @@
+"""The modes of the machine: what a word changes and leaves changed."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+from mechwright_cam.interpreter.blocks import Block, fail
+from mechwright_cam.interpreter.dialect import Dialect
+from mechwright_cam.interpreter.groups import GROUPS, M_GROUPS, spell
+from mechwright_cam.interpreter.recorder import Recorder
+from mechwright_cam.interpreter.run import Coolant, Kind, State
+
+INCH = 25.4
+_COOLANT: dict[tuple[bool, bool], Coolant] = {
+    (False, False): "off",
+    (True, False): "mist",
+    (False, True): "flood",
+    (True, True): "both",
+}
+
+
+class Modal(Recorder):
+    """A machine that knows its modes, and does not move yet."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        super().__init__(dialect)
+        self.scale = 1.0
+        self.absolute = True
+        self.absolute_centres = dialect.absolute_centres
+        self.selected: int | None = None
+        self.to_initial = True
+        self.state = State()
+
+    def _take(self, block: Block, letter: str, missing: str) -> float:
+        try:
+            return block.words.pop(letter)
+        except KeyError:
+            raise fail(block.line, missing) from None
+
+    def _whole(self, block: Block, letter: str, value: float) -> int:
+        if value < 0 or value != int(value):
+            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
+        return int(value)
+
+    def _set(self, **changes: Any) -> None:
+        self.state = replace(self.state, **changes)
+
+    def _state(self, group: str) -> None:
+        self._set(stated=self.state.stated | {group})
+
+    def _keep_state(self) -> None:
+        if self.state != self.states[self.index]:
+            self.states.append(self.state)
+            self.index = len(self.states) - 1
+
+    def _units(self, block: Block) -> None:
+        for code in block.g:
+            if code in GROUPS["units"]:
+                self.scale = INCH if code == 200 else 1.0
+                self._state("units")
+
+    def _speeds(self, block: Block, words: dict[str, float]) -> None:
+        if "F" in words:
+            self.feed = words.pop("F") * self.scale
+            if self.feed < 0:
+                raise fail(block.line, "F is below 0")
+        if "S" in words:
+            rpm = words.pop("S")
+            if rpm < 0:
+                raise fail(block.line, "S is below 0")
+            self._set(rpm=rpm)
+
+    def _tool(self, block: Block, words: dict[str, float]) -> None:
+        if "T" in words:
+            self.selected = self._whole(block, "T", words.pop("T"))
+        if 6 in block.m:
+            if self.selected is None:
+                raise fail(block.line, "M6 without a tool; write T before it")
+            self._set(tool=self.selected)
+            if self.dialect.change_stops_spindle:
+                self._set(spindle=0)
+            self._keep_state()
+            self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
+
+    def _spindle_and_coolant(self, block: Block) -> None:
+        for code in block.m:
+            if code in M_GROUPS["spindle"]:
+                self._set(spindle={3: 1, 4: -1, 5: 0}[code])
+        mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
+        if 9 in block.m:
+            if 7 in block.m or 8 in block.m:
+                raise fail(block.line, "M9 excludes M7 and M8 (coolant)")
+            mist = flood = False
+        self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
+
+    def _modes(self, block: Block, words: dict[str, float]) -> None:
+        for code in block.g:
+            if code in {900, 910}:
+                self.absolute = code == 900
+                self._state("distance")
+            elif code in {901, 911}:
+                self.absolute_centres = code == 901
+            elif code in {980, 990}:
+                self.to_initial = code == 980
+            elif code == 170:
+                self._state("plane")
+            elif code == 400:
+                self._state("cutter compensation")
+            elif code == 640:
+                words.pop("P", None)
+                words.pop("Q", None)
+
+    def _length_offset(self, block: Block, words: dict[str, float]) -> None:
+        offset = self.state.length_offset
+        if 430 in block.g:
+            offset = self._whole(block, "H", words.pop("H", self.state.tool))
+        elif 431 in block.g:
+            self._take(block, "Z", "G43.1 needs the length, Z")
+            offset = -1
+        elif 490 in block.g:
+            offset = 0
+        if offset != self.state.length_offset:
+            self._set(length_offset=offset)
+            if math.isfinite(self.z):
+                self.z = math.nan
+
+    def _work_offset(self, block: Block) -> None:
+        for code in block.g:
+            if code in GROUPS["work offset"] and spell(code) != self.state.work_offset:
+                self._set(work_offset=spell(code))
+                self.x = self.y = math.nan
+                if math.isfinite(self.z):
+                    self.z = math.nan

@@ -1,0 +1,123 @@
+"""The record that a run leaves: positions, and one row for each step."""
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from mechwright_cam.interpreter.arcs import sweep_of
+from mechwright_cam.interpreter.blocks import fail
+from mechwright_cam.interpreter.dialect import Dialect
+from mechwright_cam.interpreter.groups import spell
+from mechwright_cam.interpreter.run import Kind, Remark, Run, State
+
+MOST_PECKS = 10_000
+"""Pecks of one hole beyond which Q is a slip of the pen."""
+LARGEST = 1e5
+"""Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
+
+
+class Recorder:
+    """Position and feed, and the steps so far; lengths in mm."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        self.dialect = dialect
+        self.x = self.y = self.z = math.nan
+        self.feed = 0.0
+        self.ended = False
+        self.states: list[State] = [State()]
+        self.index = 0
+        self.rows: list[tuple[float, ...]] = []
+        self.remarks: list[Remark] = []
+
+    def _row(
+        self,
+        kind: Kind,
+        line: int,
+        x: float,
+        y: float,
+        z: float,
+        *,
+        feed: float = 0.0,
+        seconds: float = 0.0,
+        arc: tuple[float, float, float, float] = (math.nan, math.nan, 0.0, 0.0),
+    ) -> None:
+        self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
+        self.x, self.y, self.z = x, y, z
+
+    def _rapid(self, line: int, x: float, y: float, z: float) -> None:
+        if (x, y, z) != (self.x, self.y, self.z):
+            self._row(Kind.RAPID, line, x, y, z)
+
+    def _feed_to(self, line: int, x: float, y: float, z: float) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        self._row(Kind.FEED, line, x, y, z, feed=self.feed)
+
+    def _arc_to(
+        self, line: int, x: float, y: float, z: float, centre: tuple[float, float], ccw: bool, turns: int = 1
+    ) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
+            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+        cx, cy = centre
+        first = math.hypot(self.x - cx, self.y - cy)
+        error = abs(first - math.hypot(x - cx, y - cy))
+        if first == 0:
+            raise fail(line, "an arc of radius 0")
+        if error > self.dialect.arc_absolute and error > self.dialect.arc_relative * first:
+            raise fail(
+                line,
+                f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
+                f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
+            )
+        sweep = sweep_of((self.x, self.y), (x, y), centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(cx, cy, sweep, error))
+
+    def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
+        """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
+        x, y, gap = self.x, self.y, self.dialect.peck_clearance
+        if plane - bottom > MOST_PECKS * step:
+            raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
+        depth = plane - step
+        while depth > bottom:
+            self._feed_to(line, x, y, depth)
+            if code == 830:
+                self._rapid(line, x, y, plane)
+            self._rapid(line, x, y, depth + gap)
+            depth -= step
+        self._feed_to(line, x, y, bottom)
+
+    def result(self, lines: int) -> Run:
+        """The record of the whole run."""
+        table = np.array(self.rows, dtype=np.float64).reshape(-1, 15)
+        places = np.abs(table[:, 2:10])
+        beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
+        if beyond.size:
+            line = int(table[beyond[0], 1])
+            raise fail(
+                line, f"a coordinate or an arc's centre is beyond {LARGEST / 1000:g} m; that is no move"
+            )
+        return Run(
+            kind=_whole(table[:, 0]),
+            line=_whole(table[:, 1]),
+            start=table[:, 2:5],
+            end=table[:, 5:8],
+            centre=table[:, 8:10],
+            sweep=table[:, 10],
+            arc_error=table[:, 11],
+            feed=table[:, 12],
+            seconds=table[:, 13],
+            state=_whole(table[:, 14]),
+            states=tuple(self.states),
+            remarks=tuple(self.remarks),
+            ended=self.ended,
+            lines=lines,
+        )
+
+
+def _whole(column: Iterable[float]) -> Any:
+    return np.asarray(column).astype(np.int64)

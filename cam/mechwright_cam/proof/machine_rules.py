@@ -1,0 +1,201 @@
+"""Rules about the state of the machine: each looks at one thing, and gives one check."""
+
+import numpy as np
+from mechwright.tolerances import TOLERANCES
+
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene, first, in_work, moving
+
+MAX_DWELL = 10.0
+"""Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
+SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
+
+
+def program_end(scene: Scene) -> Check:
+    """The program says that it ends, with the tool up."""
+    run = scene.run
+    if not run.ended:
+        return Check("program-end", False, "the program has no end; write M30 or M2", run.lines)
+    moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
+    if moved.size == 0 or not run.cutting.any():
+        return Check("program-end", False, "the program cuts nothing", run.lines)
+    last = int(moved[-1])
+    height = float(run.end[last, 2])
+    if not height >= scene.job.settings.clearance - NEAR:
+        return scene.bad(
+            "program-end", last, "the program ends with the tool down; retract with G53 G0 Z0", height
+        )
+    return Check("program-end", True, "the program ends with the tool up")
+
+
+def modes(scene: Scene) -> Check:
+    """Units, distances, plane and compensation are set before the first move in work coordinates."""
+    step = first(moving(scene.run))
+    if step is not None:
+        missing = [word for group, word in SAFE_MODES.items() if group not in scene.state(step).stated]
+        if missing:
+            return scene.bad("modes", step, f"moves before {' '.join(missing)}; set the modes first")
+    return Check("modes", True, "units, distance mode, plane and compensation are stated")
+
+
+def tools_known(scene: Scene) -> Check:
+    """Every tool that moves is one of the job."""
+    run = scene.run
+    step = first(moving(run) & ~np.isin(run.tool, list(scene.tools)))
+    if step is not None:
+        known = ", ".join(f"T{n}" for n in sorted(scene.tools)) or "none"
+        number = int(run.tool[step])
+        named = f"T{number} is not a tool of this job" if number else "no tool was changed to"
+        return scene.bad("tools", step, f"{named}; its tools are {known}", number)
+    return Check("tools", True, "all tools belong to the job")
+
+
+def length_offset(scene: Scene) -> Check:
+    """The active length offset is the tool's own before Z is moved to a height above the work."""
+    run = scene.run
+    offset = scene.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
+    stated = moving(run) & np.isfinite(run.end[:, 2]) & (run.tool > 0)
+    step = first(stated & (offset != run.tool))
+    if step is not None:
+        tool, active = int(run.tool[step]), int(offset[step])
+        if active in {0, -2}:
+            found = "Z is moved without a length offset"
+        elif active == -1:
+            found = "Z is moved with a length written into the program (G43.1)"
+        else:
+            found = f"Z is moved with H{active}"
+        return scene.bad(
+            "length-offset", step, f"{found} while T{tool} is in the spindle; write G43 H{tool}", active, tool
+        )
+    return Check("length-offset", True, "every tool moves Z under its own G43 H")
+
+
+def work_offset(scene: Scene) -> Check:
+    """All moves are made in the work offset of the job."""
+    wanted = scene.job.settings.work_offset
+    wrong = scene.of_states(lambda state: state.work_offset != wanted)
+    step = first(moving(scene.run) & wrong)
+    if step is not None:
+        used = scene.state(step).work_offset or "no stated work offset"
+        return scene.bad("work-offset", step, f"moves in {used}; the job is set up in {wanted}")
+    return Check("work-offset", True, f"all moves are in {wanted}")
+
+
+def positions(scene: Scene) -> Check:
+    """No feed and no sideways rapid starts at a place or height that the program never stated."""
+    run = scene.run
+    sideways = np.nan_to_num(run.end[:, :2] - run.start[:, :2], nan=1.0).any(axis=1)
+    unknown = ~np.isfinite(run.start).all(axis=1) | ~np.isfinite(run.end).all(axis=1)
+    lost = np.isnan(run.start[:, 2]) | np.isnan(run.end[:, 2])
+    step = first((run.cutting & unknown) | ((run.kind == Kind.RAPID) & sideways & lost))
+    if step is not None:
+        return scene.bad(
+            "positions", step, "moves from an unknown height or place; retract with G53 G0 Z0 first"
+        )
+    return Check("positions", True, "every move starts from a known height")
+
+
+def spindle(scene: Scene) -> Check:
+    """The spindle turns clockwise while the cutter is in the work."""
+    turning = scene.of_states(lambda state: state.spindle if state.rpm > 0 else 0)
+    step = first(in_work(scene) & (turning != 1))
+    if step is not None:
+        how = "backwards (M4)" if turning[step] == -1 else "not at all"
+        return scene.bad(
+            "spindle", step, f"feeds into the work while the spindle turns {how}; write S and M3"
+        )
+    return Check("spindle", True, "the spindle turns clockwise whenever the cutter is in the work")
+
+
+def coolant(scene: Scene) -> Check:
+    """Coolant runs as planned while the cutter is in the work."""
+    wanted = scene.job.settings.coolant
+    wrong = scene.of_states(lambda state: state.coolant != wanted)
+    step = first(in_work(scene) & wrong)
+    if step is not None:
+        word = {"flood": "M8", "mist": "M7", "off": "M9"}[wanted]
+        return scene.bad(
+            "coolant",
+            step,
+            f"cuts with coolant {scene.state(step).coolant}, planned is {wanted}; write {word}",
+        )
+    return Check("coolant", True, f"coolant is {wanted} whenever the cutter is in the work")
+
+
+def arcs(scene: Scene) -> Check:
+    """Arcs end as far from their centre as they start."""
+    error, limit = scene.run.arc_error, TOLERANCES.arc_fit
+    worst = int(np.argmax(error)) if error.size else 0
+    if error.size and error[worst] > limit:
+        found = float(error[worst])
+        return scene.bad(
+            "arcs",
+            worst,
+            f"the arc's radii at its start and end differ by {found:.4f} mm, the limit is {limit:g} mm",
+            found,
+            limit,
+            "mm",
+        )
+    return Check(
+        "arcs", True, "all arcs are consistent", value=float(error.max(initial=0.0)), limit=limit, unit="mm"
+    )
+
+
+def feeds(scene: Scene) -> Check:
+    """Feeds are within the machine's limit."""
+    limit = scene.job.settings.machine.max_feed
+    step = first(scene.run.feed > limit + NEAR)
+    if step is not None:
+        found = float(scene.run.feed[step])
+        return scene.bad(
+            "feeds", step, f"F{found:g} is above the machine's {limit:g} mm/min", found, limit, "mm/min"
+        )
+    return Check("feeds", True, "feeds are within the machine's limit", limit=limit, unit="mm/min")
+
+
+def speeds(scene: Scene) -> Check:
+    """Spindle speeds are within the machine's limits."""
+    machine = scene.job.settings.machine
+    rpm = scene.of_states(lambda state: state.rpm if state.spindle else machine.spindle_min)
+    wrong = (rpm > machine.spindle_max + NEAR) | (rpm < machine.spindle_min - NEAR)
+    step = first(in_work(scene) & wrong)
+    if step is not None:
+        found = float(rpm[step])
+        over = found > machine.spindle_max
+        limit = machine.spindle_max if over else machine.spindle_min
+        side = "above" if over else "below"
+        return scene.bad(
+            "speeds", step, f"S{found:g} is {side} the spindle's {limit:g} rpm", found, limit, "rpm"
+        )
+    return Check(
+        "speeds", True, "speeds are within the spindle's limits", limit=machine.spindle_max, unit="rpm"
+    )
+
+
+def dwells(scene: Scene) -> Check:
+    """No dwell is so long that its unit must be wrong."""
+    step = first(scene.run.seconds > MAX_DWELL)
+    if step is not None:
+        found = float(scene.run.seconds[step])
+        return scene.bad(
+            "dwells",
+            step,
+            f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; P is in seconds",
+            found,
+            MAX_DWELL,
+            "s",
+        )
+    return Check("dwells", True, "dwells are short")
+
+
+def tool_changes(scene: Scene) -> Check:
+    """Tools are changed at a safe height."""
+    run, clearance = scene.run, scene.job.settings.clearance
+    step = first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= clearance - NEAR))
+    if step is not None:
+        return scene.bad(
+            "tool-change", step, "a tool is changed without a retract; write G53 G0 Z0 before it"
+        )
+    return Check("tool-change", True, "tools are changed at the machine's upper end")

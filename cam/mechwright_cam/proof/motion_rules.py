@@ -1,0 +1,188 @@
+"""Rules about where the tool goes: each looks at one thing, and gives one check."""
+
+import numpy as np
+import shapely
+from mechwright.tooling import ToolKind
+
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.bands import stock_shape
+from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene
+
+LAST_DECIMAL = 1e-4
+"""A ramp may end this much lower than its angle allows, mm: both its ends are rounded in the text."""
+
+
+def travel(scene: Scene) -> Check:
+    """The moves fit into the machine, wherever the stock is clamped."""
+    paths, machine = scene.paths, scene.job.settings.machine
+    if paths.steps.size == 0:
+        return Check("travel", True, "no moves")
+    least, most = paths.extent()
+    heights = np.stack((scene.run.start[paths.steps, 2], scene.run.end[paths.steps, 2]))
+    heights[np.isinf(heights)] = np.nan  # the machine's upper end is within its travel
+    low, high = np.fmin(*heights), np.fmax(*heights)
+    for axis, lower, upper, limit in (
+        ("X", least[:, 0], most[:, 0], machine.travel_x),
+        ("Y", least[:, 1], most[:, 1], machine.travel_y),
+        ("Z", low, high, machine.travel_z),
+    ):
+        if np.isnan(lower).all():
+            continue
+        extent = float(np.nanmax(upper) - np.nanmin(lower))
+        if extent > limit:
+            # Furthest from the middle: the move that a stray coordinate belongs to.
+            middle = np.nanmedian(lower)
+            far = int(np.nanargmax(np.maximum(np.abs(upper - middle), np.abs(lower - middle))))
+            return scene.bad(
+                "travel",
+                int(paths.steps[far]),
+                f"the moves span {extent:.1f} mm in {axis}, the machine travels {limit:g} mm",
+                extent,
+                limit,
+                "mm",
+            )
+    return Check("travel", True, "all moves are within the machine's travel")
+
+
+def flutes(scene: Scene) -> Check:
+    """No tool goes deeper than its flutes reach."""
+    run = scene.run
+    for number, tool in scene.tools.items():
+        deep = np.where((run.tool == number) & run.cutting, -run.end[:, 2], -np.inf)
+        worst = int(np.argmax(deep)) if deep.size else 0
+        if deep.size and deep[worst] > tool.flute_length + NEAR:
+            found = float(deep[worst])
+            return scene.bad(
+                "flutes",
+                worst,
+                f"T{number} ({tool.name}) cuts {found:.3f} mm deep, its flutes are {tool.flute_length:g} mm",
+                found,
+                tool.flute_length,
+                "mm",
+            )
+    return Check("flutes", True, "no tool cuts deeper than its flutes")
+
+
+def rapid_height(scene: Scene) -> Check:
+    """Sideways rapids over the stock run at the clearance plane or above."""
+    paths, limit = scene.paths, scene.job.settings.clearance
+    rapid = paths.steps[scene.run.kind[paths.steps] == Kind.RAPID]
+    start, end = paths.start[rapid], paths.end[rapid]
+    sideways = np.hypot(*(end - start)[:, :2].T) > NEAR
+    low = rapid[sideways & (np.minimum(start[:, 2], end[:, 2]) < limit - NEAR)]
+    if low.size:
+        lines = paths.lines(paths.below(np.inf, steps=low))
+        over = low[shapely.dwithin(lines, stock_shape(scene.job), paths.radius[low])]
+        if over.size:
+            step = int(over[0])
+            z = float(min(paths.start[step, 2], paths.end[step, 2]))
+            return scene.bad(
+                "rapid-height",
+                step,
+                f"a sideways rapid over the stock at Z{z:g}, the clearance plane is Z{limit:g}",
+                z,
+                limit,
+                "mm",
+            )
+    return Check(
+        "rapid-height", True, "sideways rapids run at the clearance plane or above", limit=limit, unit="mm"
+    )
+
+
+def rapids_in_stock(scene: Scene) -> Check:
+    """No rapid meets material."""
+    found = [step for step in _low_rapids(scene).tolist() if scene.stock.meets(step)]
+    if found:
+        return Check(
+            "rapids-in-stock",
+            False,
+            scene.bad("", found[0], f"a rapid into the stock ({len(found)} in all); feed there").message,
+            scene.line(found[0]),
+            float(len(found)),
+            0.0,
+            "",
+            scene.where(found[0]),
+        )
+    return Check("rapids-in-stock", True, "no rapid meets material", value=0.0, limit=0.0)
+
+
+def _low_rapids(scene: Scene) -> Ints:
+    """Rapids that end or run below the top of the stock; straight up follows the tool's own hole."""
+    paths = scene.paths
+    rapid = paths.steps[scene.run.kind[paths.steps] == Kind.RAPID]
+    start, end = paths.start[rapid], paths.end[rapid]
+    sideways = np.hypot(*(end - start)[:, :2].T) > NEAR
+    low = np.minimum(start[:, 2], end[:, 2]) < -NEAR
+    low_rapids: Ints = rapid[low & (sideways | (end[:, 2] < start[:, 2]))]
+    return low_rapids
+
+
+def entries(scene: Scene) -> Check:
+    """Ramps into material are gentle, and only centre-cutting tools plunge."""
+    run, paths = scene.run, scene.paths
+    limit = scene.job.settings.ramp_angle
+    steps = paths.steps[run.cutting[paths.steps]]
+    drop = paths.start[steps, 2] - paths.end[steps, 2]
+    straight = np.hypot(*(paths.end[steps, :2] - paths.start[steps, :2]).T)
+    flat = np.where(run.kind[steps] == Kind.ARC, np.abs(run.sweep[steps]) * run.radius[steps], straight)
+    angle = np.degrees(np.arctan2(drop, flat))
+    plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
+    plunge = flat <= NEAR
+    allowed = plunge & np.isin(run.tool[steps], list(plunges))
+    steep = drop > flat * np.tan(np.radians(limit)) + LAST_DECIMAL
+    suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
+    for index in np.flatnonzero(suspect).tolist():
+        step = int(steps[index])
+        if not scene.stock.meets(step):
+            continue
+        tool = scene.tools[int(run.tool[step])]
+        if plunge[index]:
+            return scene.bad(
+                "entries",
+                step,
+                f"T{tool.number} ({tool.name}) plunges into the stock and does not cut at its centre",
+            )
+        found = float(angle[index])
+        return scene.bad(
+            "entries",
+            step,
+            f"T{tool.number} ({tool.name}) ramps into the stock at {found:.1f} degrees, "
+            f"the limit is {limit:g}",
+            found,
+            limit,
+            "deg",
+        )
+    return Check(
+        "entries", True, "entries are ramps or plunges that the tools can do", limit=limit, unit="deg"
+    )
+
+
+def clamp(scene: Scene) -> Check:
+    """The cutter stays clear of the clamp, from the stop on at which the operator sets it."""
+    run, held, paths = scene.run, scene.job.clamp, scene.paths
+    if held is None:
+        return Check("clamp", True, "there is no clamp in the way")
+    stops = np.flatnonzero(run.kind == Kind.STOP)
+    # Without a stop it can only have been there from the start.
+    pieces = paths.below(held.top - NEAR, steps=paths.steps[paths.steps > (stops[0] if stops.size else -1)])
+    # No path leads further than its length.
+    away = np.hypot(*(paths.start[pieces.step, :2] - held.centre).T) - np.nan_to_num(run.length[pieces.step])
+    pieces = pieces.only(away < held.diameter / 2 + paths.radius[pieces.step])
+    if len(pieces):
+        gap = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
+        room = gap - paths.radius[pieces.step] - held.diameter / 2
+        worst = int(np.argmin(room))
+        if room[worst] < 0:
+            return scene.bad(
+                "clamp",
+                int(pieces.step[worst]),
+                f"the cutter goes {-room[worst]:.2f} mm into the clamp (diameter {held.diameter:g} mm, "
+                f"up to Z{held.top:g})",
+                float(room[worst]),
+                0.0,
+                "mm",
+            )
+    return Check("clamp", True, "the cutter stays clear of the clamp")
