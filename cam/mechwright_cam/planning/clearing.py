@@ -109,7 +109,8 @@ class Roughing:
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
         self.reach = grow(self.free, tool.radius, ROUGH)
-        self.take = opened(shapely.intersection(zone.left if only is None else only, self.reach), SLIVER)
+        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        self.take = opened(shapely.difference(take, zone.waste), SLIVER)
 
     @property
     def share(self) -> float:

@@ -10,7 +10,7 @@ from mechwright.motion import Array
 from mechwright.tooling import CamSettings
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import Zone
+from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.leads import best_start, lead_shapes, with_leads
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
@@ -29,6 +29,10 @@ class Finishing:
         radius = self.tool.radius
         self.blocked = grow(zone.keep, radius + BIAS)
         self.room = zone.room(radius)
+        if zone.tabs is not None:
+            # Along a tab only as far as the finishing of the wall needs it.
+            near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
+            self.room = shapely.intersection(self.room, near)
         self.near = grow(zone.left, radius - CLEAR, ROUGH)
         self.free = shapely.difference(
             grow(self.room, CLEAR, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))

@@ -177,7 +177,7 @@ class _Planner:
         for zone in zones:
             after = self._rough(self._roughing(zone, finest, settings.stock_to_leave), after)
             after = self._rough_heavy(zone, finest, after)
-        for zone in zones:
+            # A layer is finished before the one below is cut to the wall, so that nothing is sunk beside stock.
             finishing = Finishing(zone, settings)
             after = self._milled(f"{zone.name}: finish", zone.finisher, after, finishing.write)
         if not after:

@@ -55,6 +55,8 @@ class Zone:
     """Outside: the mills whose channel leaves a frame, largest first."""
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
+    waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
+    """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
     begun: bool = field(default=False, init=False)
     """Whether an end mill has been in it."""
@@ -73,7 +75,7 @@ class Zone:
         if self.tabs is not None:
             beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
             band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
-            self.left = shapely.difference(self.left, shapely.difference(beside, band))
+            self.waste = shapely.difference(beside, band)
 
     @property
     def height(self) -> float:
