@@ -15,6 +15,7 @@ class LinuxCncPost(GcodePost):
 
     name = "linuxcnc"
     title = "LinuxCNC"
+    suffix = ".ngc"
     active_comments = (
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
         *("PROBEOPEN", "PROBECLOSE", "PY"),

@@ -1,8 +1,8 @@
 """Rules about the state of the machine: each looks at one thing, and gives one check."""
 
 import numpy as np
-from mechwright.tolerances import TOLERANCES
 
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check

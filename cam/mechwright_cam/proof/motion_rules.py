@@ -2,8 +2,8 @@
 
 import numpy as np
 import shapely
-from mechwright.tooling import ToolKind
 
+from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.bands import stock_shape

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from mechwright.tooling import Tool
 from numpy.typing import NDArray
 
+from mechwright.tooling import Tool
 from mechwright_cam.interpreter import Kind, Run, State
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR, Paths
