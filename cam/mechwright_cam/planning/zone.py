@@ -185,7 +185,7 @@ def outer_zones(job: Job) -> list[Zone]:
                 "outside",
                 channel,
                 roughers,
-                tabs,  # noqa: B023
+                tabs,
             )
 
         top = -feature.top
