@@ -102,7 +102,9 @@ class Hold(Parameters):
         "tabs", description="Tabs to the frame, or a clamp through the bore."
     )
     tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
-    tab_width: Millimetres = Field(2.0, gt=0, le=50, description="Width of a tab along the contour.")
+    tab_width: Millimetres | None = Field(
+        None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
+    )
     tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
     clamp_height: Millimetres = Field(

@@ -160,7 +160,7 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
         f"{rim:.2f} modules stay between the shaft opening and the nearest root",
         rim,
         least if too_thin else full,
-        "modules",
+        "",
         remedy,
     )
 

@@ -95,7 +95,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             "the tip arc of the rack is deeper than its tooth",
             params.tip_radius,
             params.dedendum,
-            "modules",
+            "",
             "make tip_radius smaller than dedendum",
         )
     clearance = params.dedendum - params.addendum
@@ -107,7 +107,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             f"tips run {clearance:.3g} modules from the mating roots, below {LEAST_CLEARANCE:g}",
             params.dedendum,
             params.addendum + LEAST_CLEARANCE,
-            "modules",
+            "",
             f"make dedendum at least {params.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
         )
     tightest = teeth.ellipse.least_radius
@@ -120,7 +120,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             "the ends of its major axis: its offset curve crosses itself",
             params.dedendum,
             tightest / rack.module,
-            "modules",
+            "",
             "use more teeth, a smaller eccentricity or a smaller dedendum",
         )
     if rack.half_land < 0:
@@ -140,7 +140,7 @@ def _land(params: EllipticGearParams) -> Finding:
             "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
             params.tip_radius,
             most,
-            "modules",
+            "",
             f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
         )
     deepest = rack.half_space * cos / sin / rack.module
@@ -151,7 +151,7 @@ def _land(params: EllipticGearParams) -> Finding:
         "the flanks of a rack tooth meet before its tip: there is no root",
         params.dedendum,
         deepest,
-        "modules",
+        "",
         f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
     )
 
@@ -167,7 +167,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
             str(error),
             params.addendum,
             None,
-            "modules",
+            "",
             "make addendum smaller",
         )
         return
@@ -183,7 +183,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
         f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
         width,
         LEAST_TIP,
-        "modules",
+        "",
         f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
     )
 

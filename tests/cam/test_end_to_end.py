@@ -1,0 +1,224 @@
+"""From a design file to a proven program: the elliptic pair, its reference gear, and planted defects."""
+
+import re
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import shapely
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+from rs274 import needs_rs274, run_rs274
+
+from mechwright.design import Design, load
+from mechwright.errors import MechwrightError, ProgramError
+from mechwright.findings import errors
+from mechwright.host import host
+from mechwright_cam import pipeline
+from mechwright_cam.exporters import StepExporter
+from mechwright_cam.exporters.step_read import read_step_outline
+from mechwright_cam.pipeline import Machined
+from mechwright_elliptic_gears.proof import prove_outlines
+
+READ_ALLOWANCE = 4e-4
+"""Fit and chords of two outlines read back, 0.1 µm each, mm."""
+EXAMPLE = Path(__file__).parents[2] / "examples" / "elliptic-pair.toml"
+
+
+def design_of(text: str) -> Design:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "design.toml"
+        path.write_text(text, encoding="utf-8")
+        return load(path, host())
+
+
+def machined(design: Design) -> Machined:
+    assert not errors(design.family.check(design.params))
+    findings, jobs = pipeline.prepare(design, design.family.parts(design.params))
+    assert not errors(findings), findings
+    (job,) = jobs
+    return pipeline.machine(job, host().post(design.cam.control))
+
+
+@pytest.fixture(scope="module")
+def example() -> Machined:
+    return machined(load(EXAMPLE, host()))
+
+
+REFERENCE = """
+family = "elliptic-gears"
+[parameters]
+eccentricity = 0.4
+module = 2
+teeth = 39
+thickness = 10
+[cam]
+tools = ["spot-6", "drill-8", "mill-8", "{mill}"]
+"""
+
+
+def test_the_example_builds_without_a_warning_and_is_proven(example: Machined) -> None:
+    design = load(EXAMPLE, host())
+    findings = [*design.family.check(design.params), *pipeline.check(design, host())]
+    assert {finding.severity.value for finding in findings} == {"note"}
+    proof = example.proof
+    assert proof.ok
+    assert proof.gouge_max_mm <= 0.005
+    assert 0 < proof.leftover_reachable_max_mm <= 0.010
+    assert proof.unreachable_max_mm == 0
+    assert proof.rapids_in_stock == 0
+
+
+@needs_rs274
+def test_linuxcnc_accepts_the_program(example: Machined, tmp_path: Path) -> None:
+    post = host().post("linuxcnc")
+    canon = run_rs274(example.text, tmp_path, post.tool_table(example.program.tools)[1])
+    assert canon.ok, canon.error
+    assert len(canon.ends) > 1000
+
+
+def test_a_two_millimetre_mill_leaves_22_micrometres_in_the_fillets() -> None:
+    made = machined(design_of(REFERENCE.format(mill="mill-2")))
+    assert made.proof.ok
+    assert made.proof.unreachable_max_mm == pytest.approx(0.0223, abs=0.003)
+    assert len(made.proof.unreachable) >= 39  # somewhere in every tooth space
+    assert made.proof.leftover_reachable_max_mm <= 0.010
+
+
+def test_a_mill_of_two_and_a_half_is_refused_because_the_pair_would_collide() -> None:
+    design = design_of(REFERENCE.format(mill="mill-2.5"))
+    assert not errors(design.family.check(design.params))
+    found = errors(pipeline.check(design, host()))
+    assert [finding.parameter for finding in found] == ["cam.tools"]
+    assert "collide" in found[0].message or "overlap" in found[0].message
+    assert found[0].remedy
+
+
+def test_the_pair_read_back_from_its_step_files_meshes() -> None:
+    for text in (EXAMPLE.read_text(), REFERENCE.format(mill="mill-1.6")):
+        design = design_of(text)
+        (part,) = design.family.parts(design.params)
+        (outline,) = read_step_outline(StepExporter().part(part))
+        points = shapely.get_coordinates(outline.exterior)[:-1]
+        result = prove_outlines(design.params, points, READ_ALLOWANCE)
+        assert not result.collides
+        assert result.mesh.overlap == 0
+        assert result.error * 1e6 <= 25
+
+
+# Planted defects: each spoils the example's program in one way, and is found under its own name.
+
+
+def spoilt_spindle(text: str) -> str:
+    return re.sub(r" M3\b", "", text)
+
+
+def spoilt_offset(text: str) -> str:
+    return re.sub(r"G43 H\d+ ", "", text, count=1)
+
+
+def spoilt_rapid(text: str) -> str:
+    lines = text.splitlines()
+    last = max(i for i, line in enumerate(lines) if line.startswith(("G2", "G3")))
+    return "\n".join([*lines[: last + 1], "G0 X0 Y0", *lines[last + 1 :]]) + "\n"
+
+
+def spoilt_arc(text: str) -> str:
+    lines = text.splitlines()
+    last = max(i for i, line in enumerate(lines) if re.match(r"G[23] X\S+ Y\S+ I", line))
+    lines[last] = re.sub(r"I(\S+)", lambda word: f"I{float(word[1]) + 0.01:.4f}", lines[last])
+    return "\n".join(lines) + "\n"
+
+
+DEFECTS: dict[str, tuple[Callable[[str], str], str]] = {
+    "a spindle that never starts": (spoilt_spindle, "spindle"),
+    "a missing G43": (spoilt_offset, "length-offset"),
+    "a rapid at depth": (spoilt_rapid, "rapid-height"),
+    "an arc off by 0.01 mm": (spoilt_arc, "arcs"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "check"), DEFECTS.values(), ids=DEFECTS.keys())
+def test_a_planted_defect_is_found_under_its_own_name(
+    example: Machined, spoil: Callable[[str], str], check: str
+) -> None:
+    text = spoil(example.text)
+    assert text != example.text
+    proof = pipeline.verify(load(EXAMPLE, host()), example.job.part, text)
+    failed = {failure.name for failure in proof.failures}
+    assert check in failed
+    assert all(failure.message and "\n" not in failure.message for failure in proof.failures)
+
+
+def test_a_gouge_of_20_micrometres_is_found_and_one_of_none_is_not(example: Machined) -> None:
+    # A cutter 0.04 mm larger than the program was made for cuts 0.02 mm deeper on both flanks.
+    finisher = example.program.sections[-1].tool
+    thicker = finisher.model_copy(update={"diameter": finisher.diameter + 0.04})
+    tools = tuple(thicker if tool.name == finisher.name else tool for tool in example.job.tools)
+    proof = pipeline.prove(example.text, replace(example.job, tools=tools))
+    assert {failure.name for failure in proof.failures} >= {"gouge"}
+    assert proof.gouge_max_mm == pytest.approx(0.02, abs=0.004)
+    assert pipeline.prove(example.text, example.job).ok
+
+
+def test_a_program_that_cannot_be_read_is_refused_with_its_line(example: Machined) -> None:
+    with pytest.raises(ProgramError, match="line 3"):
+        pipeline.verify(load(EXAMPLE, host()), example.job.part, "G21\nG90\nG1 X1..2 F100\nM30\n")
+
+
+# Random designs are built with a proof that passes, or refused by name; nothing else happens.
+
+DESIGNS = st.fixed_dictionaries(
+    {
+        "eccentricity": st.floats(0, 0.7),
+        "teeth": st.integers(15, 45),
+        "module": st.floats(1.0, 5.0),
+        "thickness": st.floats(2, 25),
+        "bore": st.one_of(st.just(0.0), st.floats(2, 30)),
+        "backlash": st.floats(0, 0.2),
+        "material": st.sampled_from(["aluminium", "steel", "brass", "pom"]),
+    }
+)
+SETTINGS = st.fixed_dictionaries(
+    {
+        "hold": st.fixed_dictionaries(
+            {
+                "method": st.sampled_from(["tabs", "bore"]),
+                "tabs": st.integers(2, 8),
+                "tab_width": st.none() | st.floats(0.3, 3),
+                "tab_height": st.floats(0.3, 3),
+            }
+        ),
+        "origin": st.sampled_from(["axis", "corner", "centre"]),
+        "climb": st.booleans(),
+        "stock_to_leave": st.floats(0, 0.6),
+        "spring_passes": st.integers(0, 2),
+        "work_offset": st.sampled_from(["G54", "G57", "G59.3"]),
+        "breakthrough": st.floats(0, 1),
+    }
+)
+
+
+@settings(max_examples=25)
+@given(parameters=DESIGNS, cam=SETTINGS)
+def test_a_random_design_is_proven_or_refused_by_name(parameters: dict, cam: dict) -> None:
+    family = host().family("elliptic-gears")
+    params = family.Params.model_validate(parameters)
+    base = load(EXAMPLE, host())
+    design = replace(base, params=params, cam=type(base.cam).model_validate(cam))
+    found = errors(family.check(params))
+    if not found:
+        findings, jobs = pipeline.prepare(design, family.parts(params))
+        found = errors(findings)
+        if not found:
+            made = pipeline.machine(jobs[0], host().post("linuxcnc"))
+            assert made.proof.ok
+            event("proven")
+            return
+    event(f"refused: {found[0].code}")
+    known = {*family.Params.model_fields, "cam"}
+    assert all(finding.parameter.split(".")[0] in known for finding in found)
+    with pytest.raises(MechwrightError):
+        raise MechwrightError(str(found[0]))
