@@ -332,7 +332,7 @@ def test_a_corner_that_no_cutter_reaches_is_measured_and_located() -> None:
     # The deepest place is on the disc: where its distance to both walls is the same.
     assert spot.depth == pytest.approx(r - r / math.sqrt(2), abs=2e-3)
     assert proof.unreachable_area_mm2 == pytest.approx(spot.area)
-    assert "1 corners" in proof.notes[0]
+    assert "in 1 place" in proof.notes[0]
 
 
 def test_the_closing_is_what_a_round_cutter_leaves() -> None:

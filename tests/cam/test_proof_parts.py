@@ -17,7 +17,7 @@ from mechwright_cam.job import Job, make_job
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.gouge import deepest_cut
 from mechwright_cam.proof.paths import Paths
-from mechwright_cam.proof.plane import Boundary, grow
+from mechwright_cam.proof.plane import Boundary, grow, swept
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.timing import step_times
@@ -183,6 +183,14 @@ def test_buffers_are_as_accurate_as_they_say(radius: float) -> None:
     edges = np.asarray(disc.exterior.coords)
     middles = (edges[1:] + edges[:-1]) / 2
     assert radius - np.hypot(*middles.T).min() <= 1.01e-4
+
+
+def test_a_sweep_in_chunks_is_the_sweep() -> None:
+    t = np.linspace(0, 20, 700)
+    spiral = shapely.LineString(np.column_stack((t * np.cos(t), t * np.sin(t))))
+    chains = np.array([spiral, shapely.Point(40, 0)], dtype=object)
+    whole = shapely.union_all([chain.buffer(1.5, quad_segs=64) for chain in chains])
+    assert swept(chains, 1.5, 0.001).symmetric_difference(whole).area < 0.001 * whole.length
 
 
 def test_a_wall_s_normals_point_out_of_the_material() -> None:

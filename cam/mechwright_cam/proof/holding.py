@@ -8,7 +8,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import inside_of, stock_shape
 from mechwright_cam.proof.leftover import ROUNDING, Sweep, sweeps
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.plane import Shape, grow
+from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
 
 ROUGHLY = 0.02
@@ -52,7 +52,7 @@ def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     shapes: list[Shape] = []
     for sweep in cut:
         near = sweep.chains[shapely.dwithin(region, sweep.chains, sweep.radius)]
-        shapes += grow(shapely.simplify(near, ROUGHLY), sweep.radius, ROUGHLY).tolist()
+        shapes.append(swept(near, sweep.radius, ROUGHLY))
     return shapes
 
 

@@ -24,7 +24,7 @@ from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.plane import Boundary, Shape, closing, grow
+from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
 from mechwright_cam.proof.wall import Wall
 
 ROUNDING = 1e-4
@@ -211,8 +211,7 @@ def _on_floors(
     if not floors:
         return 0.0, None
     slack = TOLERANCES.leftover
-    swept = [grow(g.chains, g.radius + slack / 2, COARSE) for g in groups]
-    gone = shapely.union_all([shape for group in swept for shape in np.atleast_1d(group)])
+    gone = shapely.union_all([swept(g.chains, g.radius + slack / 2, COARSE) for g in groups])
     region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
     rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
     if rest.is_empty:

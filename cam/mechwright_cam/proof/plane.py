@@ -47,6 +47,26 @@ def closing(keep: Shape, radius: float) -> Shape:
     return grow(grow(keep, radius), -radius)
 
 
+CHUNK = 32
+"""Corners of a path that are buffered at a time: a long path that crosses itself takes four times as long."""
+
+
+def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
+    """What a disc sweeps along chains, within ``error``; the chains may be points."""
+    pieces: list[Any] = []
+    for chain in shapely.simplify(chains, error / 2).tolist():
+        points = shapely.get_coordinates(chain)
+        if len(points) <= CHUNK:
+            pieces.append(chain)
+        else:
+            pieces += [
+                shapely.LineString(points[i : i + CHUNK]) for i in range(0, len(points) - 1, CHUNK - 1)
+            ]
+    discs = shapely.buffer(np.array(pieces, dtype=object), radius, quad_segs=quarter(radius, error))
+    area: Shape = shapely.union_all(discs)
+    return area
+
+
 class Boundary:
     """The edge of a shape, ready for many questions about distance."""
 

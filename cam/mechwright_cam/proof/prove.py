@@ -203,6 +203,6 @@ def _notes(left: Remains) -> tuple[str, ...]:
         return ()
     deepest = left.beyond[0]
     return (
-        f"{len(left.beyond)} corners keep stock that no cutter of the program reaches: "
+        f"stock that no cutter of the program reaches: in {len(left.beyond)} place(s), "
         f"up to {deepest[3]:.3f} mm, {sum(spot[4] for spot in left.beyond):.3f} mm² in all",
     )
