@@ -30,7 +30,7 @@ TAB_REACH = 1.0
 """How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
 
 TAB_WIDTH = 2.0
-"""Width of a tab, mm, where the design file says nothing: four of them, 1 mm high, hold a plate of a hand's size."""
+"""Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
 
 LEAST_TAB_WIDTH = 0.5
 """A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
@@ -38,10 +38,11 @@ LEAST_TAB_WIDTH = 0.5
 
 @dataclass(frozen=True)
 class Tab:
-    """A bridge from the part to the frame: its plan view and its upper side (below 0), work coordinates."""
+    """A bridge from the part to the frame: its plan view, its upper side (below 0), and its width, mm."""
 
     shape: shapely.Polygon
     top: float
+    width: float
 
 
 @dataclass(frozen=True)
@@ -197,7 +198,8 @@ def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
             ring = shapely.LinearRing(feature.loop.flatten())
             width = hold.tab_width or _tab_width(feature, hold.tabs)
             for at in _tab_places(feature, ring, hold.tabs, width):
-                tabs.append(Tab(_tab_shape(ring, at, width, reach), -job.thickness + hold.tab_height))
+                shape = _tab_shape(ring, at, width, reach)
+                tabs.append(Tab(shape, hold.tab_height - job.thickness, width))
     return tuple(tabs)
 
 

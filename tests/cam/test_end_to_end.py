@@ -120,16 +120,12 @@ def spoilt_offset(text: str) -> str:
 
 
 def spoilt_rapid(text: str) -> str:
-    lines = text.splitlines()
-    last = max(i for i, line in enumerate(lines) if line.startswith(("G2", "G3")))
-    return "\n".join([*lines[: last + 1], "G0 X0 Y0", *lines[last + 1 :]]) + "\n"
+    head, up, tail = text.rpartition("\nG0 Z")  # the last move up
+    return f"{head}\nG0 X0 Y0{up}{tail}"
 
 
 def spoilt_arc(text: str) -> str:
-    lines = text.splitlines()
-    last = max(i for i, line in enumerate(lines) if re.match(r"G[23] X\S+ Y\S+ I", line))
-    lines[last] = re.sub(r"I(\S+)", lambda word: f"I{float(word[1]) + 0.01:.4f}", lines[last])
-    return "\n".join(lines) + "\n"
+    return re.sub(r"I-(\S+) J0 F", lambda word: f"I-{float(word[1]) - 0.01:.4f} J0 F", text, count=1)
 
 
 DEFECTS: dict[str, tuple[Callable[[str], str], str]] = {

@@ -10,6 +10,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
 from mechwright.errors import ProgramError, ProofError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle

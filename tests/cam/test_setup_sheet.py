@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from plate_shapes import slotted_plate, wavy_plate
 
 from mechwright.part import Instance, Part
 from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection

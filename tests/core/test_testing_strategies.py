@@ -95,7 +95,7 @@ def test_fields_without_a_strategy_are_named(annotation, words):
 
 
 def test_rules_of_a_field_in_a_type():
-    assert rules(Everything.model_fields["nested"]) == {"ge": -1, "le": 1}
+    assert rules(Everything.model_fields["nested"].metadata) == {"ge": -1, "le": 1}
 
 
 @pytest.mark.parametrize("name", sorted(set(Everything.model_fields) - {"name", "sizes", "pair", "table"}))

@@ -15,7 +15,6 @@ class LinuxCncPost(GcodePost):
 
     name = "linuxcnc"
     title = "LinuxCNC"
-    suffix = ".ngc"
     active_comments = (
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
         *("PROBEOPEN", "PROBECLOSE", "PY"),

@@ -157,7 +157,7 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
             f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
         )
     if job.tabs:
-        width, height = job.settings.hold.tab_width, job.settings.hold.tab_height
+        width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
         lines.append(
             f"{len(job.tabs)} tabs of {width:g} × {height:g} mm hold the part to the end. "
             "Saw them through, and file them flush."

@@ -37,7 +37,9 @@ def tables(params: type[Parameters]) -> st.SearchStrategy[dict[str, Any]]:
     required: dict[str, st.SearchStrategy[Any]] = {}
     optional: dict[str, st.SearchStrategy[Any]] = {}
     for name, field in params.model_fields.items():
-        strategy = _values(field.annotation, rules(field), f"{params.__name__}.{name}", field.default)
+        strategy = _values(
+            field.annotation, rules(field.metadata), f"{params.__name__}.{name}", field.default
+        )
         (required if field.is_required() else optional)[name] = strategy
     return st.fixed_dictionaries(required, optional=optional)
 
@@ -64,16 +66,12 @@ def parameters(params: type[P]) -> st.SearchStrategy[P]:
     return strategy
 
 
-def rules(field: FieldInfo) -> dict[str, Any]:
-    """The bounds of a field (``ge``, ``gt``, ``le``, ``lt``, ``multiple_of``, lengths, ``pattern``)."""
-    return _rules(field.metadata)
-
-
-def _rules(metadata: Iterable[Any]) -> dict[str, Any]:
+def rules(metadata: Iterable[Any]) -> dict[str, Any]:
+    """The bounds in the metadata of a field (``ge``, ``gt``, ``le``, ``lt``, ``multiple_of``, lengths, ``pattern``)."""
     found: dict[str, Any] = {}
     for item in metadata:
         if isinstance(item, FieldInfo):
-            found |= _rules(item.metadata)
+            found |= rules(item.metadata)
         found |= {rule: value for rule in _RULES if (value := getattr(item, rule, None)) is not None}
     return found
 
@@ -89,7 +87,7 @@ def bounds(rule: Mapping[str, Any], where: str) -> tuple[float, float]:
 def _values(kind: Any, rule: dict[str, Any], where: str, default: Any) -> st.SearchStrategy[Any]:
     origin, arguments = get_origin(kind), get_args(kind)
     if origin is Annotated:
-        return _values(arguments[0], _rules(arguments[1:]) | rule, where, default)
+        return _values(arguments[0], rules(arguments[1:]) | rule, where, default)
     if origin in (Union, types.UnionType):
         return st.one_of([_values(member, rule, where, default) for member in arguments])
     if kind is None or kind is types.NoneType:

@@ -20,13 +20,13 @@ def variations(start: Parameters, name: str) -> Iterator[Any]:
     (['bore'], 5)
     """
     field = type(start).model_fields[name]
-    yield from _others(field.annotation, getattr(start, name), rules(field), name)
+    yield from _others(field.annotation, getattr(start, name), rules(field.metadata), name)
 
 
 def _others(kind: Any, value: Any, rule: dict[str, Any], where: str) -> Iterator[Any]:
     origin, arguments = get_origin(kind), get_args(kind)
     if origin is Annotated:
-        yield from _others(arguments[0], value, rule, where)
+        yield from _others(arguments[0], value, rules(arguments[1:]) | rule, where)
     elif origin in (Union, types.UnionType):
         for member in arguments:
             yield from _others(member, value, rule, where)
