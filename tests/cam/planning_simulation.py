@@ -3,6 +3,7 @@
 It knows nothing of how paths are made: it samples every move and measures distances to the finished part.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -31,7 +32,8 @@ def motions(program: Program, step: float = 0.1) -> list[Motion]:
         if isinstance(first, Pause):
             first = section.operations[0].moves[1]
         assert isinstance(first, Rapid), "a section starts with a rapid"
-        assert first.x is not None and first.y is not None
+        assert first.x is not None
+        assert first.y is not None
         assert first.z is None
         x, y, z = first.x, first.y, program.clearance
         for operation in section.operations:
@@ -105,10 +107,11 @@ def gouge(job: Job, program: Program) -> float:
     """The deepest entry of a cutter into the part or its tabs, mm."""
     worst = -math.inf
     found = motions(program)
-    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
-        -(f.top + f.depth) for f in job.features
-    }, reverse=True)
-    for top, bottom in zip(heights, heights[1:], strict=False):
+    heights = sorted(
+        {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
+        reverse=True,
+    )
+    for top, bottom in itertools.pairwise(heights):
         keep = keep_at(job, (top + bottom) / 2)
         shapely.prepare(keep)
         for number in {motion.tool.number for motion in found}:
@@ -132,17 +135,19 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
     if not mills:
         return 0.0
     finest = min(tool.radius for tool in mills.values())
+    widest = max(tool.diameter for tool in mills.values())
     area = 0.0
-    heights = sorted({0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {
-        -(f.top + f.depth) for f in job.features
-    }, reverse=True)
-    for top, bottom in zip(heights, heights[1:], strict=False):
+    heights = sorted(
+        {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
+        reverse=True,
+    )
+    for top, bottom in itertools.pairwise(heights):
         keep = keep_at(job, (top + bottom) / 2)
         left = keep.buffer(finest + 0.003, quad_segs=96).buffer(-finest - 0.003, quad_segs=96)
         band = job.target.buffer(2 * finest, quad_segs=64).intersection(shapely.box(*job.stock))
         todo = band.difference(left)
-        # The sides of tabs are no walls of the part.
-        low = [tab.shape.buffer(2.1 * finest) for tab in job.tabs if tab.top > bottom + 1e-6]
+        # What stays beside a tab goes with the tab.
+        low = [tab.shape.buffer(widest) for tab in job.tabs if tab.top > bottom + 1e-6]
         todo = todo.difference(shapely.union_all(low)) if low else todo
         for tool in {m.tool.number: m.tool for m in found}.values():
             lines = []
@@ -151,7 +156,10 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
                     continue
                 deep = motion.points[:, 2] <= bottom + 2e-4
                 if motion.kind == "drill":
-                    if motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2)) <= bottom:
+                    if (
+                        motion.points[1, 2] + tool.radius / math.tan(math.radians(tool.point_angle / 2))
+                        <= bottom
+                    ):
                         lines.append(shapely.Point(motion.points[1, :2]))
                 elif deep.all():
                     lines.append(shapely.LineString(motion.points[:, :2]))
@@ -172,7 +180,9 @@ def check_rules(job: Job, program: Program) -> None:
     fastest = {m.tool.number: max(n.feed for n in every if n.tool is m.tool) for m in every}
     for motion in every:
         start, end = motion.points[0], motion.points[-1]
-        moved = not np.array_equal(motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0))
+        moved = not np.array_equal(
+            motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0)
+        )
         if motion.kind == "rapid":
             assert not moved or start[2] >= program.clearance, "a rapid in XY below clearance"
             assert not moved or end[2] == start[2]

@@ -22,7 +22,7 @@ left of BIAS and rounding still keeps them off it."""
 
 
 class Finishing:
-    """The finishing of one zone by its finishing mill, when ``left`` holds only what roughing left on walls."""
+    """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
 
     def __init__(self, zone: Zone, settings: CamSettings) -> None:
         self.zone, self.settings, self.tool = zone, settings, zone.finisher
@@ -78,7 +78,9 @@ class Finishing:
         found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
-            self._loop(pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0)
+            self._loop(
+                pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0
+            )
             return
         at, rho, sweep = found
         points = _from(ring, at)

@@ -90,12 +90,14 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
         if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
             return BorePlan(bore, drill, None)
     raise ToolError(
-        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill up to "
-        f"{SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
+        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
+        f"up to {SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
     )
 
 
-def drill_moves(job: Job, drill: Tool, places: list[Point], depth: float, clearance: float) -> tuple[Move, ...]:
+def drill_moves(
+    job: Job, drill: Tool, places: list[Point], depth: float, clearance: float
+) -> tuple[Move, ...]:
     """Drill holes of full diameter to ``depth`` mm below the stock's top."""
     speed = rates(drill, job.part.material, job.settings.machine)
     deep = depth > DEEP * drill.diameter
@@ -104,9 +106,7 @@ def drill_moves(job: Job, drill: Tool, places: list[Point], depth: float, cleara
     return _holes(places, bottom, speed.feed, clearance, None if peck is None else rounded(peck))
 
 
-def spot_moves(
-    job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float
-) -> tuple[Move, ...]:
+def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
     """Spot holes for drills of the diameters given with the places."""
     speed = rates(spot, job.part.material, job.settings.machine)
     moves: list[Move] = []

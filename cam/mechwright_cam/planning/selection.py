@@ -1,6 +1,7 @@
 """Which cutters a part needs, and whether those at hand can make it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import shapely
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
@@ -48,7 +49,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     every = Job(part, settings, library.tools, (0.0, 0.0), _stock(part, settings))
     mills = _mills(every)
     chosen = {mill.name: mill for mill in mills}
-    drills = _drills(every, [job_mill for job_mill in chosen.values()])
+    drills = _drills(every)
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter))
 
 
@@ -123,7 +124,7 @@ def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
     return [] if mill is None else [mill]
 
 
-def _drills(every: Job, mills: list[Tool]) -> list[Tool]:
+def _drills(every: Job) -> list[Tool]:
     """Spot drill and drills for all holes through the plate."""
     drills: dict[str, Tool] = {}
     for feature in every.features:
@@ -138,7 +139,9 @@ def _drills(every: Job, mills: list[Tool]) -> list[Tool]:
         if drill is not None:
             drills[drill.name] = drill
     spots = [
-        tool for tool in every.tools if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
+        tool
+        for tool in every.tools
+        if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
     ]
     first = [max(spots, key=lambda tool: tool.diameter)] if spots and drills else []
     return first + sorted(drills.values(), key=lambda tool: -tool.diameter)
@@ -159,7 +162,7 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     found: list[Finding] = []
     for feature in job.features:
         if isinstance(feature, Bore):
-            _try(found, lambda bore=feature: plan_bore(job, bore))  # type: ignore[misc]
+            _try(found, partial(plan_bore, job, feature))
     _try(found, lambda: inner_zones(job))
     _try(found, lambda: outer_zones(job))
     if not found:
@@ -167,9 +170,9 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     return found + _remarks(job)
 
 
-def _try(found: list[Finding], action: object) -> None:
+def _try(found: list[Finding], action: Callable[[], object]) -> None:
     try:
-        action()  # type: ignore[operator]
+        action()
     except MechwrightError as error:
         found.append(_refusal(error))
 
@@ -196,7 +199,8 @@ def _corners(job: Job) -> list[Finding]:
                     "cam.unreachable",
                     Severity.NOTE,
                     "cam.tools",
-                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} of {job.part.name}",
+                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} "
+                    f"of {job.part.name}",
                     depth,
                     TOLERANCES.leftover,
                     "mm",

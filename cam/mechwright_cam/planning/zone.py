@@ -14,7 +14,7 @@ room
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal
 
 import shapely
@@ -132,8 +132,8 @@ def inner_zones(job: Job) -> list[Zone]:
         keep = opening_keep(shape, 2 * mills[0].diameter)
         if shapely.is_empty(grow(shape, -mills[-1].radius - BIAS, ROUGH)):
             raise ToolError(
-                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest that "
-                f"cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
+                f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
             )
         zones.append(
             Zone(
@@ -167,22 +167,25 @@ def outer_zones(job: Job) -> list[Zone]:
         clear, channel = _channel(job, part, roughers[0])
         finisher = finishing_choice(mills, part)
 
-        def layer(
-            name: str, top: float, bottom: float, clear: shapely.Geometry, tabs: shapely.Geometry | None = None
-        ) -> Zone:
-            return Zone(
-                name, part, clear, top, bottom, mills, finisher, "outside", channel, roughers, tabs  # noqa: B023
-            )
-
+        layer = partial(
+            Zone,
+            wall=part,
+            mills=mills,
+            finisher=finisher,
+            kind="outside",
+            channel=channel,
+            roughers=roughers,
+        )
         top = -feature.top
         if job.tabs:
             height = max(tab.top for tab in job.tabs)
             tabs = shapely.union_all([tab.shape for tab in job.tabs])
-            zones.append(layer(feature.name, top, height, clear))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             name = f"{feature.name} below the tabs"
-            zones.append(layer(name, height, job.floor, clear.difference(tabs), tabs))
+            below = clear.difference(tabs)
+            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
         else:
-            zones.append(layer(feature.name, top, job.floor, clear))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
     return zones
 
 
@@ -223,9 +226,7 @@ def _frame(job: Job, part: shapely.Geometry, width: float) -> shapely.Polygon | 
     return shapely.box(*job.stock).difference(far) if inner.contains(far) else None
 
 
-def _channel(
-    job: Job, part: shapely.Polygon, mill: Tool
-) -> tuple[shapely.Geometry, shapely.Geometry | None]:
+def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
     width = channel_width(job, mill)
     if _frame(job, part, width) is None:
@@ -241,4 +242,13 @@ def bores(job: Job) -> list[Bore]:
     return [feature for feature in job.features if isinstance(feature, Bore)]
 
 
-__all__ = ["Zone", "bores", "bottom_of", "inner_zones", "outer_zones", "polygons", "roughing_mills", "through"]
+__all__ = [
+    "Zone",
+    "bores",
+    "bottom_of",
+    "inner_zones",
+    "outer_zones",
+    "polygons",
+    "roughing_mills",
+    "through",
+]

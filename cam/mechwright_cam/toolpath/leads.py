@@ -68,8 +68,8 @@ def best_start(
         rise = (rho * (1 - np.cos(a)))[None, :, None] * away[:, None, :]
         along = (rho * np.sin(a))[None, :, None] * t[:, None, :]
         ways = ring[index][:, None, None, :] + np.stack((rise - along, rise + along), axis=1)
-        fits = free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1)
-        fits &= clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1)
+        fits = np.asarray(free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1))
+        fits = np.logical_and(fits, clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1))
         if fits.any():
             return int(index[_middle_of_longest(fits)]), rho, sweep
     return None
@@ -97,6 +97,4 @@ def with_leads(path: Path, heading: float, rho: float, sweep: float, climb: bool
     begin = (rounded(x + rise * nx - along * tx), rounded(y + rise * ny - along * ty))
     end = (rounded(x + rise * nx + along * tx), rounded(y + rise * ny + along * ty))
     centre = (x + rho * nx, y + rho * ny)
-    return Path(
-        begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side))
-    )
+    return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))
