@@ -122,9 +122,13 @@ def gouge(job: Job, program: Program) -> float:
             )
             if not lines.size:
                 continue
-            near = lines[shapely.dwithin(keep, lines, tool.radius + 0.01)]
+            radius = tool.radius
+            if tool.kind is ToolKind.SPOT_DRILL:  # its cone is only this wide at the top
+                depth = -min(m.points[:, 2].min() for m in group)
+                radius = min(radius, depth * math.tan(math.radians(tool.point_angle / 2)))
+            near = lines[shapely.dwithin(keep, lines, radius + 0.01)]
             if near.size:
-                worst = max(worst, float((tool.radius - shapely.distance(near, keep)).max()))
+                worst = max(worst, float((radius - shapely.distance(near, keep)).max()))
     return worst
 
 

@@ -38,6 +38,11 @@ def usable_mills(job: Job, depth: float) -> list[Tool]:
     return mills
 
 
+def path_radius(mill: Tool) -> float:
+    """How near to a wall the mill's centre comes: a gap of just its diameter is too narrow for it."""
+    return mill.radius + BIAS
+
+
 def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one."""
     finest = mills[-1]
@@ -45,7 +50,7 @@ def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     low, high = 0, len(mills) - 1
     while low < high:  # what is left only grows with the radius
         middle = (low + high) // 2
-        if leaves_at_most(reference, mills[middle].radius, SAME_REACH):
+        if leaves_at_most(reference, path_radius(mills[middle]), SAME_REACH):
             high = middle
         else:
             low = middle + 1

@@ -202,6 +202,9 @@ class _Planner:
         """Where the allowance kept the mill out of narrow places, rough up to the wall."""
         allowance = self.job.settings.stock_to_leave
         thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
+        if zone.tabs is not None:
+            # The corners at the tabs are as low as the tabs: no load worth a pass.
+            thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))
         if not polygons(opened(thick, SLIVER)):
             return after
         data = mill.cutting[self.job.part.material]

@@ -12,7 +12,7 @@ from mechwright.tooling import CamSettings, Tool, ToolKind
 
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
-from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, usable_mills
+from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
 from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
@@ -105,7 +105,7 @@ def _finest_needed(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     low, high = 0, len(mills)
     while low < high:
         middle = (low + high) // 2
-        if leaves_at_most(keep, mills[middle].radius, SAME_REACH):
+        if leaves_at_most(keep, path_radius(mills[middle]), SAME_REACH):
             high = middle
         else:
             low = middle + 1
