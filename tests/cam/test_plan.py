@@ -11,6 +11,9 @@ from planning_simulation import check_rules, gouge, leftover, motions
 
 TOOLS = ("spot-6", "drill-5", "mill-10", "mill-6")
 GEARED = lobes(9, 18.0, 4.0, 900, 1.5)
+SMALL = {"method": "bore", "clamp_diameter": 12}
+WIDE = {"method": "bore", "clamp_diameter": 60}
+NARROW = rounded_box(9, 5, 2, clockwise=True)
 HELD = {"hold": {"method": "bore", "clamp_diameter": 16}}
 
 
@@ -47,12 +50,12 @@ def heights(program, operation):
         job(plate(rounded_box(24, 14, 4, clockwise=True)), "mill-10", "mill-3", climb=False),
         job(plate(keyed_bore(14, 5, 16.3)), *TOOLS, "mill-2"),
         job(part(GEARED, bore(8)), *TOOLS, "mill-2"),
-        job(part(GEARED, bore(8)), "mill-6", "mill-2", stock_to_leave=0, **{"hold": {"method": "bore", "clamp_diameter": 12}}),
-        job(part(GEARED, bore(8)), "mill-3", hold={"method": "bore", "clamp_diameter": 12}, stock={"margin": 1}),
+        job(part(GEARED, bore(8)), "mill-6", "mill-2", stock_to_leave=0, hold=SMALL),
+        job(part(GEARED, bore(8)), "mill-3", hold=SMALL, stock={"margin": 1}),
         job(plate(bore(3, (10, 5)), bore(3, (-10, 5)), bore(20, (0, -4))), "drill-2.5", *TOOLS, "mill-2"),
     ],
     ids=lambda of: f"{len(of.part.outline.inner)}-{'-'.join(t.name for t in of.end_mills)}",
-)  # fmt: skip
+)
 def test_programs_cut_all_and_nothing_else(of):
     proven(of)
 
@@ -119,7 +122,7 @@ def test_pocket_and_step():
         ({"stock": {"margin": 30}}, lambda p: p.notes),
         ({"stock": {"length": 110, "width": 90}}, lambda p: p.notes),
     ],
-)  # fmt: skip
+)
 def test_every_setting_changes_the_program(change, seen):
     of = plate(bore(12))
     assert seen(plan(job(of, *TOOLS))) != seen(plan(job(of, *TOOLS, **change)))
@@ -180,14 +183,18 @@ def test_a_mill_that_may_not_plunge_does_not():
         (lambda: plan(job(plate(thickness=60), *TOOLS)), ToolError, "cam.tools: no end mill .* flute length"),
         (lambda: plan(job(plate(), "spot-6", "drill-5")), ToolError, "needs an end mill"),
         (lambda: plan(job(plate(bore(3)), "mill-6")), ToolError, "nothing makes bore-1 of 3 mm"),
-        (lambda: plan(job(plate(rounded_box(9, 5, 2, clockwise=True)), "mill-6")), ToolError, "no listed end mill enters opening-1"),
-        (lambda: plan(job(plate(), "mill-6", stock={"margin": 3})), DesignError, "cam.stock: a margin of 3.00 mm"),
-        (lambda: plan(job(plate(bore(12)), "mill-6", hold={"method": "bore", "clamp_diameter": 60})), DesignError, "cam.hold.clamp_diameter"),
+        (lambda: plan(job(plate(NARROW), "mill-6")), ToolError, "no listed end mill enters opening-1"),
+        (
+            lambda: plan(job(plate(), "mill-6", stock={"margin": 3})),
+            DesignError,
+            "cam.stock: a margin of 3.00 mm",
+        ),
+        (lambda: plan(job(plate(bore(12)), "mill-6", hold=WIDE)), DesignError, "cam.hold.clamp_diameter"),
         (lambda: job(plate(), "mill-6", hold={"method": "bore"}), DesignError, "cam.hold.method"),
         (lambda: job(plate(), "mill-6", stock={"length": 50, "width": 50}), DesignError, "cam.stock"),
         (lambda: job(plate(), "mill-6", hold={"tab_height": 6}), DesignError, "cam.hold.tab_height"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_cut_is_one_clear_line(make, error, message):
     with pytest.raises(error, match=message) as caught:
         make()
