@@ -105,6 +105,8 @@ class Job:
     @cached_property
     def features(self) -> tuple[Feature, ...]:
         """The part's features in work coordinates."""
+        if self.origin == (0.0, 0.0):
+            return self.part.features
         x, y = -self.origin[0], -self.origin[1]
         moved: list[Feature] = []
         for feature in self.part.features:

@@ -56,7 +56,7 @@ class Library:
         )
 
     def extended(self, tools: tuple[Tool, ...]) -> "Library":
-        """This library with more cutters; one of a known name replaces the known one."""
+        """The library with more cutters; one of a known name replaces the known one."""
         merged = {tool.name: tool for tool in self.tools} | {tool.name: tool for tool in tools}
         return Library(tuple(merged.values()))
 
@@ -83,7 +83,9 @@ def read_tools(path: Path) -> tuple[Tool, ...]:
     data, _ = read_toml(path)
     rows = data.pop("tool", None)
     if data:
-        raise DesignError(f"{path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables")
+        raise DesignError(
+            f"tool library {path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables"
+        )
     if not isinstance(rows, list) or not rows:
         raise DesignError(f"{path} holds no tool; add a [[tool]] table")
     tools: dict[str, Tool] = {}

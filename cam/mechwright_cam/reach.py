@@ -10,12 +10,16 @@ remainder
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
 
 from mechwright.geometry.segments import Point
+from mechwright.motion import Array
 from mechwright.part import Bore, Profile
+from numpy.typing import NDArray
+
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 
@@ -44,7 +48,7 @@ def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     return grow(grow(keep, radius, PRECISION), -radius, PRECISION)
 
 
-def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[np.ndarray, np.ndarray]:  # type: ignore[type-arg]
+def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[Array, Array]:
     """Wall points (n, 2), mm, and the thickness (n,) that a cutter of ``radius`` leaves on each.
 
     Thickness is the distance from the wall point to the nearest place that the cutter touches.
@@ -63,8 +67,8 @@ def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[np.ndarray,
     return walls, depths
 
 
-def _edges(lines: shapely.Geometry) -> np.ndarray:  # type: ignore[type-arg]
-    edges = []
+def _edges(lines: shapely.Geometry) -> NDArray[Any]:
+    edges: list[NDArray[Any]] = []
     for part in shapely.get_parts(lines):
         points = shapely.get_coordinates(part)
         edges.append(shapely.linestrings(np.stack((points[:-1], points[1:]), axis=1)))

@@ -3,6 +3,7 @@
 It knows nothing of how paths are made: it samples every move and measures distances to the finished part.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -32,7 +33,8 @@ def motions(program: Program, step: float = 0.1) -> list[Motion]:
         if isinstance(first, Pause):
             first = section.operations[0].moves[1]
         assert isinstance(first, Rapid), "a section starts with a rapid"
-        assert first.x is not None and first.y is not None
+        assert first.x is not None
+        assert first.y is not None
         assert first.z is None
         x, y, z = first.x, first.y, program.clearance
         for operation in section.operations:
@@ -110,7 +112,7 @@ def gouge(job: Job, program: Program) -> float:
         {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
         reverse=True,
     )
-    for top, bottom in zip(heights, heights[1:], strict=False):
+    for top, bottom in itertools.pairwise(heights):
         keep = keep_at(job, (top + bottom) / 2)
         shapely.prepare(keep)
         for number in {motion.tool.number for motion in found}:
@@ -121,9 +123,13 @@ def gouge(job: Job, program: Program) -> float:
             )
             if not lines.size:
                 continue
-            near = lines[shapely.dwithin(keep, lines, tool.radius + 0.01)]
+            radius = tool.radius
+            if tool.kind is ToolKind.SPOT_DRILL:  # its cone is only this wide at the top
+                depth = -min(m.points[:, 2].min() for m in group)
+                radius = min(radius, depth * math.tan(math.radians(tool.point_angle / 2)))
+            near = lines[shapely.dwithin(keep, lines, radius + 0.01)]
             if near.size:
-                worst = max(worst, float((tool.radius - shapely.distance(near, keep)).max()))
+                worst = max(worst, float((radius - shapely.distance(near, keep)).max()))
     return worst
 
 
@@ -134,18 +140,19 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
     if not mills:
         return 0.0
     finest = min(tool.radius for tool in mills.values())
+    widest = max(tool.diameter for tool in mills.values())
     area = 0.0
     heights = sorted(
         {0.0, -job.thickness, *(tab.top for tab in job.tabs)} | {-(f.top + f.depth) for f in job.features},
         reverse=True,
     )
-    for top, bottom in zip(heights, heights[1:], strict=False):
+    for top, bottom in itertools.pairwise(heights):
         keep = keep_at(job, (top + bottom) / 2)
         left = keep.buffer(finest + 0.003, quad_segs=96).buffer(-finest - 0.003, quad_segs=96)
         band = job.target.buffer(2 * finest, quad_segs=64).intersection(shapely.box(*job.stock))
         todo = band.difference(left)
-        # The sides of tabs are no walls of the part.
-        low = [tab.shape.buffer(2.1 * finest) for tab in job.tabs if tab.top > bottom + 1e-6]
+        # What stays beside a tab goes with the tab.
+        low = [tab.shape.buffer(widest) for tab in job.tabs if tab.top > bottom + 1e-6]
         todo = todo.difference(shapely.union_all(low)) if low else todo
         for tool in {m.tool.number: m.tool for m in found}.values():
             lines = []
@@ -170,56 +177,49 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
 def check_rules(job: Job, program: Program) -> None:
     """Rapids, ramps, plunges and cutting depth."""
     stock = shapely.box(*job.stock)
-    shapely.prepare(stock)
     slope = math.tan(math.radians(job.settings.ramp_angle))
-    done: list[Motion] = []
-    plunges = 0
     every = motions(program)
-    fastest = {m.tool.number: max(n.feed for n in every if n.tool is m.tool) for m in every}
+    fastest: dict[int, float] = {}
     for motion in every:
+        fastest[motion.tool.number] = max(fastest.get(motion.tool.number, 0.0), motion.feed)
+    low = np.array([m.points.min(axis=0) for m in every])
+    high = np.array([m.points.max(axis=0) for m in every])
+    plunges = []
+    for number, motion in enumerate(every):
         start, end = motion.points[0], motion.points[-1]
-        moved = not np.array_equal(
-            motion.points[:, :2], np.repeat(start[None, :2], len(motion.points), axis=0)
-        )
+        moved = bool((high[number, :2] > low[number, :2]).any())
         if motion.kind == "rapid":
             assert not moved or start[2] >= program.clearance, "a rapid in XY below clearance"
             assert not moved or end[2] == start[2]
             assert end[2] > start[2] or moved or end[2] > 0, "a rapid down into the stock"
         elif motion.kind in {"feed", "arc"}:
             assert motion.feed > 0
-            assert end[2] >= job.floor - 1e-6
-            way = np.hypot(*np.diff(motion.points[:, :2], axis=0).T).sum()
-            if way > 0:
-                assert (start[2] - end[2]) <= slope * way * 1.0005 + 1.1e-4, "a ramp is too steep"
-            elif (
-                end[2] < start[2]
-                and end[2] < 0
-                and motion.tool.kind is ToolKind.END_MILL
-                and not (motion.tool.centre_cutting and motion.feed <= 0.31 * fastest[motion.tool.number])
-            ):
-                plunges += 1
-                # Plenty of the same kind: every fifth is enough of a sample.
-                if plunges % 5 == 1:
-                    _check_plunge(motion, done, stock)
-            done.append(motion)
-        else:
-            done.append(motion)
+            assert end[2] >= job.floor - 6e-5
+            if moved:
+                way = np.hypot(*np.diff(motion.points[:, :2], axis=0).T).sum()
+                assert start[2] - end[2] <= slope * way * 1.0005 + 1.1e-4, "a ramp is too steep"
+            elif end[2] < min(start[2], 0):
+                planned = motion.tool.centre_cutting and motion.feed <= 0.31 * fastest[motion.tool.number]
+                if not planned:
+                    plunges.append(number)
+    for number in plunges[:: 1 + len(plunges) // 60]:  # a sample is enough
+        _check_plunge(every, number, low, high, stock)
 
 
-def _check_plunge(motion: Motion, done: list[Motion], stock: shapely.Geometry) -> None:
+def _check_plunge(every, number, low, high, stock) -> None:
+    motion = every[number]
     x, y, z = motion.points[-1]
     disc = shapely.Point(x, y).buffer(motion.tool.radius - 0.03).intersection(stock)
     swept = []
-    for old in done:
-        if np.hypot(old.points[:, 0] - x, old.points[:, 1] - y).min() > 200:
-            continue
-        deep = old.points[:, 2] <= z + 2e-4
-        if deep.all():
-            line = shapely.LineString(old.points[:, :2])
-            if line.distance(disc) < old.tool.radius:
-                swept.append(line.buffer(old.tool.radius + 0.005))
-        elif old.kind == "drill" and old.points[1, 2] <= z:
+    reach = motion.tool.radius + np.array([m.tool.radius for m in every[:number]])
+    near = (low[:number, :2] <= np.array((x, y)) + reach[:, None]).all(axis=1)
+    near &= (high[:number, :2] >= np.array((x, y)) - reach[:, None]).all(axis=1)
+    for i in np.flatnonzero(near & (low[:number, 2] <= z + 2e-4)).tolist():
+        old = every[i]
+        if old.kind == "drill":
             swept.append(shapely.Point(old.points[1, :2]).buffer(old.tool.radius))
+        elif high[i, 2] <= z + 2e-4:
+            swept.append(shapely.LineString(old.points[:, :2]).buffer(old.tool.radius + 0.005))
     rest = disc.difference(shapely.union_all(swept))
     assert rest.area < 0.03 * disc.area + 1e-6, (
         f"{motion.operation}: plunge into {rest.area:.3f} mm² of stock at {x:.3f} {y:.3f} {z:.3f}"

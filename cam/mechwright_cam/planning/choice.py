@@ -12,8 +12,8 @@ from mechwright_cam.reach import closing, leaves_at_most
 from mechwright_cam.toolpath.offsets import BIAS
 
 SAME_REACH = TOLERANCES.leftover - BIAS - TOLERANCES.arc_fit - TOLERANCES.flatten
-"""A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what remains
-of the permitted leftover when path and outline have used their tolerances."""
+"""A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what is
+left of the permitted leftover when path and outline have used their tolerances."""
 
 
 def long_enough(tool: Tool, depth: float) -> bool:
@@ -22,7 +22,7 @@ def long_enough(tool: Tool, depth: float) -> bool:
 
 
 def usable_mills(job: Job, depth: float) -> list[Tool]:
-    """End mills of the job that can cut its material to ``depth``, largest first; raises ToolError if none."""
+    """End mills that cut the job's material to ``depth``, largest first; raises ToolError if none."""
     material = job.part.material
     knows = [tool for tool in job.end_mills if material in tool.cutting]
     if not knows:
@@ -38,14 +38,19 @@ def usable_mills(job: Job, depth: float) -> list[Tool]:
     return mills
 
 
+def path_radius(mill: Tool) -> float:
+    """How near to a wall the mill's centre comes: a gap of just its diameter is too narrow for it."""
+    return mill.radius + BIAS
+
+
 def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
-    """The largest mill that leaves on the walls of ``keep`` no more than the finest one, largest mill first."""
+    """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one."""
     finest = mills[-1]
     reference = closing(keep, finest.radius)
     low, high = 0, len(mills) - 1
     while low < high:  # what is left only grows with the radius
         middle = (low + high) // 2
-        if leaves_at_most(reference, mills[middle].radius, SAME_REACH):
+        if leaves_at_most(reference, path_radius(mills[middle]), SAME_REACH):
             high = middle
         else:
             low = middle + 1

@@ -1,7 +1,7 @@
 """Roughing: remove what is left in front of a wall, ring by ring from the far side to the wall.
 
-Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because the
-way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
+Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because
+the way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
 """
 
 import math
@@ -64,7 +64,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Cavity:
-    """Connected stock and the runs that remove it, in cutting order; ``back``: the last leads to the first."""
+    """Runs that remove connected stock, in cutting order; ``back``: the last leads to the first."""
 
     runs: tuple[Run, ...]
     back: bool
@@ -175,7 +175,8 @@ class Roughing:
     def _pieces(self) -> list[Piece]:
         radius = self.tool.radius
         shapely.prepare(self.room)
-        blocked, take, found = self.blocked, self.take, []
+        found: list[Piece] = []
+        blocked, take = self.blocked, self.take
         near = grow(take, radius + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
@@ -204,7 +205,7 @@ class Roughing:
             order += 1
 
     def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Array]:
-        """Far rings first; among those of one order the nearest next; closed rings entered where it is best."""
+        """Far rings first, among those of one order the nearest; closed rings entered where it is best."""
         runs: list[Array] = []
         here: Array | None = None
         waiting = sorted(group, key=lambda piece: -piece.order)

@@ -22,7 +22,7 @@ left of BIAS and rounding still keeps them off it."""
 
 
 class Finishing:
-    """The finishing of one zone by its finishing mill, when ``left`` holds only what roughing left on walls."""
+    """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
 
     def __init__(self, zone: Zone, settings: CamSettings) -> None:
         self.zone, self.settings, self.tool = zone, settings, zone.finisher

@@ -90,8 +90,8 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
         if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
             return BorePlan(bore, drill, None)
     raise ToolError(
-        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill up to "
-        f"{SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
+        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
+        f"up to {SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
     )
 
 

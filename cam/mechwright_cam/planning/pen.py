@@ -116,8 +116,8 @@ class Pen:
         if path.length < TINY * self.tool.diameter:
             if not self.tool.centre_cutting:
                 raise ToolError(
-                    f"cam.tools: {self.tool.name} is not centre-cutting and finds only {path.length:.2f} mm to "
-                    f"ramp in near X{path.start[0]:.1f} Y{path.start[1]:.1f}; list a centre-cutting or a "
+                    f"cam.tools: {self.tool.name} is not centre-cutting and finds only {path.length:.2f} mm "
+                    f"to ramp in near X{path.start[0]:.1f} Y{path.start[1]:.1f}; list a centre-cutting or a "
                     "smaller end mill"
                 )
             self.sink(z, self.rates.plunge)

@@ -33,7 +33,7 @@ from mechwright_cam.planning.zone import HEAVY, Zone, inner_zones, outer_zones
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
 WORTH_A_TOOL = 0.25
-"""An intermediate roughing mill is used if it takes this share of what is left: less does not pay a change."""
+"""An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""
 CLAMP_GAP = 1.0
 """Least distance of the cutter from the clamp, mm."""
 
@@ -75,8 +75,8 @@ class _Planner:
             sections = self._sections(inner) if inner else []
             if not sections:
                 raise DesignError(
-                    f"cam.hold.method: part {job.part.name} has no opening to clamp through before its outside "
-                    'is cut; use method = "tabs"'
+                    f"cam.hold.method: part {job.part.name} has no opening to clamp through before its "
+                    'outside is cut; use method = "tabs"'
                 )
             sections[-1] = _with_operation(sections[-1], Operation("clamp", (Pause(self._clamp_message()),)))
             sections += self._sections(outer)
@@ -130,7 +130,7 @@ class _Planner:
         return starting_drill(self.job, 2 * radius, -zone.bottom), place
 
     def _opening_mills(self, zone: Zone) -> list[Tool]:
-        """Mills that may rough an opening: those with room for chips, but never only larger than the finisher."""
+        """Mills that may rough an opening: those with room for chips, else the finishing mill."""
         _, radius = entry_place(polygons(zone.clear)[0])
         fit = [mill for mill in zone.mills if mill.diameter <= ROOMY * 2 * radius]
         return fit or [zone.finisher]
@@ -177,7 +177,7 @@ class _Planner:
         for zone in zones:
             after = self._rough(self._roughing(zone, finest, settings.stock_to_leave), after)
             after = self._rough_heavy(zone, finest, after)
-            # A layer is finished before the one below is cut to the wall, so that nothing is sunk beside stock.
+            # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             finishing = Finishing(zone, settings)
             after = self._milled(f"{zone.name}: finish", zone.finisher, after, finishing.write)
         if not after:
@@ -202,6 +202,9 @@ class _Planner:
         """Where the allowance kept the mill out of narrow places, rough up to the wall."""
         allowance = self.job.settings.stock_to_leave
         thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
+        if zone.tabs is not None:
+            # The corners at the tabs are as low as the tabs: no load worth a pass.
+            thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))
         if not polygons(opened(thick, SLIVER)):
             return after
         data = mill.cutting[self.job.part.material]
@@ -249,16 +252,16 @@ class _Planner:
         limit = 2 * (float(reach) - CLAMP_GAP)
         if job.clamp.diameter > limit:
             raise DesignError(
-                f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} mm of "
-                f"the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or hold by tabs"
+                f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
+                f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
             )
 
     def _clamp_message(self) -> str:
         clamp = self.job.clamp
         assert clamp is not None  # noqa: S101 - asked only where there is one
         return (
-            f"clamp the part at X{clamp.centre[0]:.3f} Y{clamp.centre[1]:.3f}: up to {clamp.diameter:g} mm wide "
-            f"and {clamp.top:g} mm high"
+            f"clamp the part at X{clamp.centre[0]:.3f} Y{clamp.centre[1]:.3f}: up to {clamp.diameter:g} mm "
+            f"wide and {clamp.top:g} mm high"
         )
 
     def _notes(self) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """Which cutters a part needs, and whether those at hand can make it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import shapely
 
@@ -11,7 +12,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
-from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, usable_mills
+from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
 from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
@@ -48,7 +49,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     every = Job(part, settings, library.tools, (0.0, 0.0), _stock(part, settings))
     mills = _mills(every)
     chosen = {mill.name: mill for mill in mills}
-    drills = _drills(every, [job_mill for job_mill in chosen.values()])
+    drills = _drills(every)
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter))
 
 
@@ -104,7 +105,7 @@ def _finest_needed(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     low, high = 0, len(mills)
     while low < high:
         middle = (low + high) // 2
-        if leaves_at_most(keep, mills[middle].radius, SAME_REACH):
+        if leaves_at_most(keep, path_radius(mills[middle]), SAME_REACH):
             high = middle
         else:
             low = middle + 1
@@ -123,7 +124,7 @@ def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
     return [] if mill is None else [mill]
 
 
-def _drills(every: Job, mills: list[Tool]) -> list[Tool]:
+def _drills(every: Job) -> list[Tool]:
     """Spot drill and drills for all holes through the plate."""
     drills: dict[str, Tool] = {}
     for feature in every.features:
@@ -161,7 +162,7 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     found: list[Finding] = []
     for feature in job.features:
         if isinstance(feature, Bore):
-            _try(found, lambda bore=feature: plan_bore(job, bore))  # type: ignore[misc]
+            _try(found, partial(plan_bore, job, feature))
     _try(found, lambda: inner_zones(job))
     _try(found, lambda: outer_zones(job))
     if not found:
@@ -169,9 +170,9 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     return found + _remarks(job)
 
 
-def _try(found: list[Finding], action: object) -> None:
+def _try(found: list[Finding], action: Callable[[], object]) -> None:
     try:
-        action()  # type: ignore[operator]
+        action()
     except MechwrightError as error:
         found.append(_refusal(error))
 
@@ -198,7 +199,8 @@ def _corners(job: Job) -> list[Finding]:
                     "cam.unreachable",
                     Severity.NOTE,
                     "cam.tools",
-                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} of {job.part.name}",
+                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} "
+                    f"of {job.part.name}",
                     depth,
                     TOLERANCES.leftover,
                     "mm",

@@ -14,7 +14,7 @@ room
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal
 
 import shapely
@@ -26,6 +26,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import finishing_choice, usable_mills
 from mechwright_cam.reach import opening_keep
 from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons
+from mechwright_cam.toolpath.path import DECIMALS
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
@@ -132,8 +133,8 @@ def inner_zones(job: Job) -> list[Zone]:
         keep = opening_keep(shape, 2 * mills[0].diameter)
         if shapely.is_empty(grow(shape, -mills[-1].radius - BIAS, ROUGH)):
             raise ToolError(
-                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest that "
-                f"cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
+                f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
             )
         zones.append(
             Zone(
@@ -167,36 +168,26 @@ def outer_zones(job: Job) -> list[Zone]:
         clear, channel = _channel(job, part, roughers[0])
         finisher = finishing_choice(mills, part)
 
-        def layer(
-            name: str,
-            top: float,
-            bottom: float,
-            clear: shapely.Geometry,
-            tabs: shapely.Geometry | None = None,
-        ) -> Zone:
-            return Zone(
-                name,
-                part,
-                clear,
-                top,
-                bottom,
-                mills,
-                finisher,
-                "outside",
-                channel,
-                roughers,
-                tabs,
-            )
-
+        layer = partial(
+            Zone,
+            wall=part,
+            mills=mills,
+            finisher=finisher,
+            kind="outside",
+            channel=channel,
+            roughers=roughers,
+        )
         top = -feature.top
         if job.tabs:
-            height = max(tab.top for tab in job.tabs)
+            # Rounded upwards: a decimal too low would already cut the tabs.
+            height = math.ceil(max(tab.top for tab in job.tabs) * 10**DECIMALS - 1e-6) / 10**DECIMALS
             tabs = shapely.union_all([tab.shape for tab in job.tabs])
-            zones.append(layer(feature.name, top, height, clear))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             name = f"{feature.name} below the tabs"
-            zones.append(layer(name, height, job.floor, clear.difference(tabs), tabs))
+            below = clear.difference(tabs)
+            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
         else:
-            zones.append(layer(feature.name, top, job.floor, clear))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
     return zones
 
 
@@ -208,7 +199,7 @@ def roughing_mills(
     Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
     error if no mill leaves one.
     """
-    fit = [mill for mill in mills if _frame(job, part, channel_width(job, mill)) is not None]
+    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill))]
     if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
     x0, y0, x1, y1 = part.bounds
@@ -229,18 +220,22 @@ def channel_width(job: Job, mill: Tool) -> float:
     return mill.diameter + job.settings.stock_to_leave
 
 
-def _frame(job: Job, part: shapely.Geometry, width: float) -> shapely.Polygon | None:
-    """What stays of the stock around the channel, if it is one ring at least FRAME wide."""
-    x0, y0, x1, y1 = job.stock
-    inner = shapely.box(x0 + FRAME, y0 + FRAME, x1 - FRAME, y1 - FRAME)
-    far = shapely.buffer(shapely.Polygon(part.exterior).simplify(ROUGH), width, quad_segs=16)
-    return shapely.box(*job.stock).difference(far) if inner.contains(far) else None
+def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
+    """Whether the stock around a channel of this width is one ring at least FRAME wide."""
+    x0, y0, x1, y1 = part.bounds
+    far = width + FRAME
+    return bool(
+        x0 - far >= job.stock[0]
+        and y0 - far >= job.stock[1]
+        and x1 + far <= job.stock[2]
+        and y1 + far <= job.stock[3]
+    )
 
 
 def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
     width = channel_width(job, mill)
-    if _frame(job, part, width) is None:
+    if not _has_frame(job, part, width):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
         return shapely.box(*job.stock).difference(part), None
     # Whatever the channel encloses would come loose, so it goes as well.

@@ -1,12 +1,13 @@
 """Fit a polyline with lines and arcs.
 
-Every vertex looks for the farthest vertex that one line or one arc can reach within the tolerance. All of them
-look at once, by bisection, with a few samples per trial; then the chain of longest reaches is followed from the
-start, and only the arcs that it uses are tested against every vertex. The arc through both ends of a run has
+Every vertex looks for the farthest vertex that one line or one arc can reach within the tolerance. All of
+them look at once, by bisection, with a few samples per trial; then the chain of longest reaches is followed
+from the start, and only the arcs that it uses are tested everywhere. The arc through both ends of a run has
 one free number, the height k of its centre over the chord; with u along and v across the chord of half length
 h, the circle is u² + v² - 2kv = h², so the least-squares k is Σ v(u² + v² - h²) / (2 Σ v²).
 """
 
+import itertools
 import math
 from collections.abc import Sequence
 
@@ -17,7 +18,7 @@ from mechwright.motion import Array
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 
 CORNER = 0.5
-"""A turn of more than this at one vertex, rad, is a corner of the path. Offset arcs turn by less, see CHORD."""
+"""A turn of more than this at one vertex, rad, is a corner of the path; offset arcs turn by less."""
 LONGEST_TURN = 3.0
 """An arc turns by less than half a circle, rad: then both its ends and its side fix it."""
 LONGEST_RUN = 250
@@ -59,16 +60,22 @@ def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
     bounds = np.cumsum([0, *(len(part) for part in parts)])
     ends = np.zeros(len(points), dtype=bool)
     ends[bounds[:-1]] = ends[bounds[1:] - 1] = True
-    nodes = _verified(points, _chain(_reach(points, ends, tolerance)), tolerance)
+    nodes, across, height = _verified(points, _chain(_reach(points, ends, tolerance)), tolerance)
     at = np.searchsorted(nodes, bounds)
     return [
-        _assemble(points, nodes[first:last], tolerance) for first, last in zip(at[:-1], at[1:], strict=True)
+        _assemble(
+            points[nodes[first:last]],
+            (across[first : last - 1] <= tolerance).tolist(),
+            height[first : last - 1].tolist(),
+        )
+        for first, last in itertools.pairwise(at)
     ]
 
 
 def _distinct(points: Array) -> Array:
     step = np.diff(points, axis=0)
-    return points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]
+    distinct: Array = points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]
+    return distinct
 
 
 def _chain(reach: Index) -> Index:
@@ -80,14 +87,24 @@ def _chain(reach: Index) -> Index:
     return np.array(nodes, dtype=np.intp)
 
 
-def _verified(points: Array, nodes: Index, tolerance: float) -> Index:
-    """Halve the runs that do not stay within the tolerance at every vertex and middle of an edge."""
+def _verified(points: Array, nodes: Index, tolerance: float) -> tuple[Index, Array, Array]:
+    """Halve the runs that do not stay within the tolerance at every vertex and middle of an edge.
+
+    Gives the nodes, and for each run its largest distance from a line and the height of its arc's centre.
+    """
     while True:
         first, last = nodes[:-1], nodes[1:]
-        wide = np.flatnonzero(last - first > 1)
-        bad = wide[~_fits(points, first[wide], last[wide], tolerance, every=True)]
+        # Vertices and middles of edges, by their position in half edges; the last one fills the row up.
+        count = 2 * int((last - first).max(initial=1)) - 1
+        offset = np.arange(1, count + 1)
+        most = 2 * (last - first)[:, None] - 1
+        here = 2 * first[:, None] + np.minimum(offset, most)
+        inner = (points[here // 2] + points[(here + 1) // 2]) / 2
+        across, deviation, height = _deviations(points[first], points[last], inner, offset <= most)
+        across = np.where(last - first > 1, across, 0.0)
+        bad = np.flatnonzero((across > tolerance) & (deviation > tolerance))
         if not bad.size:
-            return nodes
+            return nodes, across, height
         nodes = np.sort(np.concatenate((nodes, (first[bad] + last[bad]) // 2)))
 
 
@@ -107,6 +124,7 @@ def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float) -> Index:
     limit = np.searchsorted(total[:-1], total + LONGEST_TURN, side="left")
     # An edge whose ends turn so much that an arc over it would stand off from it is a line of the drawing.
     bend = np.concatenate(([0.0], np.abs(turn), [0.0]))
+    bend[ends] = 0.0
     straight = step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance
     corner = np.concatenate(([False], np.abs(turn) > CORNER, [True]))
     corner[:-1] |= straight
@@ -129,28 +147,19 @@ def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float) -> Index:
     return low
 
 
-def _fits(
-    points: Array, first: Index, last: Index, tolerance: float, every: bool = False
-) -> NDArray[np.bool_]:
+def _fits(points: Array, first: Index, last: Index, tolerance: float) -> NDArray[np.bool_]:
     """Whether a line or an arc from ``first`` to ``last`` (k,) stays within the tolerance at its samples."""
-    if not first.size:
-        return np.zeros(0, dtype=bool)
-    if every:
-        # Vertices and middles of edges, by their position in half edges.
-        count = 2 * int((last - first).max()) - 1
-        offset = np.minimum(np.arange(1, count + 1), 2 * (last - first)[:, None] - 1)
-        here = 2 * first[:, None] + offset
-        inner = (points[here // 2] + points[(here + 1) // 2]) / 2
-    else:
-        fraction = np.linspace(0, 1, SAMPLES + 2)[1:-1]
-        inner = points[first[:, None] + np.rint((last - first)[:, None] * fraction).astype(np.intp)]
-    across, deviation = _deviations(points[first], points[last], inner)
+    fraction = np.linspace(0, 1, SAMPLES + 2)[1:-1]
+    inner = points[first[:, None] + np.rint((last - first)[:, None] * fraction).astype(np.intp)]
+    across, deviation, _ = _deviations(points[first], points[last], inner)
     good: NDArray[np.bool_] = (across <= tolerance) | (deviation <= tolerance)
     return good | (last - first <= 1)
 
 
-def _deviations(start: Array, end: Array, inner: Array) -> tuple[Array, Array]:
-    """Largest distance of ``inner`` (k, m, 2) from the lines, and from the best arcs, between the ends (k, 2)."""
+def _deviations(
+    start: Array, end: Array, inner: Array, weight: NDArray[np.bool_] | float = 1.0
+) -> tuple[Array, Array, Array]:
+    """Largest distance of ``inner`` (k, m, 2) from the lines and from the best arcs, and their heights."""
     half = (end - start) / 2
     h = np.hypot(half[:, 0], half[:, 1])
     h_safe = np.where(h > 0, h, 1.0)
@@ -159,41 +168,30 @@ def _deviations(start: Array, end: Array, inner: Array) -> tuple[Array, Array]:
     u = rel[..., 0] * along[:, None, 0] + rel[..., 1] * along[:, None, 1]
     v = rel[..., 1] * along[:, None, 0] - rel[..., 0] * along[:, None, 1]
     across = np.abs(v).max(axis=1)
-    square = (v * v).sum(axis=1)
+    square = (weight * v * v).sum(axis=1)
     power = u * u + v * v - (h * h)[:, None]
-    k = (v * power).sum(axis=1) / np.where(square > 0, 2 * square, 1.0)
+    k = (weight * v * power).sum(axis=1) / np.where(square > 0, 2 * square, 1.0)
     radius = np.hypot(h, k)
     deviation = np.abs(np.hypot(u, v - k[:, None]) - radius[:, None]).max(axis=1)
     bad = (square <= 0) | (radius > GREATEST_RADIUS) | (h <= 0) | ~np.isfinite(deviation)
-    # A vertex beyond the ends of the chord by more than a half circle allows is no single arc.
-    return np.where(h > 0, across, np.inf), np.where(bad, np.inf, deviation)
+    return np.where(h > 0, across, np.inf), np.where(bad, np.inf, deviation), k
 
 
-def _assemble(points: Array, nodes: Index, tolerance: float) -> Path:
-    """The path through the chosen vertices; a run that a line fits is a line."""
-    ends = [(rounded(float(x)), rounded(float(y))) for x, y in points[nodes]]
+def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:
+    """The path through the chosen vertices."""
+    ends = [(rounded(x), rounded(y)) for x, y in points.tolist()]
     cuts: list[Cut] = []
     here = ends[0]
-    for a, b, end in zip(nodes[:-1].tolist(), nodes[1:].tolist(), ends[1:], strict=True):
+    for is_line, k, end in zip(straight, height, ends[1:], strict=True):
         if end == here:
             continue
-        cuts.append(_cut(points[a : b + 1], here, end, tolerance))
+        if is_line:
+            cuts.append(line(here, end))
+        else:
+            dx, dy = end[0] - here[0], end[1] - here[1]
+            chord = math.hypot(dx, dy)
+            centre = ((here[0] + end[0]) / 2 - k * dy / chord, (here[1] + end[1]) / 2 + k * dx / chord)
+            # Less than half a circle: with the centre on the left it turns to the left.
+            cuts.append(arc(here, end, centre, 1 if k > 0 else -1))
         here = end
     return Path(ends[0], tuple(cuts))
-
-
-def _cut(run: Array, start: tuple[float, float], end: tuple[float, float], tolerance: float) -> Cut:
-    if len(run) <= 2:
-        return line(start, end)
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    h = math.hypot(dx, dy) / 2
-    ux, uy = dx / (2 * h), dy / (2 * h)
-    rel = run[1:-1] - ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    u = rel @ (ux, uy)
-    v = rel @ (-uy, ux)
-    if np.abs(v).max() <= tolerance:
-        return line(start, end)
-    k = float(v @ (u * u + v * v - h * h) / (2 * (v @ v)))
-    centre = ((start[0] + end[0]) / 2 - k * uy, (start[1] + end[1]) / 2 + k * ux)
-    # The arc bulges to the side on which the vertices lie: a bulge to the left of the chord is clockwise.
-    return arc(start, end, centre, -1 if v.sum() > 0 else 1)

@@ -68,8 +68,8 @@ def best_start(
         rise = (rho * (1 - np.cos(a)))[None, :, None] * away[:, None, :]
         along = (rho * np.sin(a))[None, :, None] * t[:, None, :]
         ways = ring[index][:, None, None, :] + np.stack((rise - along, rise + along), axis=1)
-        fits = free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1)
-        fits &= clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1)
+        fits = np.asarray(free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1))
+        fits = np.logical_and(fits, clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1))
         if fits.any():
             return int(index[_middle_of_longest(fits)]), rho, sweep
     return None

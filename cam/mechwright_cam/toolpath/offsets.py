@@ -3,8 +3,8 @@
 Glossary
 --------
 ring
-    A closed polyline (n + 1, 2) on which the cutter's centre keeps a constant distance from a wall, first point
-    repeated. Its direction is that of climb milling: the wall on the right.
+    A closed polyline (n + 1, 2) on which the cutter's centre keeps a constant distance from a wall, first
+    point repeated. Its direction is that of climb milling: the wall on the right.
 piece
     A run of a ring, open or the whole of it.
 """
@@ -22,7 +22,7 @@ from mechwright.tolerances import TOLERANCES
 CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
 FIT = TOLERANCES.arc_fit - 2 * CHORD
-"""What is left of the arc-fit tolerance for the fit itself, after the chords of the offset and their thinning."""
+"""What is left of the arc-fit tolerance for the fit, after the chords of the offset and their thinning."""
 BIAS = TOLERANCES.arc_fit + TOLERANCES.flatten
 """Finishing keeps off the wall by all that path and outline can be wrong, mm, so that it never gouges."""
 ROUGH = 0.005
@@ -74,11 +74,13 @@ def rings(shape: shapely.Geometry, climb: bool, tolerance: float = CHORD) -> lis
 
 def densified(ring: Array, step: float) -> Array:
     """The ring with edges of at most ``step``."""
-    return shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
+    dense: Array = shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
+    return dense
+
 
 
 HALVINGS = 12
-"""Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough for the far side."""
+"""Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,102 @@
+import re
+
+import pytest
+from mechwright.errors import DesignError, ToolError
+from mechwright.materials import MATERIALS
+from mechwright.tooling import ToolKind
+from mechwright_cam.library import built_in, load_library
+
+TOOL = """
+[[tool]]
+name = "{name}"
+number = {number}
+kind = "end-mill"
+diameter = {diameter}
+flute_length = 12
+[tool.cutting.steel]
+cutting_speed = 80
+chip_load = 0.01
+"""
+
+
+def file(tmp_path, text):
+    path = tmp_path / "tools.toml"
+    path.write_text(text)
+    return path
+
+
+def test_built_in_tools_know_every_material_and_have_sensible_data():
+    library = built_in()
+    assert {tool.kind for tool in library} == set(ToolKind)
+    for tool in library:
+        assert set(tool.cutting) == set(MATERIALS), tool.name
+        for data in tool.cutting.values():
+            assert 0.001 < data.chip_load / tool.diameter < 0.03, tool.name
+            assert 20 <= data.cutting_speed <= 300
+    # Harder materials are cut more slowly.
+    mill = library.get("mill-6").cutting
+    assert mill["steel"].cutting_speed < mill["brass"].cutting_speed < mill["aluminium"].cutting_speed
+
+
+def test_ten_millimetre_plates_can_be_cut_with_small_mills():
+    reach = {t.diameter: t.flute_length for t in built_in() if t.kind is ToolKind.END_MILL}
+    assert reach[2.0] > 10.3
+    assert reach[1.6] > 10.3
+    assert reach[1.0] < 10
+
+
+def test_own_library_extends_and_overrides(tmp_path):
+    library = load_library(
+        file(
+            tmp_path,
+            TOOL.format(name="mill-6", number=24, diameter='"1/4 in"')
+            + TOOL.format(name="mine", number=500, diameter=7),
+        )
+    )
+    assert library.get("mill-6").diameter == pytest.approx(6.35)
+    assert library.get("mine").number == 500
+    assert library.get("mill-10") == built_in().get("mill-10")
+    assert built_in().get("mill-6").diameter == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "holds no tool"),
+        ("tool = 3", "holds no tool"),
+        ("[[tool]]\nname = 'a'", r"tool 'a': number: Field required"),
+        ("[[drill]]\n", "unknown table 'drill'"),
+        ("[[tool]\n", "is no TOML file"),
+        (TOOL.format(name="a", number=1, diameter=-3), r"tool 'a': diameter: .*greater than 0 \(it is -3\)"),
+        (TOOL.format(name="a", number=1, diameter='"3 kg"'), r"tool 'a': diameter: .*'3 kg'"),
+        (
+            TOOL.format(name="a", number=1, diameter=3).replace(".steel", ".cheese"),
+            "cutting.cheese: no such material",
+        ),
+        (TOOL.format(name="a", number=1, diameter=3) + "colour = 1", "colour"),
+        (
+            TOOL.format(name="a", number=900, diameter=3) + TOOL.format(name="b", number=900, diameter=3),
+            "'a' and 'b' both have number 900",
+        ),
+        (
+            TOOL.format(name="a", number=900, diameter=3) + TOOL.format(name="a", number=901, diameter=3),
+            "two tools are called 'a'",
+        ),
+        (TOOL.format(name="a", number=24, diameter=3), "'mill-6' and 'a' both have number 24"),
+    ],
+)
+def test_a_wrong_library_is_one_clear_line(tmp_path, text, message):
+    path = file(tmp_path, text)
+    with pytest.raises(DesignError, match=message) as caught:
+        load_library(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_library_names_its_path(tmp_path):
+    with pytest.raises(DesignError, match=re.escape(str(tmp_path / "none.toml"))):
+        load_library(tmp_path / "none.toml")
+
+
+def test_an_unknown_tool_lists_close_matches():
+    with pytest.raises(ToolError, match=r"did you mean .*mill-16"):
+        built_in().get("mil-16")

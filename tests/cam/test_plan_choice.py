@@ -1,0 +1,126 @@
+import math
+import re
+
+import pytest
+import shapely
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mechwright.errors import DesignError, MechwrightError, ToolError
+from mechwright.findings import Severity
+from mechwright.geometry import Loop
+from mechwright.tooling import CamSettings, ToolKind
+from mechwright_cam.job import make_job
+from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.reach import closing, remainder, unreachable
+from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate
+from planning_simulation import check_rules, gouge, leftover
+
+
+def names(of, **changes):
+    return [tool.name for tool in choose_tools(of, CamSettings.model_validate(changes), LIBRARY)]
+
+
+def test_closing_of_a_square_corner():
+    corner = shapely.Polygon([(0, 0), (20, 0), (20, 5), (5, 5), (5, 20), (0, 20)])
+    for radius in (0.5, 3.0, 6.0):
+        assert closing(corner, radius).area - corner.area == pytest.approx(
+            (1 - math.pi / 4) * radius**2, rel=1e-3, abs=1e-3
+        )
+        assert remainder(corner, radius) == pytest.approx((math.sqrt(2) - 1) * radius, abs=3e-4)
+    spots = unreachable(corner, 3.0, 0.01)
+    assert len(spots) == 1
+    assert spots[0].place == (5, 5)
+
+
+def test_remainder_in_a_round_fillet():
+    # A fillet of radius f keeps (sqrt 2 - 1)(r - f) from a larger cutter, nothing from a smaller one.
+    big = shapely.box(0, 0, 30, 30).difference(
+        shapely.box(10, 10, 40, 40).buffer(-2).buffer(2, quad_segs=400)
+    )
+    assert remainder(big, 1.9) < 0.001
+    assert remainder(big, 3.0) == pytest.approx(math.sqrt(2) - 1, abs=1e-3)
+
+
+def test_named_tools_are_exactly_those():
+    assert names(plate(), tools=["mill-6", "spot-6"]) == ["mill-6", "spot-6"]
+    with pytest.raises(ToolError, match=r"no tool 'mill-7' in the library; did you mean"):
+        names(plate(), tools=["mill-7"])
+    with pytest.raises(DesignError, match="listed twice"):
+        names(plate(), tools=["mill-6", "mill-6"])
+
+
+def test_choice_by_corners_and_thickness():
+    assert names(plate()) == ["mill-6"]
+    assert names(plate(bore(12))) == ["spot-6", "drill-10", "mill-6"]
+    small = part(lobes(9, 18.0, 4.0, 900, 1.5), bore(8))
+    chosen = choose_tools(small, CamSettings(), LIBRARY)
+    assert all(t.flute_length >= 6.3 for t in chosen if t.kind is ToolKind.END_MILL)
+    # The square corner of a keyway asks for the smallest mill that is long enough.
+    assert names(plate(keyed_bore(14, 5, 16.3)))[-1] == "mill-1.2"
+    assert names(plate(keyed_bore(14, 5, 16.3), thickness=10))[-1] == "mill-1.5"
+    with pytest.raises(ToolError, match="flute length"):
+        names(plate(thickness=60))
+
+
+def test_findings():
+    assert check_tools(plate(bore(12)), CamSettings(), LIBRARY) == []
+    narrow = plate(Loop.polygon([(-10, -1), (-10, 1), (10, 1), (10, -1)]))
+    for of, changes, code, parameter in (
+        (plate(bore(3)), {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
+        (narrow, {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
+        (plate(thickness=60), {}, "cam.cannot-cut", "cam.tools"),
+        (plate(), {"tools": ["mill-99"]}, "cam.cannot-cut", "cam.tools"),
+        (plate(), {"stock": {"margin": 1}}, "cam.cannot-cut", "cam.stock"),
+        (plate(), {"hold": {"method": "bore"}}, "cam.cannot-cut", "cam.hold.method"),
+        (plate(), {"machine": {"spindle_min": 11900}}, "cam.too-fast", "cam.machine.spindle_min"),
+        (narrow, {}, "cam.unreachable", "cam.tools"),
+        (plate(bore(3), thickness=12), {"tools": ["mill-2", "mill-6"]}, "cam.cannot-cut", "cam.tools"),
+    ):
+        found = check_tools(of, CamSettings.model_validate(changes), LIBRARY)
+        assert (code, parameter) in [(f.code, f.parameter) for f in found], (changes, found)
+        if code == "cam.cannot-cut":
+            assert [f.severity for f in found if f.code == code] == [Severity.ERROR]
+    note = check_tools(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)
+    assert [f.code for f in note] == ["cam.slender"]
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@given(
+    count=st.integers(3, 12),
+    radius=st.floats(8, 30),
+    depth=st.floats(0.2, 5),
+    sharpness=st.sampled_from([0.0, 1.0, 2.0]),
+    hole=st.one_of(st.none(), st.floats(1.5, 12)),
+    thickness=st.floats(1, 12),
+    named=st.one_of(
+        st.just([]), st.lists(st.sampled_from([t.name for t in LIBRARY]), min_size=1, max_size=5, unique=True)
+    ),
+    method=st.sampled_from(["tabs", "bore"]),
+    allowance=st.sampled_from([0.0, 0.03, 0.2, 1.0]),
+    margin=st.sampled_from([None, 0.0, 3.0, 12.0]),
+    climb=st.booleans(),
+)
+def test_any_part_is_cut_or_refused(
+    count, radius, depth, sharpness, hole, thickness, named, method, allowance, margin, climb
+):
+    of = part(
+        lobes(count, radius, depth, 400, sharpness), *([bore(hole)] if hole else []), thickness=thickness
+    )
+    wanted = CamSettings.model_validate(
+        {
+            "tools": named,
+            "hold": {"method": method, "clamp_diameter": 6, "tab_height": 0.8},
+            "stock": {"margin": margin},
+            "stock_to_leave": allowance,
+            "climb": climb,
+        }
+    )
+    try:
+        job = make_job(of, wanted, choose_tools(of, wanted, LIBRARY))
+        program = plan(job)
+    except MechwrightError as error:
+        assert re.fullmatch(r"cam\.[a-z_.]+: .*", str(error)), error  # noqa: PT017 - either way is right
+        return
+    assert gouge(job, program) <= 0.005
+    assert leftover(job, program) == 0
+    check_rules(job, program)

@@ -1,0 +1,133 @@
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, fit, fit_all
+from mechwright_cam.toolpath.offsets import grow, rings
+from mechwright_cam.toolpath.path import Path, arc, circle, line, polyline
+
+
+def wavy(n, teeth, depth, radius=40.0):
+    t = np.linspace(0, math.tau, n + 1)
+    r = radius + depth * np.sin(teeth * t)
+    points = np.column_stack((r * np.cos(t), r * np.sin(t)))
+    points[-1] = points[0]
+    return points
+
+
+def distance(points, path):
+    """Hausdorff distance of a polyline and a path."""
+    return shapely.hausdorff_distance(shapely.LineString(points), shapely.LineString(path.points(0.05)))
+
+
+def sound(path):
+    """Every arc meets both ends with one radius, is no full turn, and its length is that of its sweep."""
+    here = path.start
+    for cut in path.cuts:
+        assert (cut.x, cut.y) != here
+        assert (round(cut.x, 4), round(cut.y, 4)) == (cut.x, cut.y)
+        if cut.turn:
+            one = math.dist(here, (round(cut.cx, 4), round(cut.cy, 4)))
+            two = math.dist((cut.x, cut.y), (round(cut.cx, 4), round(cut.cy, 4)))
+            assert abs(one - two) < 0.002
+            assert cut.length < 1.05 * math.pi * one
+            assert one <= GREATEST_RADIUS * 1.01
+        here = (cut.x, cut.y)
+
+
+@settings(max_examples=20, deadline=None)
+@given(teeth=st.integers(3, 16), depth=st.floats(0.01, 0.4), tolerance=st.sampled_from([0.0005, 0.002, 0.01]))
+def test_fit_stays_within_its_tolerance(teeth, depth, tolerance):
+    points = wavy(2000, teeth, depth, 8.0)
+    path = fit(points, tolerance)
+    sound(path)
+    assert path.closed
+    assert distance(points, path) <= tolerance + 0.0004
+    assert len(path.cuts) < len(points) / 4
+
+
+def test_fit_of_a_circle_is_a_few_arcs_of_its_radius():
+    points = wavy(500, 1, 0.0)
+    path = fit(points, 0.002)
+    assert len(path.cuts) <= 4
+    assert all(cut.turn == 1 for cut in path.cuts)
+    assert path.length == pytest.approx(80 * math.pi, abs=1e-2)
+    assert all(cut.turn == -1 for cut in fit(points[::-1], 0.002).cuts)
+
+
+def test_fit_keeps_corners_and_lines():
+    square = np.array([[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]], float)
+    path = fit(square, 0.002)
+    assert [cut.turn for cut in path.cuts] == [0, 0, 0, 0]
+    assert path.length == 40
+
+
+def test_a_long_line_into_a_fine_arc_stays_a_line():
+    t = np.linspace(-math.pi / 2, math.pi / 2, 200)
+    points = np.concatenate(
+        ([[-30.0, -5.0]], np.column_stack((5 * np.cos(t), 5 * np.sin(t))), [[-30.0, 5.0]])
+    )
+    path = fit(points, 0.002)
+    assert path.cuts[0].turn == path.cuts[-1].turn == 0
+    assert distance(points, path) < 0.0025
+
+
+def test_fit_all_is_fit_of_each():
+    lines = [wavy(600, 5, 0.4), wavy(90, 3, 0.1, 4.0)[:40], np.array([[0.0, 0.0], [1.0, 1.0]])]
+    assert fit_all(lines, 0.002) == [fit(points, 0.002) for points in lines]
+    assert fit_all([], 0.002) == []
+
+
+def test_an_arc_that_rounding_would_close_is_a_line():
+    assert arc((1.0, 0.0), (1.0, 0.0001), (0.0, 0.0), 1).turn == 0
+    assert arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), 1).length == pytest.approx(math.pi / 2)
+    assert arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), -1).length == pytest.approx(1.5 * math.pi)
+
+
+@settings(max_examples=30, deadline=None)
+@given(at=st.floats(0.0, 40.0))
+def test_split_and_reverse_keep_the_way(at):
+    path = fit(wavy(700, 4, 0.5, 6.0), 0.002)
+    before, after = path.split(at)
+    assert before.end == after.start
+    assert before.length + after.length == pytest.approx(path.length, abs=1e-3)
+    assert before.length == pytest.approx(min(at, path.length), abs=1e-3)
+    turned = path.entered_at(at)
+    assert turned.closed
+    sound(turned)
+    back = path.reversed()
+    assert back.start == path.end
+    assert back.length == pytest.approx(path.length)
+    assert distance(path.points(0.05), back) < 1e-3
+
+
+def test_paths_that_do_not_meet_cannot_be_joined():
+    with pytest.raises(ValueError, match="do not meet"):
+        polyline([(0, 0), (1, 0)]) + polyline([(2, 0), (3, 0)])
+    joined = polyline([(0, 0), (1, 0)]) + Path((1.0, 0.0), (line((1.0, 0.0), (1.0, 2.0)),))
+    assert joined.length == 3
+
+
+def test_circle_comes_back_to_its_start():
+    path = circle((1.0, 2.0), 3.0, (4.0, 2.0), ccw=False)
+    assert path.closed
+    assert path.length == pytest.approx(6 * math.pi)
+    assert all(cut.turn == -1 for cut in path.cuts)
+
+
+def test_rings_have_the_wall_on_the_right_when_climbing():
+    frame = shapely.box(0, 0, 20, 20).difference(shapely.box(5, 5, 15, 15))
+    for climb in (True, False):
+        outer, inner = rings(grow(frame, 1.0), climb)
+        assert bool(shapely.is_ccw(shapely.LinearRing(outer))) is not climb
+        assert bool(shapely.is_ccw(shapely.LinearRing(inner))) is climb
+
+
+@given(radius=st.floats(0.1, 20.0))
+def test_growing_a_point_is_within_the_chord_error(radius):
+    disc = grow(shapely.Point(0, 0), radius, 0.0003)
+    inner = np.hypot(*shapely.get_coordinates(shapely.segmentize(disc, radius / 500)).T).min()
+    assert radius - 0.00032 <= inner <= radius
