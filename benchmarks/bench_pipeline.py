@@ -1,6 +1,6 @@
 """Gears, CAM and command line against their targets: ``python benchmarks/bench_pipeline.py``.
 
-Targets in seconds were set on a machine of two cores where ``import cadquery`` takes 1.6 s; they are scaled by
+Targets in seconds hold for a machine of two cores where ``import cadquery`` takes 1.6 s; they are scaled by
 what that import takes here and now, so that a slow hour does not fail them.
 """
 

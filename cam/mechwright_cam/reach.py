@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.part import Bore, Profile
-from numpy.typing import NDArray
-
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 

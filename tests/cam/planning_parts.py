@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.part import Part
 from mechwright.tooling import CamSettings

@@ -1,6 +1,7 @@
 import re
 
 import pytest
+
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
 from mechwright.tooling import ToolKind

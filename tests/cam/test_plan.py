@@ -1,4 +1,7 @@
 import pytest
+from planning_parts import LIBRARY, bore, job, keyed_bore, lobes, part, plate, rounded_box
+from planning_simulation import check_rules, gouge, leftover, motions
+
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.geometry import Loop
 from mechwright.part import Bore, Pocket, Profile
@@ -6,8 +9,6 @@ from mechwright.program import Drill, Feed, FeedArc, Pause, Rapid
 from mechwright_cam.job import make_job
 from mechwright_cam.planning import plan
 from mechwright_cam.reach import cut_outline
-from planning_parts import LIBRARY, bore, job, keyed_bore, lobes, part, plate, rounded_box
-from planning_simulation import check_rules, gouge, leftover, motions
 
 TOOLS = ("spot-6", "drill-5", "mill-10", "mill-6")
 GEARED = lobes(9, 18.0, 4.0, 900, 1.5)

@@ -5,6 +5,9 @@ import pytest
 import shapely
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate
+from planning_simulation import check_rules, gouge, leftover
+
 from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.findings import Severity
 from mechwright.geometry import Loop
@@ -12,8 +15,6 @@ from mechwright.tooling import CamSettings, ToolKind
 from mechwright_cam.job import make_job
 from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.reach import closing, remainder, unreachable
-from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate
-from planning_simulation import check_rules, gouge, leftover
 
 
 def names(of, **changes):

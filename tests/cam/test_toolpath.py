@@ -5,6 +5,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, fit, fit_all
 from mechwright_cam.toolpath.offsets import grow, rings
 from mechwright_cam.toolpath.path import Path, arc, circle, line, polyline

@@ -78,7 +78,6 @@ def densified(ring: Array, step: float) -> Array:
     return dense
 
 
-
 HALVINGS = 12
 """Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough."""
 
