@@ -29,13 +29,20 @@ from mechwright.tooling import CamSettings, Tool, ToolKind
 TAB_REACH = 1.0
 """How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
 
+TAB_WIDTH = 2.0
+"""Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
+
+LEAST_TAB_WIDTH = 0.5
+"""A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
+
 
 @dataclass(frozen=True)
 class Tab:
-    """A bridge from the part to the frame: its plan view and its upper side (below 0), work coordinates."""
+    """A bridge from the part to the frame: its plan view, its upper side (below 0), and its width, mm."""
 
     shape: shapely.Polygon
     top: float
+    width: float
 
 
 @dataclass(frozen=True)
@@ -98,8 +105,6 @@ class Job:
     @cached_property
     def features(self) -> tuple[Feature, ...]:
         """The part's features in work coordinates."""
-        if self.origin == (0.0, 0.0):
-            return self.part.features
         x, y = -self.origin[0], -self.origin[1]
         moved: list[Feature] = []
         for feature in self.part.features:
@@ -191,11 +196,25 @@ def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
     for feature in job.features:
         if isinstance(feature, Profile) and feature.side == "outside":
             ring = shapely.LinearRing(feature.loop.flatten())
-            for at in _tab_places(feature, ring, hold.tabs, hold.tab_width):
-                tabs.append(
-                    Tab(_tab_shape(ring, at, hold.tab_width, reach), -job.thickness + hold.tab_height)
-                )
+            width = hold.tab_width or _tab_width(feature, hold.tabs)
+            for at in _tab_places(feature, ring, hold.tabs, width):
+                shape = _tab_shape(ring, at, width, reach)
+                tabs.append(Tab(shape, hold.tab_height - job.thickness, width))
     return tuple(tabs)
+
+
+def _tab_width(feature: Profile, count: int) -> float:
+    """The width of tabs that the design leaves open: the usual one, or the widest that all sites take."""
+    widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
+    if not widest:
+        return TAB_WIDTH
+    if len(widest) < count or widest[count - 1] < LEAST_TAB_WIDTH:
+        fit = sum(longest >= LEAST_TAB_WIDTH for longest in widest)
+        raise DesignError(
+            f"cam.hold.tabs: {feature.name} has room for {fit} tabs of at least {LEAST_TAB_WIDTH:g} mm, "
+            f"not for {count}; hold the part by its bore"
+        )
+    return min(TAB_WIDTH, widest[count - 1])
 
 
 def _tab_places(feature: Profile, ring: shapely.LinearRing, count: int, width: float) -> list[float]:
