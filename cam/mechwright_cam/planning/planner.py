@@ -183,7 +183,7 @@ class _Planner:
             after = self._milled(f"{zone.name}: finish", zone.finisher, after, finishing.write)
             if len(self.steps) == before:
                 raise ToolError(
-                    f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of part {job.part.name}; "
+                    f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {job.part.name}; "
                     "list a smaller end mill"
                 )
 
