@@ -23,7 +23,9 @@ def pytest_configure() -> None:
     """Stop where a client is missing that CI has to have; elsewhere the tests that need it skip."""
     if not os.environ.get(REQUIRE_CLIENTS):
         return
-    missing = [f"{name} (Debian package {package})" for name, package in PROGRAMS.items() if not shutil.which(name)]
+    missing = [
+        f"{name} (Debian package {package})" for name, package in PROGRAMS.items() if not shutil.which(name)
+    ]
     missing += [f"{name} (PyPI)" for name in MODULES if importlib.util.find_spec(name) is None]
     if missing:
         pytest.exit(f"{REQUIRE_CLIENTS} is set, and these are missing: {', '.join(missing)}", returncode=1)

@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.part import Bore
-from numpy.typing import NDArray
-
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 

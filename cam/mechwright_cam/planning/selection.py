@@ -10,7 +10,6 @@ from mechwright.findings import Finding, Severity
 from mechwright.part import Bore, Part, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
-
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
