@@ -117,9 +117,13 @@ BAD = {
     "wrong unit": ("semi_major = 50", "semi_major = '50 kg'", "'50 kg' cannot be read in mm"),
     "out of bounds": ("eccentricity = 0.4", "eccentricity = 1.5", "parameters.eccentricity: 1.5"),
     "broken TOML": ("teeth = 25", "teeth = ", "is no valid TOML"),
-    "missing tool": ("[cam]", "[cam]\ntools = ['end-mill-7']", "end-mill-7"),
+    "missing tool": ("[cam]", "[cam]\ntools = ['end-mill-7']", "bad.toml: cam.tools: no tool 'end-mill-7'"),
     "missing library": ("[cam]", "[cam]\ntool_library = 'none.toml'", "none.toml: cannot be read"),
-    "unknown control": ("linuxcnc", "heidenhain", "control 'heidenhain' is not installed; known: linuxcnc"),
+    "unknown control": (
+        "linuxcnc",
+        "heidenhain",
+        "cam.control: control 'heidenhain' is not installed; known: linuxcnc",
+    ),
     "unknown family": ("elliptic-gears", "eliptic-gears", "family 'eliptic-gears' is not installed"),
     "unknown material": ("aluminium", "cheese", "'cheese'"),
 }

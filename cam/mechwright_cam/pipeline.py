@@ -8,7 +8,7 @@ from typing import cast, get_args
 import shapely
 
 from mechwright.design import Design
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.host import Host
@@ -51,7 +51,10 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     """
     library = load_library(design.tool_library)
     for name in design.cam.tools:
-        library.get(name)  # a name that is not there is a mistake in the file, not a finding
+        try:
+            library.get(name)  # a name that is not there is a mistake in the file, not a finding
+        except ToolError as error:
+            raise ToolError(f"{design.path}: cam.tools: {error}") from error
     findings: list[Finding] = []
     jobs = []
     for part in parts:
@@ -77,9 +80,16 @@ def curve_kind(text: str) -> Curves:
     raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")
 
 
+def _post(design: Design, host: Host) -> Post:
+    try:
+        return host.post(design.cam.control)
+    except PluginError as error:
+        raise PluginError(f"{design.path}: cam.control: {error}") from error
+
+
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
-    host.post(design.cam.control)
+    _post(design, host)
     return prepare(design, plates(design.family.parts(design.params)))[0]
 
 
@@ -105,7 +115,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 
     Findings come back; nothing is added if one of them is an error.
     """
-    post = host.post(design.cam.control)
+    post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     findings, jobs = prepare(design, plates(design.family.parts(design.params)))
     if errors(findings):

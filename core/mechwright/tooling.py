@@ -112,7 +112,7 @@ class Hold(Parameters):
     )
 
 
-WorkOffset = Annotated[str, Field(pattern=r"^G5(4|5|6|7|8|9|9\.[123])$")]
+WorkOffset = Literal["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"]
 
 
 class CamSettings(Parameters):
