@@ -29,6 +29,8 @@ class Output:
         """Add a file; ``name`` is a plain file name."""
         if name != Path(name).name or name in {"", ".", ".."}:
             raise OutputError(f"{name!r} is no plain file name")
+        if name in self.files:
+            raise OutputError(f"two files would be called {name!r}; rename a part of the family")
         self.files[name] = content.encode() if isinstance(content, str) else content
 
 
