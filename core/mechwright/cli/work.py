@@ -13,7 +13,7 @@ from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.design import SIZE_LIMIT, Design, load, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
-from mechwright.files import Output, write_folder
+from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
 from mechwright.host import Host, host
 from mechwright.output import Exporter
@@ -70,6 +70,7 @@ def write(
     """Run ``solve``, ``model``, ``cam`` or ``build`` and write its files."""
     design, found = _open(path)
     exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
+    check_folder(folder)
     output = Output()
     with progress(6) as step:
         step("checking")
