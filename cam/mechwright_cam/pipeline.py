@@ -17,7 +17,7 @@ from mechwright.part import Part
 from mechwright.program import Program
 from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.library import Library, load_library
 from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.reach import cut_outline
@@ -49,23 +49,29 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     jobs
         One for each part; fewer if a finding is an error.
     """
-    library = load_library(design.tool_library)
-    for name in design.cam.tools:
-        try:
-            library.get(name)  # a name that is not there is a mistake in the file, not a finding
-        except ToolError as error:
-            raise ToolError(f"{design.path}: cam.tools: {error}") from error
+    library = _library(design)
     findings: list[Finding] = []
     jobs = []
     for part in parts:
         found = check_tools(part, design.cam, library)
-        findings += found
+        findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs.append(make_job(part, design.cam, choose_tools(part, design.cam, library)))
     if len(jobs) == len(parts):
         cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
         findings += design.family.check_cut(design.params, cut)
     return findings, jobs
+
+
+def _library(design: Design) -> Library:
+    """The cutters at hand; a name in ``cam.tools`` that is none of them is a mistake in the file."""
+    library = load_library(design.tool_library)
+    for name in design.cam.tools:
+        try:
+            library.get(name)
+        except ToolError as error:
+            raise ToolError(f"{design.path}: cam.tools: {error}") from error
+    return library
 
 
 def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
@@ -137,6 +143,6 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 
 def verify(design: Design, part: Part, text: str) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand."""
-    library = load_library(design.tool_library)
+    library = _library(design)
     job = make_job(part, design.cam, choose_tools(part, design.cam, library))
     return prove(text, replace(job, tools=library.tools))

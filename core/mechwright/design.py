@@ -98,8 +98,12 @@ class Design:
         return library
 
 
-def read_text(path: Path, limit: int = SIZE_LIMIT) -> tuple[str, str]:
-    """Text and SHA-256 of a file; raises OutputError or DesignError that names it."""
+def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
+    """Text and SHA-256 of a file; raises OutputError or DesignError that names it.
+
+    The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
+    without null bytes.
+    """
     try:
         with path.open("rb") as file:
             data = file.read(limit + 1)
@@ -107,9 +111,12 @@ def read_text(path: Path, limit: int = SIZE_LIMIT) -> tuple[str, str]:
         raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
     if len(data) > limit:
         raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    digest = hashlib.sha256(data).hexdigest()
     try:
-        return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
+        return data.decode("utf-8-sig"), digest
     except UnicodeDecodeError as error:
+        if older is not None and b"\0" not in data:
+            return data.decode(older), digest
         raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
 
 

@@ -72,7 +72,7 @@ def write(
     exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
     check_folder(folder)
     output = Output()
-    with progress(6) as step:
+    with progress(5 if command == "build" else 3) as step:
         step("checking")
         findings = list(design.family.check(design.params))
         if errors(findings):
@@ -155,7 +155,7 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
     from mechwright_cam import pipeline
 
     design, _ = _open(path)
-    text, _ = read_text(program, PROGRAM_SIZE_LIMIT)
+    text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
     findings = list(design.family.check(design.params))
     if errors(findings):
         _refuse(findings, path)
