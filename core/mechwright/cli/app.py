@@ -56,7 +56,7 @@ def _root(
 
 @app.command()
 def families(as_json: AsJson = False) -> None:
-    """List the installed mechanism families, and plugins that are broken."""
+    """List what is installed, and plugins that are broken."""
     from mechwright.cli import listing
 
     listing.families(as_json)
