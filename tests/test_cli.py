@@ -117,9 +117,13 @@ BAD = {
     "wrong unit": ("semi_major = 50", "semi_major = '50 kg'", "'50 kg' cannot be read in mm"),
     "out of bounds": ("eccentricity = 0.4", "eccentricity = 1.5", "parameters.eccentricity: 1.5"),
     "broken TOML": ("teeth = 25", "teeth = ", "is no valid TOML"),
-    "missing tool": ("[cam]", "[cam]\ntools = ['end-mill-7']", "end-mill-7"),
+    "missing tool": ("[cam]", "[cam]\ntools = ['end-mill-7']", "bad.toml: cam.tools: no tool 'end-mill-7'"),
     "missing library": ("[cam]", "[cam]\ntool_library = 'none.toml'", "none.toml: cannot be read"),
-    "unknown control": ("linuxcnc", "heidenhain", "control 'heidenhain' is not installed; known: linuxcnc"),
+    "unknown control": (
+        "linuxcnc",
+        "heidenhain",
+        "cam.control: control 'heidenhain' is not installed; known: linuxcnc",
+    ),
     "unknown family": ("elliptic-gears", "eliptic-gears", "family 'eliptic-gears' is not installed"),
     "unknown material": ("aluminium", "cheese", "'cheese'"),
 }
@@ -215,3 +219,54 @@ def test_the_real_command_in_a_pipe_shows_no_progress_bar(tmp_path: Path) -> Non
     )
     assert done.stderr == ""
     assert "motion.csv" in done.stdout
+
+
+def test_a_program_with_comments_of_an_older_encoding_is_read(run: Run, tmp_path: Path) -> None:
+    program = tmp_path / "old.nc"
+    program.write_bytes(b"(Fr\xe4ser 6 mm, 90\xb0)\nG21 G90\nM30\n")
+    code, out, _ = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    assert code == 1
+    assert "does not cut the part" in out
+    program.write_bytes(b"\x7fELF\x00\xff\x00")
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    assert code == 2
+    assert "old.nc: is no UTF-8 text" in err
+    program.write_text("G21\n#1 = 2\nM30\n")
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    assert code == 2
+    assert "old.nc: line 2: " in err
+
+
+def test_verify_names_the_file_and_the_key_of_a_tool_that_is_not_there(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "d.toml"
+    path.write_text(EXAMPLE.read_text().replace("[cam]", "[cam]\ntools = ['mill-7']"))
+    (tmp_path / "p.nc").write_text("M30\n")
+    code, _, err = run("verify", tmp_path / "p.nc", "--design", path, "--part", "gear")
+    assert code == 2
+    assert "d.toml: cam.tools: no tool 'mill-7'" in err
+
+
+def test_a_finding_is_said_once(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "d.toml"
+    path.write_text(EXAMPLE.read_text().replace("[cam]", "[cam]\ntools = ['drill-3']"))
+    code, out, _ = run("check", path)
+    assert code == 1
+    said = [line for line in out.splitlines() if line.startswith("error")]
+    assert said
+    assert len(said) == len(set(said))
+
+
+def test_the_help_of_no_command_is_cut_short(run: Run) -> None:
+    code, out, _ = run("--help")
+    assert code == 0
+    assert "verify" in out
+    assert not [line for line in out.splitlines() if line.endswith("...") and "Usage" not in line]
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_work(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "foreign").write_text("x")
+    monkeypatch.setattr("mechwright.cli.work._findings", lambda *_: pytest.fail("worked"))
+    monkeypatch.setattr("mechwright.cli.work.progress", lambda *_: pytest.fail("worked"))
+    assert run("build", EXAMPLE, "-o", tmp_path)[0] == 2

@@ -5,11 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-from pydantic import ValidationError
-
-from mechwright.design import read_toml
+from mechwright.design import read_table, read_toml
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
 from mechwright.tooling import Tool
@@ -36,7 +33,7 @@ class Library:
             other = by_number.setdefault(tool.number, tool)
             if other is not tool:
                 raise DesignError(
-                    f"tool library: tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
+                    f"tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
                     "give one of them another T number"
                 )
 
@@ -51,7 +48,7 @@ class Library:
         names = [tool.name for tool in self.tools]
         near = difflib.get_close_matches(name, names, n=3, cutoff=0.5) or names
         raise ToolError(
-            f"cam.tools: no tool {name!r} in the library; "
+            f"no tool {name!r} in the library; "
             f"{'did you mean' if len(near) <= 3 else 'known:'} {', '.join(near)}"
         )
 
@@ -72,43 +69,47 @@ def load_library(path: Path | None = None) -> Library:
 
     Raises
     ------
+    OutputError
+        The file cannot be read.
     DesignError
-        The file cannot be read, or a tool in it is wrong: file, tool, key, value and limit are named.
+        A tool in it is wrong: file, tool, key, value and limit are named, one line for each wrong key.
     """
-    return built_in() if path is None else built_in().extended(read_tools(path))
+    if path is None:
+        return built_in()
+    tools = read_tools(path)
+    try:
+        return built_in().extended(tools)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from error
 
 
 def read_tools(path: Path) -> tuple[Tool, ...]:
-    """Read the ``[[tool]]`` tables of one file; raises DesignError."""
-    data, _ = read_toml(path)
+    """Read the ``[[tool]]`` tables of one file; raises OutputError or DesignError."""
+    if path.exists() and not path.is_file():
+        raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
+    data = read_toml(path)[0]
     rows = data.pop("tool", None)
     if data:
-        raise DesignError(f"{path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables")
+        raise DesignError(f"{path}: unknown key {next(iter(data))!r}; a tool library holds [[tool]] tables")
     if not isinstance(rows, list) or not rows:
-        raise DesignError(f"{path} holds no tool; add a [[tool]] table")
+        raise DesignError(f"{path}: holds no tool; add a [[tool]] table")
     tools: dict[str, Tool] = {}
     for position, row in enumerate(rows, start=1):
         tool = _read_tool(path, position, row)
         if tool.name in tools:
             raise DesignError(f"{path}: two tools are called {tool.name!r}; rename one")
         tools[tool.name] = tool
-    return Library(tuple(tools.values())).tools
+    return tuple(tools.values())
 
 
-def _read_tool(path: Path, position: int, row: Any) -> Tool:
-    name = row.get("name", f"number {position} of the file") if isinstance(row, dict) else position
-    where = f"{path}: tool {name!r}"
-    try:
-        tool = Tool.model_validate(row)
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        key = ".".join(str(part) for part in first["loc"]) or "table"
-        # A missing key has the whole table as its input: that would only hide the message.
-        given = "" if isinstance(first["input"], dict) else f" (it is {first['input']!r})"
-        raise DesignError(f"{where}: {key}: {first['msg']}{given}") from error
+def _read_tool(path: Path, position: int, row: object) -> Tool:
+    name = row.get("name") if isinstance(row, dict) else None
+    where = f"tool {name!r}" if isinstance(name, str) else f"tool {position} of the file"
+    tool = read_table(Tool, row, str(path), where)
     unknown = set(tool.cutting) - set(MATERIALS)
     if unknown:
         raise DesignError(
-            f"{where}: cutting.{min(unknown)}: no such material; one of: {', '.join(sorted(MATERIALS))}"
+            f"{path}: {where}.cutting: no such material as {min(unknown)!r}; one of: "
+            f"{', '.join(sorted(MATERIALS))}"
         )
     return tool

@@ -8,7 +8,7 @@ from typing import cast, get_args
 import shapely
 
 from mechwright.design import Design
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.host import Host
@@ -17,7 +17,7 @@ from mechwright.part import Part
 from mechwright.program import Program
 from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.library import Library, load_library
 from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.reach import cut_outline
@@ -49,20 +49,29 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     jobs
         One for each part; fewer if a finding is an error.
     """
-    library = load_library(design.tool_library)
-    for name in design.cam.tools:
-        library.get(name)  # a name that is not there is a mistake in the file, not a finding
+    library = _library(design)
     findings: list[Finding] = []
     jobs = []
     for part in parts:
         found = check_tools(part, design.cam, library)
-        findings += found
+        findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs.append(make_job(part, design.cam, choose_tools(part, design.cam, library)))
     if len(jobs) == len(parts):
         cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
         findings += design.family.check_cut(design.params, cut)
     return findings, jobs
+
+
+def _library(design: Design) -> Library:
+    """The cutters at hand; a name in ``cam.tools`` that is none of them is a mistake in the file."""
+    library = load_library(design.tool_library)
+    for name in design.cam.tools:
+        try:
+            library.get(name)
+        except ToolError as error:
+            raise ToolError(f"{design.path}: cam.tools: {error}") from error
+    return library
 
 
 def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
@@ -77,9 +86,16 @@ def curve_kind(text: str) -> Curves:
     raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")
 
 
+def _post(design: Design, host: Host) -> Post:
+    try:
+        return host.post(design.cam.control)
+    except PluginError as error:
+        raise PluginError(f"{design.path}: cam.control: {error}") from error
+
+
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
-    host.post(design.cam.control)
+    _post(design, host)
     return prepare(design, plates(design.family.parts(design.params)))[0]
 
 
@@ -105,7 +121,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 
     Findings come back; nothing is added if one of them is an error.
     """
-    post = host.post(design.cam.control)
+    post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     findings, jobs = prepare(design, plates(design.family.parts(design.params)))
     if errors(findings):
@@ -127,6 +143,6 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 
 def verify(design: Design, part: Part, text: str) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand."""
-    library = load_library(design.tool_library)
+    library = _library(design)
     job = make_job(part, design.cam, choose_tools(part, design.cam, library))
     return prove(text, replace(job, tools=library.tools))

@@ -20,11 +20,11 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from mechwright.errors import DesignError, OutputError
+from mechwright.errors import DesignError, OutputError, PluginError
 from mechwright.family import Family
 from mechwright.host import Host
 from mechwright.parameters import Parameters
@@ -38,6 +38,15 @@ FORMAT = 1
 
 SIZE_LIMIT = 1_000_000
 """Bytes: a design file is some lines; anything larger was given by mistake."""
+
+_MESSAGES = {
+    "tuple_type": "should be a list in square brackets",
+    "model_type": "should be a table",
+    "int_parsing": "should be a whole number",
+    "int_from_float": "should be a whole number",
+    "int_type": "should be a whole number",
+}
+"""Where pydantic speaks of Python's types, by its own name of the error."""
 
 _KEYS = ("format", "family", "name", "parameters", "cam")
 
@@ -75,7 +84,12 @@ class Design:
         if not self.cam.tool_library:
             return None
         folder = self.path.resolve().parent
-        library = (folder / self.cam.tool_library).resolve()
+        try:
+            library = (folder / self.cam.tool_library).resolve()
+        except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
+            raise DesignError(
+                f"{self.path}: cam.tool_library: {self.cam.tool_library!r} is no file: {error}"
+            ) from error
         if not library.is_relative_to(folder):
             raise DesignError(
                 f"{self.path}: cam.tool_library: {self.cam.tool_library!r} leads out of the folder of the "
@@ -84,8 +98,12 @@ class Design:
         return library
 
 
-def read_text(path: Path, limit: int = SIZE_LIMIT) -> tuple[str, str]:
-    """Text and SHA-256 of a file; raises OutputError or DesignError that names it."""
+def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
+    """Text and SHA-256 of a file; raises OutputError or DesignError that names it.
+
+    The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
+    without null bytes.
+    """
     try:
         with path.open("rb") as file:
             data = file.read(limit + 1)
@@ -93,9 +111,12 @@ def read_text(path: Path, limit: int = SIZE_LIMIT) -> tuple[str, str]:
         raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
     if len(data) > limit:
         raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    digest = hashlib.sha256(data).hexdigest()
     try:
-        return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
+        return data.decode("utf-8-sig"), digest
     except UnicodeDecodeError as error:
+        if older is not None and b"\0" not in data:
+            return data.decode(older), digest
         raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
 
 
@@ -125,10 +146,9 @@ def load(path: Path, host: Host) -> Design:
     for key in content:
         if key not in _KEYS:
             raise DesignError(f"{path}: {_unknown(key, _KEYS)}")
-    if content.get("format", FORMAT) != FORMAT:
-        raise DesignError(
-            f"{path}: format: {content['format']!r} is not known; this program reads format {FORMAT}"
-        )
+    layout = content.get("format", FORMAT)
+    if type(layout) is not int or layout != FORMAT:  # true and 1.0 equal 1
+        raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
     family_name = content.get("family")
     if not isinstance(family_name, str):
         raise DesignError(f'{path}: family: is missing; write for example family = "elliptic-gears"')
@@ -139,7 +159,10 @@ def load(path: Path, host: Host) -> Design:
         check_name(name)
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from error
-    family = host.family(family_name)
+    try:
+        family = host.family(family_name)
+    except PluginError as error:
+        raise PluginError(f"{path}: family: {error}") from error
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
     cam = read_table(CamSettings, content.get("cam", {}), str(path), "cam")
     design = Design(name, family, params, cam, path, digest)
@@ -168,7 +191,9 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
         elif item["type"] == "missing":
             yield f"{place}: is missing"
         else:
-            message = item["msg"].removeprefix("Value error, ").removeprefix("Input ")
+            message = _MESSAGES.get(item["type"]) or item["msg"]
+            for start in ("Value error, ", "Input ", "String "):
+                message = message.removeprefix(start)
             value = item.get("input")
             if isinstance(value, (str, int, float)) and item["type"] != "unit" and keys:
                 message = f"{value!r} {message}"
@@ -178,12 +203,11 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
 def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:
     for key in keys:
         field = model.model_fields.get(key)
-        if (
-            field is not None
-            and isinstance(field.annotation, type)
-            and issubclass(field.annotation, BaseModel)
-        ):
-            model = field.annotation
+        if field is None:
+            continue  # the key of a table of tables
+        for kind in (field.annotation, *get_args(field.annotation)):
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                model = kind
     return model
 
 

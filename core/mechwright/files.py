@@ -29,6 +29,8 @@ class Output:
         """Add a file; ``name`` is a plain file name."""
         if name != Path(name).name or name in {"", ".", ".."}:
             raise OutputError(f"{name!r} is no plain file name")
+        if name in self.files:
+            raise OutputError(f"two files would be called {name!r}; rename a part of the family")
         self.files[name] = content.encode() if isinstance(content, str) else content
 
 
@@ -54,9 +56,8 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
     OutputError
         The folder holds files of somebody else, or cannot be written. Nothing has changed then.
     """
-    target = Path(os.path.abspath(target))  # noqa: PTH100 - a symbolic link stays one
+    target, old = _examined(target)
     try:
-        old = _earlier_run(target)
         target.parent.mkdir(parents=True, exist_ok=True)
         staging = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     except OSError as error:
@@ -82,10 +83,30 @@ def write_folder(target: Path, output: Output, command: str, facts: Mapping[str,
         shutil.rmtree(staging, ignore_errors=True)
 
 
-def _refusal(target: Path, error: OSError) -> OutputError:
+def check_folder(target: Path) -> None:
+    """Raise OutputError if :func:`write_folder` would refuse ``target``, before any work."""
+    _examined(target)
+
+
+def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:
+    """The folder itself, behind any symbolic link, and what an earlier run wrote into it."""
+    try:
+        target = target.resolve()
+        if Path.cwd().is_relative_to(target):
+            raise OutputError(
+                f"{target}: is the current folder or above it, and cannot be replaced in one step; "
+                "give a folder below it, such as -o out"
+            )
+        return target, _earlier_run(target)
+    except (OSError, RuntimeError) as error:  # RuntimeError: a loop of links
+        raise _refusal(target, error) from error
+
+
+def _refusal(target: Path, error: OSError | RuntimeError) -> OutputError:
     if isinstance(error, OutputError):
         return error
-    return OutputError(f"{target}: cannot be written: {error.strerror or error}; nothing was changed")
+    reason = getattr(error, "strerror", None) or error
+    return OutputError(f"{target}: cannot be written: {reason}; nothing was changed")
 
 
 def _earlier_run(target: Path) -> dict[str, dict[str, str]]:

@@ -193,7 +193,8 @@ def _taken(name: str, base: type[Any], items: dict[str, Registered[Any]]) -> str
 
 def _reason(error: BaseException) -> str:
     text = str(error).strip().splitlines()
-    return f"{type(error).__name__}: {text[0]}" if text else type(error).__name__
+    said = "".join(c for c in text[0] if c.isprintable()) if text else ""
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
 def load(points: list[tuple[str, EntryPoint]] | None = None, disabled: frozenset[str] | None = None) -> Host:

@@ -112,7 +112,10 @@ class Hold(Parameters):
     )
 
 
-WorkOffset = Annotated[str, Field(pattern=r"^G5(4|5|6|7|8|9|9\.[123])$")]
+LEAST_CLEARANCE = 0.5
+"""Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
+
+WorkOffset = Literal["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"]
 
 
 class CamSettings(Parameters):
@@ -134,7 +137,9 @@ class CamSettings(Parameters):
     hold: Hold = Field(Hold(), description="How the part is held.")
     climb: bool = Field(True, description="Climb milling; false cuts conventionally.")
     coolant: Literal["flood", "mist", "off"] = Field("flood", description="Coolant while cutting.")
-    clearance: Millimetres = Field(5.0, gt=0, le=200, description="Height of rapids over stock and clamp.")
+    clearance: Millimetres = Field(
+        5.0, ge=LEAST_CLEARANCE, le=200, description="Height of rapids over stock and clamp."
+    )
     breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")

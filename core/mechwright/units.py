@@ -97,7 +97,7 @@ def convert(text: str, unit: str) -> float:
     ...
     ValueError: '2 kg' cannot be read in mm
     """
-    wrong = ValueError(f"'{text}' cannot be read in {unit or 'a plain number'}")
+    wrong = ValueError(f"{text!r} cannot be read in {unit or 'a plain number'}")
     try:
         value = float(text)
     except ValueError:

@@ -1,3 +1,4 @@
+import os
 import re
 
 import pytest
@@ -50,7 +51,7 @@ def test_own_library_extends_and_overrides(tmp_path):
     library = load_library(
         file(
             tmp_path,
-            TOOL.format(name="mill-6", number=24, diameter='"1/4 in"')
+            TOOL.format(name="mill-6", number=24, diameter='"0.25 in"')
             + TOOL.format(name="mine", number=500, diameter=7),
         )
     )
@@ -65,14 +66,17 @@ def test_own_library_extends_and_overrides(tmp_path):
     [
         ("", "holds no tool"),
         ("tool = 3", "holds no tool"),
-        ("[[tool]]\nname = 'a'", r"tool 'a': number: Field required"),
-        ("[[drill]]\n", "unknown table 'drill'"),
+        (
+            "[[tool]]\nname = 'a'\nkind = 'drill'\ndiameter = 3\nflute_length = 9",
+            r"tool 'a'\.number: is missing",
+        ),
+        ("[[drill]]\n", "unknown key 'drill'"),
         ("[[tool]\n", "is no valid TOML"),
-        (TOOL.format(name="a", number=1, diameter=-3), r"tool 'a': diameter: .*greater than 0 \(it is -3\)"),
-        (TOOL.format(name="a", number=1, diameter='"3 kg"'), r"tool 'a': diameter: .*'3 kg'"),
+        (TOOL.format(name="a", number=1, diameter=-3), r"tool 'a'\.diameter: -3 .*greater than 0"),
+        (TOOL.format(name="a", number=1, diameter='"3 kg"'), r"tool 'a'\.diameter: .*'3 kg'"),
         (
             TOOL.format(name="a", number=1, diameter=3).replace(".steel", ".cheese"),
-            "cutting.cheese: no such material",
+            r"tool 'a'\.cutting: no such material as 'cheese'",
         ),
         (TOOL.format(name="a", number=1, diameter=3) + "colour = 1", "colour"),
         (
@@ -83,7 +87,10 @@ def test_own_library_extends_and_overrides(tmp_path):
             TOOL.format(name="a", number=900, diameter=3) + TOOL.format(name="a", number=901, diameter=3),
             "two tools are called 'a'",
         ),
-        (TOOL.format(name="a", number=24, diameter=3), "'mill-6' and 'a' both have number 24"),
+        (
+            TOOL.format(name="a", number=24, diameter=3),
+            "tools.toml: tools 'mill-6' and 'a' both have number 24",
+        ),
     ],
 )
 def test_a_wrong_library_is_one_clear_line(tmp_path, text, message):
@@ -91,6 +98,39 @@ def test_a_wrong_library_is_one_clear_line(tmp_path, text, message):
     with pytest.raises(DesignError, match=message) as caught:
         load_library(path)
     assert "\n" not in str(caught.value)
+
+
+def test_every_wrong_key_of_a_tool_is_a_line(tmp_path):
+    text = TOOL.format(name="a", number=1, diameter=0).replace("chip_load", "chipload")
+    with pytest.raises(DesignError) as caught:
+        load_library(file(tmp_path, text))
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 3
+    assert any(
+        "tool 'a'.cutting.steel: unknown key 'chipload'; did you mean 'chip_load'?" in s for s in lines
+    )
+    assert any("tool 'a'.diameter: 0 should be greater than 0" in s for s in lines)
+    assert all(s.startswith(f"{tmp_path}/tools.toml: ") for s in lines)
+
+
+def test_a_library_is_read_with_the_limits_of_every_toml_file(tmp_path):
+    path = file(tmp_path, "\ufeff" + TOOL.format(name="a", number=900, diameter=3))
+    assert load_library(path).get("a").number == 900
+    path.write_text("x = " + "[" * 50_000)
+    with pytest.raises(DesignError, match="nested too deep"):
+        load_library(path)
+    path.write_bytes(b"#" * 1_000_001)
+    with pytest.raises(DesignError, match="larger than"):
+        load_library(path)
+    path.write_bytes(b"\xff")
+    with pytest.raises(DesignError, match="no UTF-8"):
+        load_library(path)
+
+
+def test_a_pipe_as_library_is_refused_and_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "tools.toml")
+    with pytest.raises(DesignError, match="is no file"):
+        load_library(tmp_path / "tools.toml")
 
 
 def test_a_missing_library_names_its_path(tmp_path):

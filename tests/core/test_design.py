@@ -113,7 +113,17 @@ MISTAKES = {
     "name is a path": (PREFIX + 'name = "a/b"\n', "cannot be a file name"),
     "library leads away": (PREFIX + "[cam]\ntool_library = '../t.toml'\n", "leads out of the folder"),
     "absolute library": (PREFIX + "[cam]\ntool_library = '/etc/passwd'\n", "leads out of the folder"),
-    "work offset": (PREFIX + "[cam]\nwork_offset = 'G53'\n", "cam.work_offset: 'G53'"),
+    "library is no file name": (PREFIX + '[cam]\ntool_library = "a\\u0000"\n', "is no file: embedded null"),
+    "work offset": (
+        PREFIX + "[cam]\nwork_offset = 'G53'\n",
+        "cam.work_offset: 'G53' should be 'G54', 'G55', 'G56'",
+    ),
+    "no list": (PREFIX + "[cam]\ntools = 'mill-6'\n", "cam.tools: 'mill-6' should be a list"),
+    "format is true": ("format = true\n" + PREFIX, "format: True is not known"),
+    "control characters": (
+        PREFIX + '[parameters]\ndiameter = "a\\nb\\u001b[31m"\n',
+        "'a\\nb\\x1b[31m' cannot be read in mm",
+    ),
 }
 
 
@@ -149,7 +159,10 @@ def test_what_cannot_be_read_is_named(tmp_path: Path, host: Host) -> None:
     (tmp_path / "huge.toml").write_bytes(b"#" * 1_000_001)
     with pytest.raises(DesignError, match="larger than"):
         load(tmp_path / "huge.toml", host)
-    with pytest.raises(PluginError, match="'dsic' is not installed; known: disc"):
+    (tmp_path / "loop").symlink_to("loop")
+    with pytest.raises(DesignError, match="tool_library: 'loop' is no file"):
+        load(write(tmp_path, PREFIX + "[cam]\ntool_library = 'loop'\n"), host)
+    with pytest.raises(PluginError, match=r"a\.toml: family: family 'dsic' is not installed; known: disc"):
         load(write(tmp_path, 'family = "dsic"\n'), host)
 
 

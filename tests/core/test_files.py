@@ -8,7 +8,7 @@ import pytest
 
 from mechwright import files
 from mechwright.errors import OutputError
-from mechwright.files import MANIFEST, Output, write_folder, write_new
+from mechwright.files import MANIFEST, Output, check_folder, write_folder, write_new
 
 
 def run(target: Path, command: str, **contents: str) -> None:
@@ -29,6 +29,31 @@ def test_a_new_folder_is_made_with_its_parents(tmp_path: Path) -> None:
     assert manifest["design"] == "d"
     assert manifest["outputs"]["x"]["command"] == "solve"
     assert names(tmp_path / "a") == {"b"}
+
+
+def test_a_symbolic_link_stays_one_and_its_folder_is_written(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to("real")
+    (tmp_path / "later").symlink_to("not-yet")
+    for link, folder in (("link", "real"), ("link", "real"), ("later", "not-yet")):
+        run(tmp_path / link, "solve", x="1")
+        assert (tmp_path / link).is_symlink()
+        assert names(tmp_path / folder) == {"x", MANIFEST}
+    assert names(tmp_path) == {"real", "link", "later", "not-yet"}
+    (tmp_path / "loop").symlink_to("loop")
+    with pytest.raises(OutputError, match="cannot be written"):
+        run(tmp_path / "loop", "solve", x="1")
+
+
+def test_the_current_folder_is_not_replaced_under_the_users_feet(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "here" / "below").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "here" / "below")
+    for target in (".", "..", "", tmp_path / "here"):
+        with pytest.raises(OutputError, match="is the current folder or above it"):
+            check_folder(Path(target))
+    check_folder(Path("out"))
 
 
 def test_other_files_stay_and_stale_ones_of_the_same_command_go(tmp_path: Path) -> None:

@@ -56,7 +56,7 @@ def _root(
 
 @app.command()
 def families(as_json: AsJson = False) -> None:
-    """List the installed mechanism families, and plugins that are broken."""
+    """List what is installed, and plugins that are broken."""
     from mechwright.cli import listing
 
     listing.families(as_json)
@@ -78,7 +78,10 @@ def new(
 
 @app.command()
 def check(design: DesignFile, as_json: AsJson = False) -> None:
-    """Say what an engineer would object to; exit code 1 if something forbids building."""
+    """Say what an engineer would object to.
+
+    The exit code is 1 if something forbids building.
+    """
     from mechwright.cli import work
 
     work.check(design, as_json)
@@ -94,7 +97,7 @@ def solve(design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) 
 
 @app.command()
 def model(design: DesignFile, output: OutputFolder, also: Also = "") -> None:
-    """Write the solids: a STEP file for each part and one of the assembly."""
+    """Write the solids: parts and assembly as STEP."""
     from mechwright.cli import work
 
     work.write(design, output, "model", also=also)
@@ -102,7 +105,10 @@ def model(design: DesignFile, output: OutputFolder, also: Also = "") -> None:
 
 @app.command()
 def cam(design: DesignFile, output: OutputFolder, dxf_curves: Curves = "spline") -> None:
-    """Write drawings and proven programs: DXF, G-code, tool table, setup sheet, proof."""
+    """Write drawings and proven programs.
+
+    DXF, G-code, the tool table of the control, the setup sheet, and the proof.
+    """
     from mechwright.cli import work
 
     work.write(design, output, "cam", curves=dxf_curves)
@@ -116,7 +122,7 @@ def build(
     also: Also = "",
     dxf_curves: Curves = "spline",
 ) -> None:
-    """Write everything: motion, solids, drawings and proven programs."""
+    """Write everything: motion, solids, drawings, programs."""
     from mechwright.cli import work
 
     work.write(design, output, "build", samples=samples, also=also, curves=dxf_curves)
@@ -131,7 +137,10 @@ def verify(
     part: Annotated[str, typer.Option(metavar="NAME", help="The part it cuts.", show_default=False)],
     as_json: AsJson = False,
 ) -> None:
-    """Simulate a program from anywhere and prove that it cuts the part; exit code 1 if it does not."""
+    """Prove that a program from anywhere cuts the part.
+
+    It is simulated as the programs of `cam` are. The exit code is 1 if it does not cut the part.
+    """
     from mechwright.cli import work
 
     work.verify(program, design, part, as_json)

@@ -12,8 +12,8 @@ from mechwright import __version__
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.design import SIZE_LIMIT, Design, load, read_text
-from mechwright.errors import DesignError
-from mechwright.files import Output, write_folder
+from mechwright.errors import DesignError, PluginError, ProgramError
+from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
 from mechwright.host import Host, host
 from mechwright.output import Exporter
@@ -69,9 +69,10 @@ def write(
 ) -> None:
     """Run ``solve``, ``model``, ``cam`` or ``build`` and write its files."""
     design, found = _open(path)
-    exporters = _more_formats(found, also)
+    exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
+    check_folder(folder)
     output = Output()
-    with progress(6) as step:
+    with progress(5 if command == "build" else 3) as step:
         step("checking")
         findings = list(design.family.check(design.params))
         if errors(findings):
@@ -102,9 +103,14 @@ def write(
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
 
-def _more_formats(found: Host, also: str) -> list[Exporter]:
+def _more_formats(found: Host, also: str, written: set[str]) -> list[Exporter]:
+    """The exporters that ``--also`` names, without those whose files are written anyway."""
     names = [name.strip() for name in also.split(",") if name.strip()]
-    return [found.exporter(name) for name in dict.fromkeys(names) if name != "step"]
+    try:
+        exporters = {name: found.exporter(name) for name in names}
+    except PluginError as error:
+        raise PluginError(f"--also: {error}") from error
+    return [exporter for name, exporter in exporters.items() if name not in written]
 
 
 def _write_solids(design: Design, found: Host, output: Output, more: list[Exporter]) -> None:
@@ -113,7 +119,8 @@ def _write_solids(design: Design, found: Host, output: Output, more: list[Export
     for exporter in [found.exporter("step"), *more]:
         for part in parts:
             output.add(part.name + exporter.suffix, exporter.part(part))
-        assembly = exporter.assembly(design.name, parts, motion)
+        placed = any(part.instances for part in parts)
+        assembly = exporter.assembly(design.name, parts, motion) if placed else None
         if assembly is not None:
             output.add("assembly" + exporter.suffix, assembly)
 
@@ -148,14 +155,17 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
     from mechwright_cam import pipeline
 
     design, _ = _open(path)
-    text, _ = read_text(program, PROGRAM_SIZE_LIMIT)
+    text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
     findings = list(design.family.check(design.params))
     if errors(findings):
         _refuse(findings, path)
     parts = {part.name: part for part in design.family.parts(design.params)}
     if part_name not in parts:
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
-    proof = pipeline.verify(design, parts[part_name], text)
+    try:
+        proof = pipeline.verify(design, parts[part_name], text)
+    except ProgramError as error:
+        raise ProgramError(f"{program}: {error}") from error
     if as_json:
         typer.echo(json.dumps(proof.as_dict(), indent=2))
     else:

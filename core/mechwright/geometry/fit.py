@@ -13,14 +13,13 @@ Lobatto nodes
     comes within a small factor of the best polynomial.
 """
 
-import math
 from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
 from mechwright.errors import GeometryError
-from mechwright.geometry.segments import BSpline
+from mechwright.geometry.segments import BSpline, bernstein
 from mechwright.motion import Array
 
 Curves = Callable[[Array], Array]
@@ -141,26 +140,18 @@ def _fit(
 def _distance(net: Array, degree: int, t: Array, exact: Array) -> float:
     """Largest distance of exact points (count, m, 2) from the fits, after one step to the foot point."""
     slopes = degree * np.diff(net, axis=1)
-    rate = _bernstein(degree - 1, t) @ slopes
-    error = exact - _bernstein(degree, t) @ net
+    rate = bernstein(degree - 1, t) @ slopes
+    error = exact - bernstein(degree, t) @ net
     speed = np.einsum("cmi,cmi->cm", rate, rate)
     step = np.einsum("cmi,cmi->cm", error, rate) / np.where(speed > 0, speed, np.inf)
     foot = np.clip(t + step, 0, 1)
-    nearest = np.einsum("cmk,cki->cmi", _bernstein(degree, foot), net)
+    nearest = np.einsum("cmk,cki->cmi", bernstein(degree, foot), net)
     return float(np.linalg.norm(exact - nearest, axis=-1).max())
-
-
-def _bernstein(degree: int, t: Array) -> Array:
-    """Bernstein polynomials of one degree at t (...): (..., degree + 1)."""
-    k = np.arange(degree + 1)
-    binomial = np.array([math.comb(degree, i) for i in range(degree + 1)], dtype=float)
-    values: Array = binomial * t[..., None] ** k * (1 - t[..., None]) ** (degree - k)
-    return values
 
 
 @cache
 def _interpolation(degree: int) -> tuple[Array, Array]:
     """Lobatto nodes (degree + 1,) and the matrix that turns values there into control points."""
     nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
-    inverse: Array = np.linalg.inv(_bernstein(degree, nodes)).astype(np.float64)
+    inverse: Array = np.linalg.inv(bernstein(degree, nodes)).astype(np.float64)
     return nodes, inverse

@@ -294,14 +294,14 @@ class BSpline:
         """
         t = np.atleast_1d(np.asarray(t, dtype=float))
         if self.is_bezier:
-            return _bernstein(self.degree, t) @ self._net
+            return bernstein(self.degree, t) @ self._net
         return _de_boor(self.degree, self._knots, self._net, t)
 
     def derivative(self, t: ArrayLike) -> Array:
         """First derivative (n, 2) with respect to t."""
         t = np.atleast_1d(np.asarray(t, dtype=float))
         if self.is_bezier:
-            return _bernstein(self.degree - 1, t) @ (self.degree * np.diff(self._net, axis=0))
+            return bernstein(self.degree - 1, t) @ (self.degree * np.diff(self._net, axis=0))
         return _de_boor(
             self.degree - 1, self._knots[1:-1], _hodograph(self.degree, self._knots, self._net), t
         )
@@ -344,11 +344,11 @@ class BSpline:
         return np.unique(np.asarray(self.knots))
 
 
-def _bernstein(degree: int, t: Array) -> Array:
-    """Bernstein polynomials of one degree at t (n,): (n, degree + 1)."""
+def bernstein(degree: int, t: Array) -> Array:
+    """Bernstein polynomials of one degree at t (...): (..., degree + 1)."""
     k = np.arange(degree + 1)
-    binomial = np.array([math.comb(degree, i) for i in k], dtype=float)
-    values: Array = binomial * t[:, None] ** k * (1 - t[:, None]) ** (degree - k)
+    binomial = np.array([math.comb(degree, i) for i in range(degree + 1)], dtype=float)
+    values: Array = binomial * t[..., None] ** k * (1 - t[..., None]) ** (degree - k)
     return values
 
 

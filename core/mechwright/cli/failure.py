@@ -1,0 +1,54 @@
+"""What the command line says when something fails: one line each, also for a fault that nobody expected."""
+
+import os
+import traceback
+from pathlib import Path
+
+from mechwright.errors import MechwrightError
+
+TRACEBACK = "MECHWRIGHT_TRACEBACK"
+"""Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
+
+
+def lines(error: Exception) -> list[str]:
+    """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
+    said = str(error) if isinstance(error, MechwrightError) else _unexpected(error)
+    shown = [_printable(line) for line in said.splitlines()]
+    if os.environ.get(TRACEBACK) and not isinstance(error, MechwrightError):
+        shown += "".join(traceback.format_exception(error)).splitlines()
+    return shown
+
+
+def _printable(line: str) -> str:
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def _unexpected(error: Exception) -> str:
+    if isinstance(error, MemoryError):
+        return "there is not enough memory for this; nothing was written"
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename or 'output'}: {error.strerror}"
+    frames = traceback.extract_tb(error.__traceback__)
+    reason = " ".join(f"{type(error).__name__}: {error}".split())
+    place = f"{Path(frames[-1].filename).name}, line {frames[-1].lineno}" if frames else "unknown place"
+    return f"{_owner(error)} failed: {reason} ({place}); please report it, with what {TRACEBACK}=1 shows"
+
+
+def _owner(error: Exception) -> str:
+    """The plugin whose code was running, innermost first; the program itself if it was none."""
+    from mechwright.host import host
+
+    found = host()
+    owners = {
+        type(entry.item).__module__.partition(".")[0]: f"plugin {entry.plugin} of {entry.distribution}"
+        for kind in (found.families, found.posts, found.exporters)
+        for entry in kind.values()
+    }
+    modules = [
+        str(frame.f_globals.get("__name__", "")) for frame, _ in traceback.walk_tb(error.__traceback__)
+    ]
+    for module in reversed(modules):
+        owner = owners.get(module.partition(".")[0])
+        if owner is not None:
+            return owner
+    return "this program"

@@ -1,0 +1,130 @@
+"""Faults that nobody expected: plugins that break while they work, a full disk, strange characters."""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mechwright.host as hosting
+from mechwright.cli import failure, main
+from mechwright.errors import DesignError
+from mechwright.family import Family
+from mechwright.geometry import Line, Loop, Outline
+from mechwright.host import Registered
+from mechwright.motion import Channel, Motion
+from mechwright.parameters import Parameters
+from mechwright.part import Part
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
+Run = Callable[..., tuple[int, str, str]]
+
+
+class Odd(Family[Parameters]):
+    name = "odd"
+    title = "Odd"
+    summary = "Does what its two class attributes say."
+    Params = Parameters
+    fault: Exception | None = None
+    names: tuple[str, ...] = ("plate",)
+
+    def check(self, params: Parameters) -> list[Any]:
+        if self.fault is not None:
+            raise self.fault
+        return []
+
+    def solve(self, params: Parameters, samples: int) -> Motion:
+        return Motion("t", {"t": Channel(np.linspace(0.0, 1.0, samples), "s")})
+
+    def parts(self, params: Parameters) -> list[Part]:
+        corners = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0), (0.0, 0.0)]
+        outline = Outline(Loop(tuple(Line(a, b, "side") for a, b in pairwise(corners))))
+        return [Part(name, outline, 5.0, "aluminium") for name in self.names]
+
+
+@pytest.fixture
+def odd(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Odd]]:
+    found = hosting.load()
+    found.families["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
+    monkeypatch.setattr(hosting, "load", lambda: found)
+    hosting.host.cache_clear()
+    yield Odd
+    hosting.host.cache_clear()
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+    design = tmp_path / "odd.toml"
+    design.write_text('family = "odd"\n')
+
+    def call(command: str, *arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["mechwright", command, str(design), *map(str, arguments)])
+        capsys.readouterr()
+        try:
+            main()
+            code = 0
+        except SystemExit as stop:
+            code = int(stop.code or 0)
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return call
+
+
+def test_a_plugin_that_breaks_while_it_works_is_named_in_one_line(
+    run: Run, odd: type[Odd], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(odd, "fault", ZeroDivisionError("no\nsuch \x1b[31mlength"))
+    code, out, err = run("check")
+    assert (code, out) == (2, "")
+    assert err.startswith(
+        "mechwright: plugin odd of odd-mechanisms failed: ZeroDivisionError: no such \\x1b[31m"
+    )
+    assert "test_cli_failures.py, line" in err
+    assert len(err.splitlines()) == 1
+    monkeypatch.setenv(failure.TRACEBACK, "1")
+    assert "Traceback (most recent call last)" in run("check")[2]
+
+
+def test_a_fault_outside_of_plugins_is_the_programs_own(odd: type[Odd]) -> None:
+    assert failure.lines(KeyError("x"))[0].startswith("this program failed: KeyError: 'x' (unknown place)")
+    assert failure.lines(MemoryError()) == ["there is not enough memory for this; nothing was written"]
+    assert failure.lines(DesignError("a\nb\x07")) == ["a", "b\\x07"]
+
+
+def test_a_family_without_instances_has_no_assembly(run: Run, odd: type[Odd], tmp_path: Path) -> None:
+    code, _, err = run("model", "-o", tmp_path / "out")
+    assert (code, err) == (0, "")
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"plate.step", "manifest.json"}
+
+
+def test_two_parts_of_one_name_are_refused(
+    run: Run, odd: type[Odd], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(odd, "names", ("plate", "plate"))
+    code, _, err = run("model", "-o", tmp_path / "out")
+    assert code == 2
+    assert "two files would be called 'plate.step'" in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_format_that_is_written_anyway_may_be_asked_for(run: Run, odd: type[Odd], tmp_path: Path) -> None:
+    code, _, err = run("build", "-o", tmp_path / "out", "--also", "dxf,step,stl,stl")
+    assert (code, err) == (0, "")
+    assert (tmp_path / "out" / "plate.stl").exists()
+    code, _, err = run("build", "-o", tmp_path / "out", "--also", "igs")
+    assert code == 2
+    assert err.startswith("mechwright: --also: exporter 'igs' is not installed; known: 3mf, dxf")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="the system has no /dev/full")
+def test_a_full_disk_is_one_line() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "mechwright", "families"], stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert (done.returncode, done.stderr) == (2, "mechwright: output: No space left on device\n")
