@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
-from mechwright.part import Bore, Profile
+from mechwright.part import Bore
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 
@@ -111,21 +111,19 @@ def cut_outline(job: Job) -> shapely.Polygon:
 
     Each wall is judged with the cutter that finishes it, the one :func:`plan` takes.
     """
-    from mechwright_cam.planning.choice import finishing_mill
+    from mechwright_cam.planning.zone import inner_zones, outer_zones
 
     outside: shapely.Geometry = shapely.Polygon(job.target.exterior)
-    holes = []
-    for feature in job.features:
-        if isinstance(feature, Bore):
-            if feature.top == 0 and feature.depth >= job.thickness:
-                holes.append(shapely.Point(feature.centre).buffer(feature.diameter / 2, quad_segs=256))
-        elif isinstance(feature, Profile):
-            shape = shapely.Polygon(feature.loop.flatten())
-            if feature.side == "outside":
-                outside = closing(shape, finishing_mill(job, shape).radius)
-            else:
-                keep = opening_keep(shape, 2 * max(tool.diameter for tool in job.end_mills))
-                radius = finishing_mill(job, keep).radius
-                holes.append(grow(grow(shape, -radius, PRECISION), radius, PRECISION))
+    for zone in outer_zones(job)[:1]:
+        outside = closing(zone.wall, zone.finisher.radius)
+    holes = [
+        shapely.Point(bore.centre).buffer(bore.diameter / 2, quad_segs=256)
+        for bore in job.features
+        if isinstance(bore, Bore) and bore.top + bore.depth >= job.thickness
+    ]
+    for zone in inner_zones(job):
+        if zone.bottom == job.floor:
+            radius = zone.finisher.radius
+            holes.append(grow(grow(zone.clear, -radius, PRECISION), radius, PRECISION))
     cut = outside.difference(shapely.union_all(holes)) if holes else outside
     return max(polygons(cut), key=lambda part: float(part.area))

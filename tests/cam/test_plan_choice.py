@@ -85,7 +85,7 @@ def test_findings():
     assert [f.code for f in note] == ["cam.slender"]
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     count=st.integers(3, 12),
     radius=st.floats(8, 30),
@@ -125,3 +125,12 @@ def test_any_part_is_cut_or_refused(
     assert gouge(job, program) <= 0.005
     assert leftover(job, program) == 0
     check_rules(job, program)
+
+
+def test_a_mill_too_wide_for_the_frame_is_not_used():
+    of = part(lobes(3, 8.0, 1.0, 400), thickness=2)
+    wanted = CamSettings.model_validate({"tools": ["mill-16", "mill-2.5"], "stock": {"margin": 12}})
+    job = make_job(of, wanted, choose_tools(of, wanted, LIBRARY))
+    program = plan(job)
+    assert [section.tool.name for section in program.sections] == ["mill-2.5"]
+    assert leftover(job, program) == 0

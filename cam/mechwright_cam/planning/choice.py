@@ -55,8 +55,3 @@ def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
         else:
             low = middle + 1
     return mills[low]
-
-
-def finishing_mill(job: Job, keep: shapely.Geometry) -> Tool:
-    """The mill that finishes the walls of a through cut around ``keep``."""
-    return finishing_choice(usable_mills(job, -job.floor), keep)

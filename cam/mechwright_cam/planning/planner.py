@@ -161,7 +161,7 @@ class _Planner:
         zones = outer_zones(self.job)
         before = len(self.steps)
         if zones:
-            self._wall(zones, after, zones[0].roughers)
+            self._wall(zones, after, zones[0].mills)
         return frozenset(range(before, len(self.steps)))
 
     def _wall(self, zones: list[Zone], after: frozenset[int], mills: list[Tool]) -> None:
@@ -179,9 +179,13 @@ class _Planner:
             after = self._rough_heavy(zone, finest, after)
             # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             finishing = Finishing(zone, settings)
+            before = len(self.steps)
             after = self._milled(f"{zone.name}: finish", zone.finisher, after, finishing.write)
-        if not after:
-            raise ToolError(f"cam.tools: no listed end mill enters {zones[0].name} of part {job.part.name}")
+            if len(self.steps) == before:
+                raise ToolError(
+                    f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {job.part.name}; "
+                    "list a smaller end mill"
+                )
 
     def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
         data = mill.cutting[self.job.part.material]

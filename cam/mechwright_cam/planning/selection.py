@@ -9,7 +9,7 @@ from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolE
 from mechwright.findings import Finding, Severity
 from mechwright.part import Bore, Part, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
@@ -17,9 +17,14 @@ from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
+from mechwright_cam.toolpath.offsets import ROUGH, grow
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
+PAYS = 1.5
+"""An intermediate roughing mill is at least this many times as wide as the finishing one."""
+HALF = 0.5
+"""It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
 """A mill below this share of a bore's diameter bores too slowly to save another tool."""
 SLENDER = 5.0
@@ -79,7 +84,8 @@ def _mills(every: Job) -> list[Tool]:
         shape = shapely.Polygon(feature.loop.flatten())
         if feature.side == "outside":
             roughing = _roughing(every, sensible, shape)
-            chosen += [roughing[0], _finest_needed(roughing, shape)]
+            finest = _finest_needed(roughing, shape)
+            chosen += [roughing[0], *_between(every, roughing, finest, shape), finest]
         else:
             openings.append((feature, shape))
     for feature, shape in openings:
@@ -95,9 +101,27 @@ def _mills(every: Job) -> list[Tool]:
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
     """The mills for an outside: with tabs only those whose channel leaves a frame."""
-    if every.settings.hold.method != "tabs" or every.settings.stock == type(every.settings.stock)():
+    if every.settings.hold.method != "tabs" or every.settings.stock == Stock():
         return mills
     return roughing_mills(every, mills, part, framed=True)
+
+
+def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon) -> list[Tool]:
+    """A mill that takes much of what the largest leaves to the finest, if there is one."""
+
+    def left(mill: Tool) -> float:
+        reach = mill.radius + every.settings.stock_to_leave
+        return float(grow(grow(thin, reach, ROUGH), -reach, ROUGH).area - part.area)
+
+    thin = shapely.simplify(part, ROUGH)
+    middle = [mill for mill in mills[1:] if mill.diameter >= PAYS * finest.diameter]
+    if not middle:
+        return []
+    most, least = left(mills[0]), left(finest)
+    for mill in middle:
+        if most - left(mill) >= HALF * (most - least) > 0:
+            return [mill]
+    return []
 
 
 def _finest_needed(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:

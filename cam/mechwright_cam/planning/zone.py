@@ -46,14 +46,12 @@ class Zone:
     top: float
     bottom: float
     mills: list[Tool]
-    """Those long enough, largest first."""
+    """Those long enough, and for an outside with a channel that leaves a frame; largest first."""
     finisher: Tool
     """The mill that finishes the wall."""
     kind: Literal["outside", "inside", "pocket"]
     channel: shapely.Geometry | None = None
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
-    roughers: list[Tool] = field(default_factory=list)
-    """Outside: the mills whose channel leaves a frame, largest first."""
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
@@ -162,10 +160,10 @@ def outer_zones(job: Job) -> list[Zone]:
                 f"part {job.part.name}: the outside {feature.name} ends {feature.depth:g} mm below "
                 f"{feature.top:g} mm and not at the underside; only outsides through the plate can be cut"
             )
-        mills = usable_mills(job, -job.floor)
         part = shapely.Polygon(feature.loop.flatten())
-        roughers = roughing_mills(job, mills, part)
-        clear, channel = _channel(job, part, roughers[0])
+        # A mill too wide for the frame is as good as none, for finishing as well.
+        mills = roughing_mills(job, usable_mills(job, -job.floor), part)
+        clear, channel = _channel(job, part, mills[0])
         finisher = finishing_choice(mills, part)
 
         layer = partial(
@@ -175,7 +173,6 @@ def outer_zones(job: Job) -> list[Zone]:
             finisher=finisher,
             kind="outside",
             channel=channel,
-            roughers=roughers,
         )
         top = -feature.top
         if job.tabs:
