@@ -12,8 +12,16 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
-from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
-from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_bore, starting_drill
+from mechwright_cam.planning.choice import (
+    ROOMY,
+    SAME_REACH,
+    entry_place,
+    finishing_choice,
+    path_radius,
+    roomy_mills,
+    usable_mills,
+)
+from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
@@ -90,8 +98,7 @@ def _mills(every: Job) -> list[Tool]:
             openings.append((feature, shape))
     for feature, shape in openings:
         able = usable_mills(every, -bottom_of(every, feature.top, feature.depth))
-        _, radius = entry_place(shape)
-        able = [mill for mill in able if mill.diameter <= ROOMY * 2 * radius] or able[-1:]
+        able = roomy_mills(able, shape)
         chosen.append(_finest_needed(able, opening_keep(shape, 2 * able[0].diameter)))
     for feature in every.features:
         if isinstance(feature, Bore):

@@ -23,7 +23,7 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import finishing_choice, usable_mills
+from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
 from mechwright_cam.reach import opening_keep
 from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons
 from mechwright_cam.toolpath.path import DECIMALS
@@ -134,6 +134,7 @@ def inner_zones(job: Job) -> list[Zone]:
                 f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
                 f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
             )
+        mills = roomy_mills(mills, shape)
         zones.append(
             Zone(
                 feature.name,
