@@ -23,7 +23,7 @@ from mechwright_cam.planning.choice import (
 )
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
+from mechwright_cam.planning.zone import bores, bottom_of, inner_zones, outer_zones, roughing_mills, through
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow
 
@@ -35,6 +35,9 @@ HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
 """A mill below this share of a bore's diameter bores too slowly to save another tool."""
+OPENS = 0.6
+"""A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
+then takes rings as wide as after the drill of the right size, only one or two more."""
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
 
@@ -100,9 +103,9 @@ def _mills(every: Job) -> list[Tool]:
         able = usable_mills(every, -bottom_of(every, feature.top, feature.depth))
         able = roomy_mills(able, shape)
         chosen.append(_finest_needed(able, opening_keep(shape, 2 * able[0].diameter)))
-    for feature in every.features:
-        if isinstance(feature, Bore):
-            chosen += _boring(every, feature, chosen)
+    # From the smallest on: what bores a small hole may bore the larger ones as well.
+    for bore in sorted(bores(every), key=lambda bore: bore.diameter):
+        chosen += _boring(every, bore, chosen)
     return chosen or fit[:1]
 
 
@@ -156,18 +159,26 @@ def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
 
 
 def _drills(every: Job) -> list[Tool]:
-    """Spot drill and drills for all holes through the plate."""
-    drills: dict[str, Tool] = {}
+    """Spot drill and drills for all holes through the plate, as few as open every hole well."""
+    wanted: list[tuple[float, Tool]] = []
     for feature in every.features:
         if not through(every, feature.top + feature.depth):
             continue
-        drill = None
         if isinstance(feature, Bore):
-            drill = plan_bore(every, feature).drill
+            hole = plan_bore(every, feature)
+            width, drill = feature.diameter, hole.drill
+            if drill is not None and hole.mill is None:
+                width = drill.diameter  # no other makes the hole to size
         elif isinstance(feature, Profile) and feature.side == "inside":
             _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))
-            drill = starting_drill(every, 2 * radius, -every.floor)
+            width, drill = 2 * radius, starting_drill(every, 2 * radius, -every.floor)
+        else:
+            continue
         if drill is not None:
+            wanted.append((width, drill))
+    drills: dict[str, Tool] = {}
+    for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
+        if not any(OPENS * width <= other.diameter for other in drills.values()):
             drills[drill.name] = drill
     spots = [
         tool
