@@ -35,8 +35,12 @@ SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
-COARSE_FROM = 4 * ROUGH
-"""From this allowance on the wall is far enough away for thinned paths, mm."""
+COARSE_FIT = 2 * ROUGH
+"""How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
+lines again."""
+COARSE_FROM = 8 * ROUGH
+"""From this allowance on the wall is far enough away for thinned paths, mm: twice of what outline, offset,
+thinning and fit may be off together."""
 BESIDE = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
@@ -101,7 +105,7 @@ class Roughing:
         self.zone, self.tool, self.climb = zone, tool, climb
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
-        self.fit = ROUGH if coarse else FIT
+        self.fit = COARSE_FIT if coarse else FIT
         # The shape that the cutter's edge must not enter.
         self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
         self.step = min(step_over, TIGHT) * tool.diameter

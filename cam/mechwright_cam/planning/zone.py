@@ -31,6 +31,9 @@ from mechwright_cam.toolpath.path import DECIMALS
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
 
+TAB_SLACK = 4 * ROUGH
+"""Roughing keeps off tabs by all that its thinned path may be off, mm."""
+
 HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 
@@ -94,7 +97,7 @@ class Zone:
         if allowance not in self._rough:
             wall = grow(self.thinned, allowance, ROUGH)
             if self.tabs is not None:
-                wall = shapely.union(wall, grow(self.tabs, min(allowance, 2 * ROUGH), ROUGH))
+                wall = shapely.union(wall, grow(self.tabs, min(allowance, TAB_SLACK), ROUGH))
             self._rough[allowance] = shapely.simplify(wall, ROUGH / 2)
         return self._rough[allowance]
 
