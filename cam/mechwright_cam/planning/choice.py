@@ -1,6 +1,7 @@
 """Which of a job's end mills does what."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import shapely
 
@@ -49,16 +50,21 @@ def path_radius(mill: Tool) -> float:
 
 def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one."""
-    finest = mills[-1]
-    reference = closing(keep, finest.radius)
-    low, high = 0, len(mills) - 1
+    return mills[_largest_as_good(keep, tuple(path_radius(mill) for mill in mills))]
+
+
+@lru_cache(maxsize=64)
+def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...]) -> int:
+    """Index of the largest radius that leaves no more on the walls of ``keep`` than the last one."""
+    reference = closing(keep, radii[-1] - BIAS)
+    low, high = 0, len(radii) - 1
     while low < high:  # what is left only grows with the radius
         middle = (low + high) // 2
-        if leaves_at_most(reference, path_radius(mills[middle]), SAME_REACH):
+        if leaves_at_most(reference, radii[middle], SAME_REACH):
             high = middle
         else:
             low = middle + 1
-    return mills[low]
+    return low
 
 
 def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:

@@ -186,9 +186,8 @@ class Roughing:
         order = 0
         while True:
             if order:
-                # The ring before reaches this far; this ring is for what lies beyond.
-                beyond = (order - 1) * self.step + 2 * radius - CLEAR
-                take = opened(shapely.difference(take, grow(self.keep, beyond, ROUGH)), SLIVER)
+                # The ring before reaches a radius far; this ring is for what lies beyond.
+                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), SLIVER)
                 if not polygons(take):
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)

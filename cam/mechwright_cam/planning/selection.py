@@ -25,7 +25,7 @@ from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bores, bottom_of, inner_zones, outer_zones, roughing_mills, through
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
-from mechwright_cam.toolpath.offsets import ROUGH, grow
+from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
@@ -123,7 +123,7 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
         reach = mill.radius + every.settings.stock_to_leave
         return float(grow(grow(thin, reach, ROUGH), -reach, ROUGH).area - part.area)
 
-    thin = shapely.simplify(part, ROUGH)
+    thin = thinned(part)
     middle = [mill for mill in mills[1:] if mill.diameter >= PAYS * finest.diameter]
     if not middle:
         return []

@@ -72,14 +72,20 @@ class Writer:
 
     def axis_words(self, x: float | None, y: float | None, z: float | None) -> list[str]:
         """The coordinates that change in the text, and keep them all in mind."""
+        # A position that the text does not state is NaN: its number equals none that is written.
         words = []
-        for axis, value in (("x", x), ("y", y), ("z", z)):
-            if value is None:
-                continue
-            before = getattr(self, axis)
-            if math.isnan(before) or rounded(before) != rounded(value):
-                words.append(axis.upper() + number(value))
-            setattr(self, axis, value)
+        if x is not None:
+            if (text := number(x)) != number(self.x):
+                words.append("X" + text)
+            self.x = x
+        if y is not None:
+            if (text := number(y)) != number(self.y):
+                words.append("Y" + text)
+            self.y = y
+        if z is not None:
+            if (text := number(z)) != number(self.z):
+                words.append("Z" + text)
+            self.z = z
         return words
 
     def lost_height(self) -> None:
