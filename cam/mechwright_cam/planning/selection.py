@@ -23,7 +23,15 @@ from mechwright_cam.planning.choice import (
 )
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import bores, bottom_of, inner_zones, outer_zones, roughing_mills, through
+from mechwright_cam.planning.zone import (
+    Zone,
+    bores,
+    bottom_of,
+    inner_zones,
+    outer_zones,
+    roughing_mills,
+    through,
+)
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
@@ -196,20 +204,28 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     stock in the way. Warnings: a cutter that cannot run at its cutting speed on this machine, a listed tool
     without data for the material. Notes: slender cutters, and stock that stays in corners.
     """
+    return lay_out(part, settings, library)[1]
+
+
+def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | None, list[Finding]]:
+    """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
+
+    The job is None if the cutters cannot be chosen or the part does not fit its stock.
+    """
     try:
         tools = choose_tools(part, settings, library)
         job = make_job(part, settings, tools)
     except MechwrightError as error:
-        return [_refusal(error)]
+        return None, [_refusal(error)]
     found: list[Finding] = []
-    for feature in job.features:
-        if isinstance(feature, Bore):
-            _try(found, partial(plan_bore, job, feature))
-    _try(found, lambda: inner_zones(job))
-    _try(found, lambda: outer_zones(job))
+    zones: list[Zone] = []
+    for bore in bores(job):
+        _try(found, partial(plan_bore, job, bore))
+    _try(found, lambda: zones.extend(inner_zones(job)))
+    _try(found, lambda: zones.extend(outer_zones(job)))
     if not found:
-        found += _corners(job)
-    return found + _remarks(job)
+        found += _corners(job, zones)
+    return job, found + _remarks(job)
 
 
 def _try(found: list[Finding], action: Callable[[], object]) -> None:
@@ -228,10 +244,10 @@ def _refusal(error: MechwrightError) -> Finding:
     return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
 
 
-def _corners(job: Job) -> list[Finding]:
+def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     """The remainder on every wall."""
     found = []
-    for zone in [*inner_zones(job), *outer_zones(job)]:
+    for zone in zones:
         if zone.tabs is not None:
             continue
         depth = remainder(zone.wall, zone.finisher.radius)
