@@ -114,7 +114,9 @@ class Roughing:
         self.free = shapely.difference(self.room, self.blocked)
         self.reach = grow(self.free, tool.radius, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.take = opened(shapely.difference(take, zone.waste), SLIVER)
+        self.take = opened(take, SLIVER)  # first, for it leaves far fewer corners
+        if not shapely.is_empty(zone.waste):
+            self.take = opened(shapely.difference(self.take, zone.waste), SLIVER)
 
     @property
     def share(self) -> float:
