@@ -1,5 +1,6 @@
-"""Fixtures that all tests share."""
+"""What all tests share: the hypothesis profile, and the rule that nothing is skipped in CI for want of a client."""
 
+import importlib.util
 import os
 import shutil
 
@@ -7,6 +8,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
+PROGRAMS = {"rs274": "linuxcnc-uspace", "ogr2ogr": "gdal-bin", "ogrinfo": "gdal-bin"}
+"""Program to the Debian package that has it."""
+MODULES = ("gmsh", "mypy")
 
 # The machine's load must not decide whether a property holds.
 settings.register_profile(
@@ -15,24 +19,13 @@ settings.register_profile(
 settings.load_profile("mechwright")
 
 
-def client(name: str, package: str) -> str:
-    """Path of a real client; skips with the reason where it is missing, fails in CI."""
-    path = shutil.which(name)
-    if path is None:
-        reason = f"{name} is not installed (Debian package {package})"
-        if os.environ.get(REQUIRE_CLIENTS):
-            pytest.fail(reason)
-        pytest.skip(reason)
-    return path
-
-
-@pytest.fixture(scope="session")
-def rs274() -> str:
-    """LinuxCNC's interpreter."""
-    return client("rs274", "linuxcnc-uspace")
-
-
-@pytest.fixture(scope="session")
-def ogrinfo() -> str:
-    """GDAL's vector reader."""
-    return client("ogrinfo", "gdal-bin")
+def pytest_configure() -> None:
+    """Stop where a client is missing that CI has to have; elsewhere the tests that need it skip."""
+    if not os.environ.get(REQUIRE_CLIENTS):
+        return
+    missing = [
+        f"{name} (Debian package {package})" for name, package in PROGRAMS.items() if not shutil.which(name)
+    ]
+    missing += [f"{name} (PyPI)" for name in MODULES if importlib.util.find_spec(name) is None]
+    if missing:
+        pytest.exit(f"{REQUIRE_CLIENTS} is set, and these are missing: {', '.join(missing)}", returncode=1)

@@ -1,7 +1,6 @@
 """The tool library: cutters in a TOML file that a person can extend."""
 
 import difflib
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -10,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from mechwright.design import read_toml
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
 from mechwright.tooling import Tool
@@ -80,32 +80,24 @@ def load_library(path: Path | None = None) -> Library:
 
 def read_tools(path: Path) -> tuple[Tool, ...]:
     """Read the ``[[tool]]`` tables of one file; raises DesignError."""
-    try:
-        with path.open("rb") as file:
-            data = tomllib.load(file)
-    except OSError as error:
-        raise DesignError(f"tool library {path} cannot be read: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise DesignError(f"tool library {path} is no TOML file: {error}") from error
+    data, _ = read_toml(path)
     rows = data.pop("tool", None)
     if data:
-        raise DesignError(
-            f"tool library {path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables"
-        )
+        raise DesignError(f"{path}: unknown table {next(iter(data))!r}; it holds [[tool]] tables")
     if not isinstance(rows, list) or not rows:
-        raise DesignError(f"tool library {path} holds no tool; add a [[tool]] table")
+        raise DesignError(f"{path} holds no tool; add a [[tool]] table")
     tools: dict[str, Tool] = {}
     for position, row in enumerate(rows, start=1):
         tool = _read_tool(path, position, row)
         if tool.name in tools:
-            raise DesignError(f"tool library {path}: two tools are called {tool.name!r}; rename one")
+            raise DesignError(f"{path}: two tools are called {tool.name!r}; rename one")
         tools[tool.name] = tool
     return Library(tuple(tools.values())).tools
 
 
 def _read_tool(path: Path, position: int, row: Any) -> Tool:
     name = row.get("name", f"number {position} of the file") if isinstance(row, dict) else position
-    where = f"tool library {path}: tool {name!r}"
+    where = f"{path}: tool {name!r}"
     try:
         tool = Tool.model_validate(row)
     except ValidationError as error:

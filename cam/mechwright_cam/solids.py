@@ -97,7 +97,8 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
                     f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
                 )
             place = _location(motion, instance.body, sample, instance.z)
-            whole.add(part_solid(part), name=_free(child, whole), loc=place, color=cq.Color(*part.colour))
+            colour = cq.Color(*part.colour_of(instance))
+            whole.add(part_solid(part), name=_free(child, whole), loc=place, color=colour)
     return whole
 
 

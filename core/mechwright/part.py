@@ -78,10 +78,15 @@ Feature = Profile | Bore | Pocket
 
 @dataclass(frozen=True)
 class Instance:
-    """One copy of a part: the body it belongs to in the motion, and how high its underside stands, mm."""
+    """One copy of a part.
+
+    It belongs to a ``body`` of the motion, its underside stands at the height ``z``, mm, and its ``colour``
+    is the part's unless it has one of its own.
+    """
 
     body: str
     z: float = 0.0
+    colour: Colour | None = None
 
 
 @dataclass(frozen=True)
@@ -123,6 +128,10 @@ class Part:
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
         if self.outline is not None and not self.thickness > 0:
             raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
+
+    def colour_of(self, instance: Instance) -> Colour:
+        """The colour that a copy of the part shows."""
+        return self.colour if instance.colour is None else instance.colour
 
     @cached_property
     def features(self) -> tuple[Feature, ...]:

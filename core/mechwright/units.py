@@ -21,7 +21,7 @@ _UNIT = r"[^\W\d_]+(?:_[^\W\d_]+)*|[°%]"
 _POWER = r"(?:(?:\^|\*\*)-?\d|[²³])?"
 _TERM = rf"(?:{_UNIT}|1){_POWER}"
 _UNITS = re.compile(rf"{_TERM}(?:\s*[*/·]\s*{_TERM}|\s+{_TERM})*")
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\D.*?)\s*")
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(/\s*\d+)?\s*([^\d/].*?)\s*")
 
 _SIGNIFICANT = 15
 """Digits a converted value keeps: every decimal of 15 digits survives, the rounding of a factor does not."""
@@ -75,7 +75,7 @@ def convert(text: str, unit: str) -> float:
     Parameters
     ----------
     text
-        A number and a unit, such as ``"2 in"``; a number alone is taken to be in ``unit``.
+        A number and a unit, such as ``"2 in"`` or ``"1/4 in"``; a number alone is taken to be in ``unit``.
     unit
         The wanted unit, as pint spells it; ``""`` for a pure number.
 
@@ -88,6 +88,8 @@ def convert(text: str, unit: str) -> float:
     --------
     >>> convert("2 in", "mm")
     50.8
+    >>> convert("1/4 in", "mm")
+    6.35
     >>> convert("40", "mm")
     40.0
     >>> convert("2 kg", "mm")
@@ -109,13 +111,14 @@ def _quantity(text: str, unit: str, wrong: ValueError) -> float:
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise wrong
-    number, symbol = match.groups()
+    number, divisor, symbol = match.groups()
     try:
+        value = float(number) / (int(divisor.strip("/ ")) if divisor else 1)
         if kind(symbol) != kind(unit):
             raise wrong
-        quantity = _registry().Quantity(float(number), _parse(symbol))
+        quantity = _registry().Quantity(value, _parse(symbol))
         return float(f"{quantity.to(_parse(unit)).magnitude:.{_SIGNIFICANT}g}")
-    except ValueError:
+    except (ValueError, ZeroDivisionError):
         raise wrong from None
     except Exception as error:  # noqa: BLE001,RUF100 - offset and logarithmic units fail in their own ways
         raise wrong from error

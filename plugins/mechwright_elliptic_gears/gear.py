@@ -19,8 +19,8 @@ from mechwright_elliptic_gears.teeth import Teeth
 PART = "gear"
 """Name of the part; both gears are this one."""
 
-BODIES = ("gear-2", "gear-4")
-"""The driving and the driven gear in the motion."""
+BODIES = {"gear-2": (0.45, 0.58, 0.70), "gear-4": (0.80, 0.68, 0.42)}
+"""The driving and the driven gear in the motion, each with its colour."""
 
 OFFSET_SLACK = 1e-6
 """Pitches by which a tooth offset may miss: a micrometre in a metre, far below any backlash."""
@@ -138,7 +138,7 @@ def part_of(params: EllipticGearParams) -> Part:
         outline,
         params.thickness,
         params.material,
-        instances=tuple(Instance(body) for body in BODIES),
+        instances=tuple(Instance(body, colour=colour) for body, colour in BODIES.items()),
         machined=tuple(features),
     )
 

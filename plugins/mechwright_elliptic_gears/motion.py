@@ -69,9 +69,10 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
         "pressure_angle": Channel(shaft_pressure_angle(gear2, e, math.radians(params.pressure_angle)), "rad"),
     }
     still = 2 * a * e
+    first, second = BODIES
     poses = {
-        BODIES[0]: Poses.planar(0.0, 0.0, gear2.theta),
-        BODIES[1]: Poses.planar(2 * a, 0.0, gear4.theta),
+        first: Poses.planar(0.0, 0.0, gear2.theta),
+        second: Poses.planar(2 * a, 0.0, gear4.theta),
         "coupler": Poses.planar(still * np.cos(theta2), still * np.sin(theta2), link.theta),
     }
     return Motion("theta2", channels, poses, _figures(params, a, omega))

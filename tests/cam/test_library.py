@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from mechwright.errors import DesignError, ToolError
+from mechwright.errors import DesignError, OutputError, ToolError
 from mechwright.materials import MATERIALS
 from mechwright.tooling import ToolKind
 from mechwright_cam.library import built_in, load_library
@@ -67,7 +67,7 @@ def test_own_library_extends_and_overrides(tmp_path):
         ("tool = 3", "holds no tool"),
         ("[[tool]]\nname = 'a'", r"tool 'a': number: Field required"),
         ("[[drill]]\n", "unknown table 'drill'"),
-        ("[[tool]\n", "is no TOML file"),
+        ("[[tool]\n", "is no valid TOML"),
         (TOOL.format(name="a", number=1, diameter=-3), r"tool 'a': diameter: .*greater than 0 \(it is -3\)"),
         (TOOL.format(name="a", number=1, diameter='"3 kg"'), r"tool 'a': diameter: .*'3 kg'"),
         (
@@ -94,7 +94,7 @@ def test_a_wrong_library_is_one_clear_line(tmp_path, text, message):
 
 
 def test_a_missing_library_names_its_path(tmp_path):
-    with pytest.raises(DesignError, match=re.escape(str(tmp_path / "none.toml"))):
+    with pytest.raises(OutputError, match=re.escape(str(tmp_path / "none.toml"))):
         load_library(tmp_path / "none.toml")
 
 

@@ -92,19 +92,21 @@ def threemf(part: Part) -> bytes:
 
 def glb_part(part: Part) -> bytes:
     """A part as binary glTF."""
-    return _glb(part.name, [part], [(part.name, 0, np.eye(3), np.zeros(3))])
+    return _glb(part.name, [(part, part.colour)], [(part.name, 0, np.eye(3), np.zeros(3))])
 
 
 def glb_assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
     """All instances in their poses as binary glTF, nodes named by their bodies."""
     whole = solids.assembly(name, parts, motion, sample)
-    numbers = [number for number, part in enumerate(parts) for _ in part.instances]
+    shown = [(part, part.colour_of(instance)) for part in parts for instance in part.instances]
+    looks = list(dict.fromkeys((parts.index(part), colour) for part, colour in shown))
     nodes = []
-    for number, child in zip(numbers, whole.children, strict=True):
+    for (part, colour), child in zip(shown, whole.children, strict=True):
+        number = looks.index((parts.index(part), colour))
         placed = child.loc.wrapped.Transformation()
         rows = np.array([[placed.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
         nodes.append((child.name, number, rows[:, :3], rows[:, 3]))
-    return _glb(name, parts, nodes)
+    return _glb(name, [(parts[number], colour) for number, colour in looks], nodes)
 
 
 def _normals(mesh: Mesh) -> Array:
@@ -132,7 +134,10 @@ def _corner_normals(mesh: Mesh) -> Array:
     return normals
 
 
-def _glb(name: str, parts: Sequence[Part], nodes: Sequence[tuple[str, int, Array, Array]]) -> bytes:
+def _glb(
+    name: str, looks: Sequence[tuple[Part, Colour]], nodes: Sequence[tuple[str, int, Array, Array]]
+) -> bytes:
+    """Nodes with their number in ``looks`` and their pose; parts that differ in colour share triangles."""
     chunks: list[bytes] = []
     accessors: list[dict[str, object]] = []
     views: list[dict[str, int]] = []
@@ -154,8 +159,10 @@ def _glb(name: str, parts: Sequence[Part], nodes: Sequence[tuple[str, int, Array
         )
         return len(accessors) - 1
 
-    meshes: list[dict[str, object]] = []
-    for part in parts:
+    shapes: dict[int, dict[str, object]] = {}
+    for part, _ in looks:
+        if id(part) in shapes:
+            continue
         mesh = part_mesh(part)
         corners = np.concatenate([mesh.points[mesh.triangles] / 1000, _corner_normals(mesh)], axis=2).reshape(
             -1, 2, 3
@@ -169,13 +176,11 @@ def _glb(name: str, parts: Sequence[Part], nodes: Sequence[tuple[str, int, Array
             "NORMAL": store(np.ascontiguousarray(corners[:, 3:]), "VEC3", _VERTICES, _FLOAT),
         }
         indices = store(index.ravel().astype("<u4"), "SCALAR", _INDICES, _UNSIGNED)
-        primitive = {
-            "attributes": attributes,
-            "indices": indices,
-            "material": len(meshes),
-            "mode": _TRIANGLES,
-        }
-        meshes.append({"name": part.name, "primitives": [primitive]})
+        shapes[id(part)] = {"attributes": attributes, "indices": indices, "mode": _TRIANGLES}
+    meshes = [
+        {"name": part.name, "primitives": [{**shapes[id(part)], "material": number}]}
+        for number, (part, _) in enumerate(looks)
+    ]
     body = b"".join(chunks)
     document = {
         "asset": {"version": "2.0", "generator": "Mechwright"},
@@ -186,7 +191,7 @@ def _glb(name: str, parts: Sequence[Part], nodes: Sequence[tuple[str, int, Array
             for label, mesh, turn, shift in nodes
         ],
         "meshes": meshes,
-        "materials": [_material(part.material, part.colour) for part in parts],
+        "materials": [_material(part.material, colour) for part, colour in looks],
         "accessors": accessors,
         "bufferViews": views,
         "buffers": [{"byteLength": len(body)}],

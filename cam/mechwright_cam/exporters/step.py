@@ -29,6 +29,7 @@ from mechwright.errors import GeometryError
 from mechwright.motion import Motion
 from mechwright.part import Part
 from mechwright_cam import solids
+from mechwright_cam.exporters.step_text import sort_styles
 
 TIME_STAMP = "2000-01-01T00:00:00"
 """Stands in every file in place of the time of writing."""
@@ -87,7 +88,7 @@ def _write(document: TDocStd_Document, name: str, *, occurrences: bool = False) 
         status = writer.WriteStream(text)
     if status != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise GeometryError(f"the CAD kernel cannot write {name} as STEP ({status.name})")
-    return text.getvalue()
+    return sort_styles(text.getvalue())
 
 
 def _set_header(model: StepData_StepModel, name: str) -> None:

@@ -67,7 +67,7 @@ def parameters(params: type[P]) -> st.SearchStrategy[P]:
 
 
 def rules(metadata: Iterable[Any]) -> dict[str, Any]:
-    """The bounds in the metadata of a field: ``ge``, ``gt``, ``le``, ``lt``, ``multiple_of``, lengths, ``pattern``."""
+    """The bounds in the metadata of a field, named as pydantic names them (``ge``, ``pattern``)."""
     found: dict[str, Any] = {}
     for item in metadata:
         if isinstance(item, FieldInfo):
