@@ -97,7 +97,7 @@ class Simulation:
     """A plate of height 0 to -thickness on a square grid, cut by moves.
 
     ``met`` collects for every stamp: index of the move, tool, x, y, z, distance since the last stamp, area cut
-    in mm² (volume over distance), angle in degrees and depth in mm of the engagement ahead, and whether the
+    in mm² (volume over distance), angle in degrees of the engagement ahead, mean depth in mm, and whether the
     cutter only went down.
     """
 
@@ -152,7 +152,7 @@ class Simulation:
         drop = np.where(hit, np.maximum(part, -self.thickness) - floor, 0.0)
         volume = float(drop.clip(0).sum()) * self.pitch**2
         flat = math.hypot(direction[0], direction[1])
-        angle, depth = 0.0, float(drop.max())
+        angle, depth = 0.0, float(drop.sum() / hit.sum())
         if flat > 1e-6:
             heading = math.atan2(direction[1], direction[0])
             a = heading + np.radians(np.arange(-90, 91, 3))
