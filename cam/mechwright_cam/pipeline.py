@@ -18,7 +18,7 @@ from mechwright.program import Program
 from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.reach import cut_outline
 from mechwright_cam.setup_sheet import setup_html
@@ -53,10 +53,10 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     findings: list[Finding] = []
     jobs = []
     for part in parts:
-        found = check_tools(part, design.cam, library)
+        job, found = lay_out(part, design.cam, library)
         findings += dict.fromkeys(found)  # two features may have the same to say
-        if not errors(found):
-            jobs.append(make_job(part, design.cam, choose_tools(part, design.cam, library)))
+        if job is not None and not errors(found):
+            jobs.append(job)
     if len(jobs) == len(parts):
         cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
         findings += design.family.check_cut(design.params, cut)

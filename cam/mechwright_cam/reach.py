@@ -10,6 +10,7 @@ remainder
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -44,7 +45,13 @@ def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     >>> round(left, 2)  # a square corner keeps (1 - π/4) r²
     1.93
     """
-    return grow(grow(keep, radius, PRECISION), -radius, PRECISION)
+    return grow(_swollen(keep, radius), -radius, PRECISION)
+
+
+@lru_cache(maxsize=32)
+def _swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
+    """``keep`` grown by ``radius``; the choice of cutters asks for the same shapes again and again."""
+    return grow(keep, radius, PRECISION)
 
 
 def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[Array, Array]:
@@ -76,10 +83,14 @@ def _edges(lines: shapely.Geometry) -> NDArray[Any]:
 
 def leaves_at_most(keep: shapely.Geometry, radius: float, limit: float) -> bool:
     """Whether a cutter of ``radius`` comes within ``limit`` of every point of the wall."""
-    touched = shapely.boundary(closing(keep, radius))
-    shapely.prepare(touched)
-    points = shapely.points(shapely.get_coordinates(keep))
-    return bool(shapely.dwithin(touched, points, limit).all())
+    # A wall point has more than that in front of it if it lies that deep in the closing: a test of points
+    # against one polygon, much faster than distances.
+    deep = grow(_swollen(keep, radius), -radius - limit, PRECISION)
+    if shapely.is_empty(deep):
+        return True
+    shapely.prepare(deep)
+    x, y = shapely.get_coordinates(keep).T
+    return not shapely.contains_xy(deep, x, y).any()
 
 
 def remainder(keep: shapely.Geometry, radius: float) -> float:

@@ -218,3 +218,10 @@ def test_a_solid_part_is_refused():
 
     with pytest.raises(GeometryError, match="no plate"):
         job(Part("ball", None, 0, "steel", build=lambda: None), "mill-6")
+
+
+def test_roughing_runs_on_arcs_not_on_their_chords():
+    program = plan(job(part(GEARED, bore(8)), *TOOLS, "mill-2"))
+    (rough,) = [o for s in program.sections for o in s.operations if o.name == "outside: rough"]
+    arcs = sum(isinstance(move, FeedArc) for move in rough.moves)
+    assert arcs > len(rough.moves) / 2

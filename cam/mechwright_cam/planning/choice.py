@@ -1,19 +1,24 @@
 """Which of a job's end mills does what."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import shapely
 
 from mechwright.errors import ToolError
+from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.reach import closing, leaves_at_most
-from mechwright_cam.toolpath.offsets import BIAS
+from mechwright_cam.toolpath.offsets import BIAS, polygons
+from mechwright_cam.toolpath.path import rounded
 
 SAME_REACH = TOLERANCES.leftover - BIAS - TOLERANCES.arc_fit - TOLERANCES.flatten
 """A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what is
 left of the permitted leftover when path and outline have used their tolerances."""
+ROOMY = 0.7
+"""A mill up to this share of a hole's diameter leaves room for chips."""
 
 
 def long_enough(tool: Tool, depth: float) -> bool:
@@ -45,13 +50,34 @@ def path_radius(mill: Tool) -> float:
 
 def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
     """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one."""
-    finest = mills[-1]
-    reference = closing(keep, finest.radius)
-    low, high = 0, len(mills) - 1
+    return mills[_largest_as_good(keep, tuple(path_radius(mill) for mill in mills))]
+
+
+@lru_cache(maxsize=64)
+def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...]) -> int:
+    """Index of the largest radius that leaves no more on the walls of ``keep`` than the last one."""
+    reference = closing(keep, radii[-1] - BIAS)
+    low, high = 0, len(radii) - 1
     while low < high:  # what is left only grows with the radius
         middle = (low + high) // 2
-        if leaves_at_most(reference, path_radius(mills[middle]), SAME_REACH):
+        if leaves_at_most(reference, radii[middle], SAME_REACH):
             high = middle
         else:
             low = middle + 1
-    return mills[low]
+    return low
+
+
+def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
+    """The middle of the largest circle in an opening, and its radius, mm."""
+    line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)
+    (x, y), _ = line.coords
+    return (rounded(x), rounded(y)), float(line.length)
+
+
+def roomy_mills(mills: list[Tool], opening: shapely.Geometry) -> list[Tool]:
+    """The mills that leave room for chips in an opening, largest first; the smallest if none does.
+
+    A cutter as wide as a slot would cut with its whole width at every depth, and leave nothing to finish.
+    """
+    width = 2 * max(entry_place(part)[1] for part in polygons(opening))
+    return [mill for mill in mills if mill.diameter <= ROOMY * width] or mills[-1:]

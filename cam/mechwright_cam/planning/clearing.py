@@ -35,8 +35,12 @@ SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
-COARSE_FROM = 4 * ROUGH
-"""From this allowance on the wall is far enough away for thinned paths, mm."""
+COARSE_FIT = 2 * ROUGH
+"""How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
+lines again."""
+COARSE_FROM = 8 * ROUGH
+"""From this allowance on the wall is far enough away for thinned paths, mm: twice of what outline, offset,
+thinning and fit may be off together."""
 BESIDE = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
@@ -101,7 +105,7 @@ class Roughing:
         self.zone, self.tool, self.climb = zone, tool, climb
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
-        self.fit = ROUGH if coarse else FIT
+        self.fit = COARSE_FIT if coarse else FIT
         # The shape that the cutter's edge must not enter.
         self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
         self.step = min(step_over, TIGHT) * tool.diameter
@@ -110,7 +114,9 @@ class Roughing:
         self.free = shapely.difference(self.room, self.blocked)
         self.reach = grow(self.free, tool.radius, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.take = opened(shapely.difference(take, zone.waste), SLIVER)
+        self.take = opened(take, SLIVER)  # first, for it leaves far fewer corners
+        if not shapely.is_empty(zone.waste):
+            self.take = opened(shapely.difference(self.take, zone.waste), SLIVER)
 
     @property
     def share(self) -> float:
@@ -182,9 +188,8 @@ class Roughing:
         order = 0
         while True:
             if order:
-                # The ring before reaches this far; this ring is for what lies beyond.
-                beyond = (order - 1) * self.step + 2 * radius - CLEAR
-                take = opened(shapely.difference(take, grow(self.keep, beyond, ROUGH)), SLIVER)
+                # The ring before reaches a radius far; this ring is for what lies beyond.
+                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), SLIVER)
                 if not polygons(take):
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)

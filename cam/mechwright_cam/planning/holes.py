@@ -3,8 +3,6 @@
 import math
 from dataclasses import dataclass
 
-import shapely
-
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore
@@ -12,7 +10,7 @@ from mechwright.program import Drill, Move, Rapid
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import usable_mills
+from mechwright_cam.planning.choice import ROOMY, usable_mills
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, through
@@ -22,8 +20,6 @@ DEEP = 3.0
 """From this depth in diameters a hole is drilled in pecks: the usual limit of a twist drill's chips."""
 SPOT = 0.6
 """Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""
-ROOMY = 0.7
-"""A mill up to this share of a hole's diameter leaves room for chips."""
 SNUG = 0.9
 """A mill up to this share still turns a helix; beyond, it would be a drill."""
 CORELESS = 0.8
@@ -192,10 +188,3 @@ def finish_bore(job: Job, plan: BorePlan, pen: Pen) -> None:
         pen.sink(z)
         pen.follow(path, feed)
     pen.retract()
-
-
-def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
-    """The middle of the largest circle in an opening, and its radius, mm."""
-    line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)
-    (x, y), _ = line.coords
-    return (rounded(x), rounded(y)), float(line.length)

@@ -11,13 +11,12 @@ from mechwright.part import Bore
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
+from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import SLIVER, Roughing
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.holes import (
-    ROOMY,
     BorePlan,
     drill_moves,
-    entry_place,
     finish_bore,
     plan_bore,
     point_length,
@@ -122,18 +121,12 @@ class _Planner:
             if drill is not None:
                 hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
                 zone.left = shapely.difference(zone.left, hole)
-            self._wall([zone], drilled, self._opening_mills(zone))
+            self._wall([zone], drilled, zone.mills)
         return frozenset(range(len(self.steps)))
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)
         return starting_drill(self.job, 2 * radius, -zone.bottom), place
-
-    def _opening_mills(self, zone: Zone) -> list[Tool]:
-        """Mills that may rough an opening: those with room for chips, else the finishing mill."""
-        _, radius = entry_place(polygons(zone.clear)[0])
-        fit = [mill for mill in zone.mills if mill.diameter <= ROOMY * 2 * radius]
-        return fit or [zone.finisher]
 
     def _drilled(self, holes: list[tuple[Tool, Point, str]]) -> frozenset[int]:
         job = self.job

@@ -12,12 +12,28 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
-from mechwright_cam.planning.choice import SAME_REACH, finishing_choice, path_radius, usable_mills
-from mechwright_cam.planning.holes import ROOMY, boring_mill, entry_place, plan_bore, starting_drill
+from mechwright_cam.planning.choice import (
+    ROOMY,
+    SAME_REACH,
+    entry_place,
+    finishing_choice,
+    path_radius,
+    roomy_mills,
+    usable_mills,
+)
+from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import bottom_of, inner_zones, outer_zones, roughing_mills, through
+from mechwright_cam.planning.zone import (
+    Zone,
+    bores,
+    bottom_of,
+    inner_zones,
+    outer_zones,
+    roughing_mills,
+    through,
+)
 from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
-from mechwright_cam.toolpath.offsets import ROUGH, grow
+from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
@@ -27,6 +43,9 @@ HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
 """A mill below this share of a bore's diameter bores too slowly to save another tool."""
+OPENS = 0.6
+"""A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
+then takes rings as wide as after the drill of the right size, only one or two more."""
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
 
@@ -90,12 +109,11 @@ def _mills(every: Job) -> list[Tool]:
             openings.append((feature, shape))
     for feature, shape in openings:
         able = usable_mills(every, -bottom_of(every, feature.top, feature.depth))
-        _, radius = entry_place(shape)
-        able = [mill for mill in able if mill.diameter <= ROOMY * 2 * radius] or able[-1:]
+        able = roomy_mills(able, shape)
         chosen.append(_finest_needed(able, opening_keep(shape, 2 * able[0].diameter)))
-    for feature in every.features:
-        if isinstance(feature, Bore):
-            chosen += _boring(every, feature, chosen)
+    # From the smallest on: what bores a small hole may bore the larger ones as well.
+    for bore in sorted(bores(every), key=lambda bore: bore.diameter):
+        chosen += _boring(every, bore, chosen)
     return chosen or fit[:1]
 
 
@@ -113,7 +131,7 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
         reach = mill.radius + every.settings.stock_to_leave
         return float(grow(grow(thin, reach, ROUGH), -reach, ROUGH).area - part.area)
 
-    thin = shapely.simplify(part, ROUGH)
+    thin = thinned(part)
     middle = [mill for mill in mills[1:] if mill.diameter >= PAYS * finest.diameter]
     if not middle:
         return []
@@ -149,18 +167,26 @@ def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
 
 
 def _drills(every: Job) -> list[Tool]:
-    """Spot drill and drills for all holes through the plate."""
-    drills: dict[str, Tool] = {}
+    """Spot drill and drills for all holes through the plate, as few as open every hole well."""
+    wanted: list[tuple[float, Tool]] = []
     for feature in every.features:
         if not through(every, feature.top + feature.depth):
             continue
-        drill = None
         if isinstance(feature, Bore):
-            drill = plan_bore(every, feature).drill
+            hole = plan_bore(every, feature)
+            width, drill = feature.diameter, hole.drill
+            if drill is not None and hole.mill is None:
+                width = drill.diameter  # no other makes the hole to size
         elif isinstance(feature, Profile) and feature.side == "inside":
             _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))
-            drill = starting_drill(every, 2 * radius, -every.floor)
+            width, drill = 2 * radius, starting_drill(every, 2 * radius, -every.floor)
+        else:
+            continue
         if drill is not None:
+            wanted.append((width, drill))
+    drills: dict[str, Tool] = {}
+    for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
+        if not any(OPENS * width <= other.diameter for other in drills.values()):
             drills[drill.name] = drill
     spots = [
         tool
@@ -178,20 +204,28 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     stock in the way. Warnings: a cutter that cannot run at its cutting speed on this machine, a listed tool
     without data for the material. Notes: slender cutters, and stock that stays in corners.
     """
+    return lay_out(part, settings, library)[1]
+
+
+def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | None, list[Finding]]:
+    """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
+
+    The job is None if the cutters cannot be chosen or the part does not fit its stock.
+    """
     try:
         tools = choose_tools(part, settings, library)
         job = make_job(part, settings, tools)
     except MechwrightError as error:
-        return [_refusal(error)]
+        return None, [_refusal(error)]
     found: list[Finding] = []
-    for feature in job.features:
-        if isinstance(feature, Bore):
-            _try(found, partial(plan_bore, job, feature))
-    _try(found, lambda: inner_zones(job))
-    _try(found, lambda: outer_zones(job))
+    zones: list[Zone] = []
+    for bore in bores(job):
+        _try(found, partial(plan_bore, job, bore))
+    _try(found, lambda: zones.extend(inner_zones(job)))
+    _try(found, lambda: zones.extend(outer_zones(job)))
     if not found:
-        found += _corners(job)
-    return found + _remarks(job)
+        found += _corners(job, zones)
+    return job, found + _remarks(job)
 
 
 def _try(found: list[Finding], action: Callable[[], object]) -> None:
@@ -210,10 +244,10 @@ def _refusal(error: MechwrightError) -> Finding:
     return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
 
 
-def _corners(job: Job) -> list[Finding]:
+def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     """The remainder on every wall."""
     found = []
-    for zone in [*inner_zones(job), *outer_zones(job)]:
+    for zone in zones:
         if zone.tabs is not None:
             continue
         depth = remainder(zone.wall, zone.finisher.radius)

@@ -14,7 +14,7 @@ room
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from typing import Literal
 
 import shapely
@@ -23,13 +23,16 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import finishing_choice, usable_mills
+from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
 from mechwright_cam.reach import opening_keep
-from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons
+from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
+
+TAB_SLACK = 4 * ROUGH
+"""Roughing keeps off tabs by all that its thinned path may be off, mm."""
 
 HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
@@ -92,16 +95,22 @@ class Zone:
     def rough_keep(self, allowance: float) -> shapely.Geometry:
         """``keep`` with stock on the part's walls, and next to none on the tabs, thinned."""
         if allowance not in self._rough:
-            wall = grow(self.thinned, allowance, ROUGH)
+            wall = _with_allowance(self.thinned, allowance)
             if self.tabs is not None:
-                wall = shapely.union(wall, grow(self.tabs, min(allowance, 2 * ROUGH), ROUGH))
-            self._rough[allowance] = shapely.simplify(wall, ROUGH / 2)
+                wall = shapely.union(wall, grow(self.tabs, min(allowance, TAB_SLACK), ROUGH))
+            self._rough[allowance] = wall
         return self._rough[allowance]
 
     @cached_property
     def thinned(self) -> shapely.Geometry:
         """``wall`` for roughing."""
-        return shapely.simplify(self.wall, ROUGH)
+        return thinned(self.wall)
+
+
+@lru_cache(maxsize=16)
+def _with_allowance(wall: shapely.Geometry, allowance: float) -> shapely.Geometry:
+    """A thinned wall with stock on it; layers above and below tabs have the same."""
+    return shapely.simplify(grow(wall, allowance, ROUGH), ROUGH / 2)
 
 
 def through(job: Job, depth: float) -> bool:
@@ -134,6 +143,7 @@ def inner_zones(job: Job) -> list[Zone]:
                 f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
                 f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
             )
+        mills = roomy_mills(mills, shape)
         zones.append(
             Zone(
                 feature.name,
@@ -232,12 +242,13 @@ def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
 def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
     width = channel_width(job, mill)
+    thin = thinned(part)  # the finishing of the wall does not depend on it
     if not _has_frame(job, part, width):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
-        return shapely.box(*job.stock).difference(part), None
+        return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
-    channel = filled(grow(shapely.simplify(part, ROUGH), width, ROUGH))
-    return channel.difference(part), channel
+    channel = filled(grow(thin, width, ROUGH))
+    return channel.difference(thin), channel
 
 
 def bores(job: Job) -> list[Bore]:

@@ -72,14 +72,20 @@ class Writer:
 
     def axis_words(self, x: float | None, y: float | None, z: float | None) -> list[str]:
         """The coordinates that change in the text, and keep them all in mind."""
+        # A position that the text does not state is NaN: its number equals none that is written.
         words = []
-        for axis, value in (("x", x), ("y", y), ("z", z)):
-            if value is None:
-                continue
-            before = getattr(self, axis)
-            if math.isnan(before) or rounded(before) != rounded(value):
-                words.append(axis.upper() + number(value))
-            setattr(self, axis, value)
+        if x is not None:
+            if (text := number(x)) != number(self.x):
+                words.append("X" + text)
+            self.x = x
+        if y is not None:
+            if (text := number(y)) != number(self.y):
+                words.append("Y" + text)
+            self.y = y
+        if z is not None:
+            if (text := number(z)) != number(self.z):
+                words.append("Z" + text)
+            self.z = z
         return words
 
     def lost_height(self) -> None:
@@ -178,6 +184,7 @@ class GcodePost(Post):
 
     def _section(self, out: Writer, section: ToolSection) -> None:
         named = False
+        last = [move for operation in section.operations for move in operation.moves][-1]
         for operation in section.operations:
             self.comment(out, OPERATION_COMMENT + operation.name)
             moves = operation.moves
@@ -191,6 +198,10 @@ class GcodePost(Post):
                 moves = moves[1:]
                 named = True
             for move in moves:
+                if move is last and isinstance(move, Pause):
+                    # The next section starts the spindle: here it would turn beside the operator's hands.
+                    self._stop(out, move)
+                    return
                 self._move(out, section, move)
         self.end_drilling(out)
         out.line("M9")
@@ -244,12 +255,16 @@ class GcodePost(Post):
         word = out.motion_word("G3" if move.ccw else "G2")
         out.line(word, *axes, "I" + centre[0], "J" + centre[1], out.feed_word(move.feed))
 
-    def _pause(self, out: Writer, section: ToolSection, move: Pause) -> None:
+    def _stop(self, out: Writer, move: Pause) -> None:
+        self.end_drilling(out)
         out.line("M9")
         out.line("M5")
         self.retract(out)
         self.message(out, move.message)
         out.line("M0")
+
+    def _pause(self, out: Writer, section: ToolSection, move: Pause) -> None:
+        self._stop(out, move)
         out.motion = out.feed = ""  # whoever goes on from here finds both stated
         self.spindle(out, section)
         out.line(COOLANT[section.coolant])

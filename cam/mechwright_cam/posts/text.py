@@ -2,6 +2,7 @@
 
 import textwrap
 import unicodedata
+from functools import lru_cache
 
 DECIMALS = 4
 """Decimals of coordinates, mm: a tenth of a micrometre keeps arcs consistent far below 2 µm."""
@@ -15,8 +16,9 @@ _SPELLED = str.maketrans(
 )
 
 
+@lru_cache(maxsize=65536)
 def number(value: float, decimals: int = DECIMALS) -> str:
-    """Write a number without needless zeros.
+    """Write a number without needless zeros; passes at many depths ask for the same ones.
 
     >>> number(12.30000), number(-0.00001), number(5.0)
     ('12.3', '0', '5')

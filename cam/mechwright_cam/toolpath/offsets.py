@@ -11,6 +11,7 @@ piece
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -45,6 +46,12 @@ def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
     return shapely.buffer(shapely.buffer(shape, -width, quad_segs=2), width, quad_segs=2)
 
 
+@lru_cache(maxsize=16)
+def thinned(shape: shapely.Geometry) -> shapely.Geometry:
+    """The shape for roughing, within ROUGH; every layer and every mill asks for the same ones."""
+    return shapely.simplify(shape, ROUGH)
+
+
 def filled(shape: shapely.Geometry) -> shapely.Geometry:
     """The shape with its openings closed."""
     return shapely.union_all([shapely.Polygon(part.exterior) for part in polygons(shape)])
@@ -64,7 +71,8 @@ def rings(shape: shapely.Geometry, climb: bool, tolerance: float = CHORD) -> lis
     found = []
     for part in polygons(shape):
         for number, loop in enumerate((part.exterior, *part.interiors)):
-            points = shapely.get_coordinates(shapely.simplify(loop, tolerance))
+            # Nothing but a line follows from it, so its topology need not be watched: that takes most time.
+            points = shapely.get_coordinates(shapely.simplify(loop, tolerance, preserve_topology=False))
             # Wall on the right: clockwise around the part, counter-clockwise in an opening.
             if len(points) >= 4:
                 ccw = bool(shapely.is_ccw(loop))

@@ -71,10 +71,24 @@ class Loop:
 
     def flatten(self, tolerance: float = TOLERANCES.flatten) -> Array:
         """Corners (n, 2), mm, of a polygon within ``tolerance`` of the loop; the first is not repeated."""
+        if tolerance == TOLERANCES.flatten:
+            return self._corners
+        return self._flattened(tolerance)
+
+    @cached_property
+    def _corners(self) -> Array:
+        """Corners at the usual tolerance, asked for many times; read-only."""
+        corners = self._flattened(TOLERANCES.flatten)
+        corners.flags.writeable = False
+        return corners
+
+    def _flattened(self, tolerance: float) -> Array:
         return np.concatenate([segment.flatten(tolerance)[:-1] for segment in self.segments])
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "Loop":
         """The loop turned about the origin, then shifted."""
+        if x == 0 and y == 0 and angle == 0:
+            return self
         return Loop(tuple(segment.moved(x, y, angle) for segment in self.segments))
 
     def reversed(self) -> "Loop":

@@ -1,0 +1,55 @@
+"""Tools that a workshop would not change for nothing, and cutters that fit their holes."""
+
+from planning_parts import LIBRARY, bore, job, plate, rounded_box
+
+from mechwright.tooling import CamSettings
+from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.posts import LinuxCncPost
+
+SLOT = rounded_box(40, 8.05, 4.02, clockwise=True)
+
+
+def names(of, **settings):
+    return [tool.name for tool in choose_tools(of, CamSettings.model_validate(settings), LIBRARY)]
+
+
+def test_a_slot_is_not_cut_by_a_mill_as_wide_as_it():
+    program = plan(job(plate(SLOT), "mill-8", "mill-5"))
+    tools = {o.name: s.tool.name for s in program.sections for o in s.operations}
+    assert tools["opening-1: finish"] == "mill-5"
+    assert tools["outside: finish"] == "mill-8"
+
+
+def test_a_lone_mill_as_wide_as_the_slot_still_cuts_it():
+    program = plan(job(plate(SLOT), "mill-8"))
+    assert any(o.name.startswith("opening-1") for s in program.sections for o in s.operations)
+
+
+def test_one_mill_and_one_drill_serve_bores_of_like_size():
+    found = names(plate(bore(10, (-15, 0)), bore(8, (15, 0)), material="steel"))
+    assert found == ["spot-6", "drill-6", "mill-6", "mill-5"] or found == ["spot-6", "drill-6", "mill-5"]
+
+
+def test_bores_of_very_different_size_have_their_own_drills():
+    found = names(plate(bore(16, (-15, 0)), bore(5, (15, 0))))
+    assert [name for name in found if name.startswith("drill")] == ["drill-12", "drill-4"]
+
+
+def test_the_spindle_stays_off_between_the_stop_for_the_clamp_and_the_next_tool():
+    held = job(
+        plate(bore(12)),
+        *("spot-6", "drill-5", "mill-10", "mill-6"),
+        hold={"method": "bore", "clamp_diameter": 16},
+    )
+    lines = LinuxCncPost().write(plan(held)).splitlines()
+    after = lines[lines.index("M0") + 1 :]
+    change = next(number for number, line in enumerate(after) if "M6" in line)
+    assert not any("M3" in line or "M8" in line for line in after[:change])
+
+
+def test_the_spindle_starts_again_if_the_tool_stays():
+    held = job(plate(bore(12)), "mill-6", hold={"method": "bore", "clamp_diameter": 16})
+    lines = LinuxCncPost().write(plan(held)).splitlines()
+    after = lines[lines.index("M0") + 1 :]
+    start = next(number for number, line in enumerate(after) if "M3" in line)
+    assert start < next(number for number, line in enumerate(after) if line.startswith("G1"))
