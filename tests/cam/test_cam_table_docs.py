@@ -1,17 +1,15 @@
-"""The page on machining says what the table [cam] and the tool library take, and what is found."""
+"""The page on the table [cam] says what it takes, and what is found."""
 
 import re
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
 from pydantic import BaseModel
 
-from mechwright.tooling import CamSettings, Tool
-from mechwright_cam.library import read_tools
+from mechwright.tooling import CamSettings
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "machining.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "cam-table.md").read_text(encoding="utf-8")
 
 
 def fields(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, object, str]]:
@@ -40,11 +38,3 @@ def test_every_finding_is_on_the_page_and_no_other() -> None:
     said = set(re.findall(r'Finding\(\s*"(cam\.[a-z-]+)"', code))
     assert said
     assert set(re.findall(r"^\| `(cam\.[a-z-]+)`", PAGE, re.MULTILINE)) == said
-
-
-def test_the_library_of_the_page_can_be_read(tmp_path: Path) -> None:
-    text = PAGE.split("```toml\n")[1].split("```")[0]
-    (tmp_path / "tools.toml").write_text(text)
-    (tool,) = read_tools(tmp_path / "tools.toml")
-    assert set(tomllib.loads(text)["tool"][0]) <= set(Tool.model_fields)
-    assert tool.number == 50
