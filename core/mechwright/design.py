@@ -151,7 +151,9 @@ def load(path: Path, host: Host) -> Design:
         raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
     family_name = content.get("family")
     if not isinstance(family_name, str):
-        raise DesignError(f'{path}: family: is missing; write for example family = "elliptic-gears"')
+        fault = "is missing" if family_name is None else f"{family_name!r} is no text"
+        known = ", ".join(sorted(host.families)) or "none is installed"
+        raise DesignError(f"{path}: family: {fault}; name one of: {known}")
     name = content.get("name", path.stem)
     if not isinstance(name, str):
         raise DesignError(f"{path}: name: {name!r} is no text")
