@@ -1,5 +1,7 @@
 """Posted programs, cut on a height map that knows nothing of the planner, the interpreter or the proof."""
 
+import itertools
+
 import numpy as np
 import pytest
 import shapely
@@ -52,7 +54,7 @@ def layers(job):
     heights = {0.0, -job.thickness, *(tab.top for tab in job.tabs)}
     heights |= {-min(f.top + f.depth, job.thickness) for f in job.features}
     ordered = sorted(heights, reverse=True)
-    return [z for a, b in zip(ordered[:-1], ordered[1:], strict=True) for z in (a - 0.02, b + 0.02)]
+    return [z for a, b in itertools.pairwise(ordered) for z in (a - 0.02, b + 0.02)]
 
 
 def test_nothing_of_part_and_tabs_is_cut(cut):
