@@ -1,5 +1,6 @@
 """Faults that nobody expected: plugins that break while they work, a full disk, strange characters."""
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -122,9 +123,21 @@ def test_a_format_that_is_written_anyway_may_be_asked_for(run: Run, odd: type[Od
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="the system has no /dev/full")
-def test_a_full_disk_is_one_line() -> None:
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_is_one_line(unbuffered: str) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "mechwright", "families"], stdout=full, stderr=subprocess.PIPE, text=True
+            [sys.executable, "-m", "mechwright", "families"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
         )
     assert (done.returncode, done.stderr) == (2, "mechwright: output: No space left on device\n")
+
+
+def test_a_reader_that_leaves_is_no_fault() -> None:
+    command = f"{sys.executable} -m mechwright new elliptic-gears | head -1; echo ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert done.stderr == ""
+    assert done.stdout.splitlines()[0].startswith("# Elliptic gears")

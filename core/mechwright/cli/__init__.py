@@ -1,5 +1,6 @@
 """The command line. Only here do families and CAM meet."""
 
+import os
 import sys
 
 
@@ -9,7 +10,10 @@ def main() -> None:
     from mechwright.errors import ProofError
 
     try:
-        app()
+        try:
+            app()
+        finally:
+            _flush()
     except Exception as error:  # noqa: BLE001,RUF100 - a traceback is of no use to a machinist
         from mechwright.cli import failure
 
@@ -18,3 +22,14 @@ def main() -> None:
         sys.exit(1 if isinstance(error, ProofError) else 2)
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+def _flush() -> None:
+    """Write what is still held back, while a full disk can still be told; a reader that left is no fault."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        # The interpreter tries once more at its end, and would print a second complaint.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if not isinstance(error, BrokenPipeError):
+            raise
