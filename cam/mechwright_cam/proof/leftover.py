@@ -38,6 +38,8 @@ TAB_SLACK = 0.5
 the tab is cut off by hand."""
 CLEARED = TOLERANCES.arc_fit
 """A wall with no more stock than this is as clean as a path can make it, mm."""
+CLEAN = TOLERANCES.leftover / 2
+"""A wall with no more stock than this passes whatever the other cutters did there, mm."""
 REFINED = 64
 """So many of the worst wall samples are looked at closely."""
 EDGE = 9
@@ -176,8 +178,9 @@ def _thickness(points: Array, outward: Array, cutters: list[Cutter]) -> Array:
     spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
     for tree, radius in cutters:
-        # A point that one cutter has cleared needs no other; the smallest, which comes first, clears most.
-        open_ = np.flatnonzero(thick > CLEARED)
+        # A point that one cutter has cleared needs no other, which could only have left less; the smallest,
+        # which comes first, clears most.
+        open_ = np.flatnonzero(thick > CLEAN)
         if open_.size == 0:
             break
         beside = shapely.points(points[open_] + radius * outward[open_])

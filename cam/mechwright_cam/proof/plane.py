@@ -89,7 +89,7 @@ class Boundary:
     def distance(self, shapes: NDArray[Any], within: float | None = None) -> Array:
         """Distance (m,) of each shape to the edge, mm; inf where it is beyond ``within``."""
         out = np.full(len(shapes), np.inf)
-        if len(self._edges) and len(shapes):
+        if len(shapes) and len(self._edges):
             (index, _), distance = self._tree.query_nearest(
                 shapes, max_distance=within, return_distance=True, all_matches=False
             )
