@@ -1,5 +1,6 @@
 """Which cutters a part needs, and whether those at hand can make it."""
 
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 
@@ -284,7 +285,10 @@ def _remarks(job: Job) -> list[Finding]:
             )
             continue
         speed = rates(tool, material, machine).spindle
-        if speed <= machine.spindle_min and speed * tool.diameter * 3.1416 > 1000 * data.cutting_speed * 1.01:
+        if (
+            speed <= machine.spindle_min
+            and speed * tool.diameter * math.pi > 1000 * data.cutting_speed * 1.01
+        ):
             found.append(
                 Finding(
                     "cam.too-fast",
@@ -292,7 +296,7 @@ def _remarks(job: Job) -> list[Finding]:
                     "cam.machine.spindle_min",
                     f"{tool.name} runs faster than {data.cutting_speed:g} m/min in {material}",
                     machine.spindle_min,
-                    1000 * data.cutting_speed / (3.1416 * tool.diameter),
+                    1000 * data.cutting_speed / (math.pi * tool.diameter),
                     "rpm",
                     "take a smaller tool",
                 )
