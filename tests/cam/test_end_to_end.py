@@ -6,11 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
+from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
@@ -19,6 +21,7 @@ from mechwright.host import host
 from mechwright_cam import pipeline
 from mechwright_cam.exporters import StepExporter
 from mechwright_cam.exporters.step_read import read_step_outline
+from mechwright_cam.interpreter import interpret
 from mechwright_cam.pipeline import Machined
 from mechwright_elliptic_gears.proof import prove_outlines
 
@@ -78,11 +81,13 @@ def test_the_page_on_machining_lists_just_the_checks_that_are_made(example: Mach
 
 
 @needs_rs274
-def test_linuxcnc_accepts_the_program(example: Machined, tmp_path: Path) -> None:
+def test_linuxcnc_accepts_the_program_and_reads_what_we_read(example: Machined, tmp_path: Path) -> None:
     post = host().post("linuxcnc")
     canon = run_rs274(example.text, tmp_path, post.tool_table(example.program.tools)[1])
     assert canon.ok, canon.error
     assert len(canon.ends) > 1000
+    ours, theirs = distinct(our_ends(interpret(example.text))), distinct(canon.ends)
+    np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
 
 
 def test_a_two_millimetre_mill_leaves_22_micrometres_in_the_fillets() -> None:
