@@ -141,3 +141,13 @@ def test_a_reader_that_leaves_is_no_fault() -> None:
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.stderr == ""
     assert done.stdout.splitlines()[0].startswith("# Elliptic gears")
+
+
+def test_a_design_without_plates_has_nothing_to_mill(
+    run: Run, odd: type[Odd], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(odd, "names", ())
+    code, _, err = run("cam", "-o", tmp_path / "out")
+    assert code == 2
+    assert "makes no plate part" in err
+    assert not (tmp_path / "out").exists()

@@ -119,12 +119,12 @@ def machine(job: Job, post: Post) -> Machined:
 def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
     """Add drawing, program, tool table, setup sheet and proof of every plate part to ``output``.
 
-    Findings come back; nothing is added if one of them is an error.
+    Findings come back; nothing is added if one of them is an error, or if no part is a plate.
     """
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     findings, jobs = prepare(design, plates(design.family.parts(design.params)))
-    if errors(findings):
+    if errors(findings) or not jobs:
         return findings
     made = [machine(job, post) for job in jobs]
     for item in made:
@@ -137,7 +137,9 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
         output.add(table, text)
     proofs = {item.program.name: item.proof.as_dict() for item in made}
     output.add("proof.json", json.dumps(proofs, indent=2) + "\n")
-    output.add("setup.html", setup_html([(item.job, item.program, item.proof.as_dict()) for item in made]))
+    sheets = [(item.job, item.program, proofs[item.program.name]) for item in made]
+    page = setup_html(sheets, suffix=post.suffix, tool_table=table, design=design.path.name)
+    output.add("setup.html", page)
     return findings
 
 

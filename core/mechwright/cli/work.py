@@ -92,6 +92,11 @@ def write(
             findings += made
             if errors(made):
                 _refuse(made, path)
+            if command == "cam" and not output.files:
+                raise DesignError(
+                    f"{path}: family {design.family.name} makes no plate part, so there is nothing to mill; "
+                    "use mechwright model"
+                )
         if command in {"model", "build"}:
             step("solids")
             _write_solids(design, found, output, exporters)
