@@ -107,6 +107,15 @@ def test_a_mill_of_two_and_a_half_is_refused_because_the_pair_would_collide() ->
     assert found[0].remedy
 
 
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_machine_too_small_for_the_part_is_found_by_the_check(axis: str) -> None:
+    design = load(EXAMPLE, host())
+    for travel, parameters in ((400.0, []), (60.0, [f"cam.machine.travel_{axis}"])):
+        machine = design.cam.machine.model_copy(update={f"travel_{axis}": travel})
+        small = replace(design, cam=design.cam.model_copy(update={"machine": machine}))
+        assert [finding.parameter for finding in errors(pipeline.check(small, host()))] == parameters
+
+
 def test_the_pair_read_back_from_its_step_files_meshes() -> None:
     for text in (EXAMPLE.read_text(), REFERENCE.format(mill="mill-1.6")):
         design = design_of(text)

@@ -226,7 +226,31 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     _try(found, lambda: zones.extend(outer_zones(job)))
     if not found:
         found += _corners(job, zones)
-    return job, found + _remarks(job)
+    return job, found + _travel(job) + _remarks(job)
+
+
+def _travel(job: Job) -> list[Finding]:
+    """Whether the machine is large enough: the least that the finest end mill travels around the part."""
+    machine = job.settings.machine
+    if not job.end_mills:
+        return []
+    x0, y0, x1, y1 = job.target.bounds
+    around = job.end_mills[-1].diameter
+    axes = (("x", x1 - x0 + around, machine.travel_x), ("y", y1 - y0 + around, machine.travel_y))
+    return [
+        Finding(
+            "cam.travel",
+            Severity.ERROR,
+            f"cam.machine.travel_{axis}",
+            f"part {job.part.name} asks for {wanted:.1f} mm of travel in {axis.upper()}",
+            wanted,
+            travel,
+            "mm",
+            "take a larger machine",
+        )
+        for axis, wanted, travel in axes
+        if wanted > travel
+    ]
 
 
 def _try(found: list[Finding], action: Callable[[], object]) -> None:
