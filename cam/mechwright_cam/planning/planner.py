@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import shapely
 
@@ -12,7 +13,7 @@ from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place
-from mechwright_cam.planning.clearing import SLIVER, Roughing
+from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.holes import (
     BorePlan,
@@ -33,6 +34,9 @@ from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
 WORTH_A_TOOL = 0.25
 """An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""
+
+NEARLY = 0.9
+"""Share of the heavy stock from which on a rough path through narrow places is worth its time."""
 
 
 def plan(job: Job) -> Program:
@@ -194,26 +198,38 @@ class _Planner:
         return after
 
     def _rough_heavy(self, zone: Zone, mill: Tool, after: frozenset[int]) -> frozenset[int]:
-        """Where the allowance kept the mill out of narrow places, rough up to the wall."""
+        """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
+
+        First as near as a path of roughing accuracy may come; up to the wall itself, with a path as exact and
+        as long in the program as that of finishing, only where even that does not fit in.
+        """
+        data = mill.cutting[self.job.part.material]
+        for allowance in (COARSE_FROM, 0.0):
+            thick = self._heavy(zone, mill)
+            if not polygons(thick):
+                break
+            cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
+            if allowance > 0 and cut.take.area < NEARLY * thick.area:
+                continue  # the exact one has to go there anyway
+            after = self._milled(
+                f"{zone.name}: rough the narrow places",
+                mill,
+                after,
+                partial(cut.write, step_down=data.step_down * mill.diameter),
+            )
+            zone.left = shapely.difference(
+                zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
+            )
+        return after
+
+    def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:
+        """What is left in front of a wall that is too thick for the finishing cut."""
         allowance = self.job.settings.stock_to_leave
         thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
         if zone.tabs is not None:
             # The corners at the tabs are as low as the tabs: no load worth a pass.
             thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))
-        if not polygons(opened(thick, SLIVER)):
-            return after
-        data = mill.cutting[self.job.part.material]
-        cut = Roughing(zone, mill, 0.0, data.step_over, self.job.settings.climb, only=thick)
-        after = self._milled(
-            f"{zone.name}: rough the narrow places",
-            mill,
-            after,
-            lambda pen: cut.write(pen, data.step_down * mill.diameter),
-        )
-        zone.left = shapely.difference(
-            zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
-        )
-        return after
+        return opened(thick, SLIVER)
 
     def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
         """The wanted steps in runs of one tool; steps outside count as done."""
