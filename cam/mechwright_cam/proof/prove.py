@@ -12,7 +12,7 @@ from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
@@ -138,7 +138,7 @@ def _depth_check(scene: Scene) -> Check:
     cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
-        shape = inside_of(feature)
+        shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             shape = shapely.difference(stock_shape(job), shape)
         if shape.is_empty or shape.area <= NEAR:
