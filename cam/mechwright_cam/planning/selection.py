@@ -34,7 +34,7 @@ from mechwright_cam.planning.zone import (
     roughing_mills,
     through,
 )
-from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
+from mechwright_cam.reach import closed_area, leaves_at_most, opening_keep, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
@@ -131,7 +131,7 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
 
     def left(mill: Tool) -> float:
         reach = mill.radius + every.settings.stock_to_leave
-        return float(grow(grow(thin, reach, ROUGH), -reach, ROUGH).area - part.area)
+        return closed_area(grow(thin, reach, ROUGH), reach) - float(part.area)
 
     thin = thinned(part)
     middle = [mill for mill in mills[1:] if mill.diameter >= PAYS * finest.diameter]

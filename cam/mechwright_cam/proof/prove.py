@@ -1,6 +1,7 @@
 """From program text to proof."""
 
 from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import shapely
@@ -52,19 +53,18 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
     scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
-    checks = [rule(scene) for rule in RULES]
-    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
-    checks.append(_gouge_check(scene, gouge))
-    in_tab = _deepest(
-        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
-        for top in sorted({tab.top for tab in job.tabs})
-    )
-    checks.append(_tab_check(scene, in_tab))
-    checks.append(_depth_check(scene))
-    left = remains(paths, job)
-    checks.append(_leftover_check(left))
-    held, loose = holding(paths, job)
-    checks.append(held)
+    with ThreadPoolExecutor() as pool:  # none of the three depends on another
+        cuts, stays = pool.submit(_cuts, scene), pool.submit(_stays, scene)
+        checks = [rule(scene) for rule in RULES]
+    gouge, in_tab = cuts.result()
+    left, held, loose = stays.result()
+    checks += [
+        _gouge_check(scene, gouge),
+        _tab_check(scene, in_tab),
+        _depth_check(scene),
+        _leftover_check(left),
+        held,
+    ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
     return Proof(
@@ -94,6 +94,24 @@ def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
+
+
+def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
+    """The deepest cut into the part, and into a tab."""
+    paths, job = scene.paths, scene.job
+    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    in_tab = _deepest(
+        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
+        for top in sorted({tab.top for tab in job.tabs})
+    )
+    return gouge, in_tab
+
+
+def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
+    """What is left, and what holds the part."""
+    left = remains(scene.paths, scene.job)
+    held, loose = holding(scene.paths, scene.job)
+    return left, held, loose
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
