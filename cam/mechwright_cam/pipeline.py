@@ -20,6 +20,7 @@ from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
+from mechwright_cam.limits import check_machine
 from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.reach import cut_outline
@@ -61,6 +62,8 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     jobs = []
     for part in parts:
         job, found = lay_out(part, design.cam, library)
+        if job is not None:
+            found = [*found, *check_machine(job)]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if job is not None and not errors(found):
             jobs.append(job)

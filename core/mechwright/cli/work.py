@@ -9,7 +9,7 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
-from mechwright.design import SIZE_LIMIT, Design, load, read_text
+from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
@@ -132,6 +132,9 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     inputs = {design.path.name: design.digest}
     if design.tool_library is not None:
         inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
+    machine = machine_file(design.path, design.cam)
+    if machine is not None:
+        inputs[design.cam.machine.model] = read_text(machine)[1]
     return facts(design.name, design.family, inputs, found)
 
 
