@@ -4,7 +4,7 @@ from mechwright.findings import Finding, Severity
 from mechwright_cam.job import Job
 
 HOLDER = 30.0
-"""Least length of shank and holder above a tool's flutes, mm: a small collet chuck; it passes over the work."""
+"""Least length of shank and holder above a tool's flutes, mm: that of a small collet chuck."""
 
 
 def check_machine(job: Job) -> list[Finding]:

@@ -23,7 +23,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
 from mechwright_cam.proof.wall import Wall
@@ -34,6 +34,8 @@ VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
+PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
+"""A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -101,7 +103,7 @@ def remains(paths: Paths, job: Job) -> Remains:
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
     if not mills:
         return Remains(0.0, None, ())
-    smallest, widest = min(t.radius for t in mills), max(t.diameter for t in mills)
+    smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
     closings: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
@@ -203,7 +205,7 @@ def _on_floors(
     """Greatest distance from the reachable wall to stock that stands on a floor, and the place."""
     # A floor has to be cleared all over; the waste of a through opening drops out.
     floors = [
-        inside_of(feature)
+        floor_of(feature, job)
         for feature in job.features
         if feature.top + feature.depth < job.thickness - NEAR
         and not (isinstance(feature, Profile) and feature.side == "outside")

@@ -49,7 +49,7 @@ def travel(scene: Scene) -> Check:
 
 
 def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -> Check | None:
-    """The move that leaves the travel furthest, where work offset, lengths and the ends of travel are known."""
+    """The move that leaves the travel furthest, where offsets and the ends of travel are known."""
     cam, steps = scene.job.settings, scene.paths.steps
     low: float | None = getattr(cam.machine, f"low_{axis.lower()}")
     place: float | None = getattr(cam.measured, axis.lower())
@@ -57,10 +57,8 @@ def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -
         return None
     length = np.zeros(steps.size)
     if axis == "Z":
-        known = {number: tool.length for number, tool in scene.tools.items()}
-        length = np.array(
-            [np.nan if (n := known.get(t)) is None else n for t in scene.run.tool[steps].tolist()]
-        )
+        known = {n: tool.length for n, tool in scene.tools.items() if tool.length is not None}
+        length = np.array([known.get(number, np.nan) for number in scene.run.tool[steps].tolist()])
     over = np.fmax(low - (lower + place + length), upper + place + length - (low + limit))
     if np.isnan(over).all() or np.nanmax(over) <= NEAR:
         return None

@@ -13,7 +13,7 @@ from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
@@ -83,19 +83,6 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     )
 
 
-def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
-    upper_end = job.settings.machine.retract_z
-    if isinstance(text, str):
-        return interpret(text, dialect, upper_end=upper_end)
-    runs = []
-    for name, one in text.items():
-        try:
-            runs.append(interpret(one, dialect, upper_end=upper_end))
-        except ProgramError as error:
-            raise ProgramError(f"{name}: {error}") from error
-    return joined(tuple(text), runs)
-
-
 def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     """The deepest cut into the part, and into a tab."""
     paths, job = scene.paths, scene.job
@@ -112,6 +99,19 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     left = remains(scene.paths, scene.job)
     held, loose = holding(scene.paths, scene.job)
     return left, held, loose
+
+
+def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+    upper_end = job.settings.machine.retract_z
+    if isinstance(text, str):
+        return interpret(text, dialect, upper_end=upper_end)
+    runs = []
+    for name, one in text.items():
+        try:
+            runs.append(interpret(one, dialect, upper_end=upper_end))
+        except ProgramError as error:
+            raise ProgramError(f"{name}: {error}") from error
+    return joined(tuple(text), runs)
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
@@ -153,7 +153,7 @@ def _depth_check(scene: Scene) -> Check:
     cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
-        shape = inside_of(feature)
+        shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             shape = shapely.difference(stock_shape(job), shape)
         if shape.is_empty or shape.area <= NEAR:
