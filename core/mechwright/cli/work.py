@@ -161,10 +161,13 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool, control: st
     if errors(findings):
         _refuse(findings, path)
     parts = {part.name: part for part in design.family.parts(design.params)}
-    if part_name not in parts:
+    from mechwright_cam.setups import UNDERSIDE
+
+    name = part_name if part_name in parts else part_name.removesuffix(UNDERSIDE)
+    if name not in parts:
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
     try:
-        proof = pipeline.verify(design, parts[part_name], text, found, control)
+        proof = pipeline.verify(design, parts[name], text, found, control, underside=name != part_name)
     except ProgramError as error:
         raise ProgramError(f"{program}: {error}") from error
     if as_json:
