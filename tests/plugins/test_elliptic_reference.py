@@ -14,13 +14,13 @@ from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
-    coupler_midpoint,
     driven,
     pitch_radii,
     steepest_shaft_pressure_angle,
 )
-from mechwright_elliptic_gears.motion import peak
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.peak import peak
+from mechwright_elliptic_gears.point import point_of_coupler
 from mechwright_elliptic_gears.teeth import SIDES
 from mechwright_elliptic_gears.window import near_constant
 
@@ -44,7 +44,7 @@ def pair(inputs):
 def speed_of_q(inputs):
     def speed(theta2):
         gear2 = Turning.of(theta2, inputs["omega2"])
-        return coupler_midpoint(gear2, driven(gear2, inputs["e"]), inputs["a"], inputs["e"]).speed
+        return point_of_coupler(gear2, driven(gear2, inputs["e"]), inputs["a"], inputs["e"]).speed
 
     return speed
 
@@ -137,7 +137,7 @@ CASES = {
     "pair.coupler_angle_mod_2pi": lambda i: float(coupler(*pair(i)).theta) % math.tau,
     "pair.omega3_coupler": lambda i: float(coupler(*pair(i)).omega),
     "single.window_length": lambda i: near_constant(speed_of_q(i), i["band"]).length,
-    "single.vQ_max": lambda i: peak(speed_of_q(i)),
+    "single.vQ_max": lambda i: peak(speed_of_q(i)).value,
     "gear.a": lambda i: TEETH.ellipse.semi_major,
     "gear.b": lambda i: TEETH.ellipse.semi_minor,
     "gear.c": lambda i: TEETH.ellipse.focal_distance,
