@@ -182,7 +182,7 @@ def errata(rows: list[Cell]) -> list[str]:
 
 
 def naive_peak() -> float:
-    """Peak speed, mm/s, of the cell γ = 45°, e = 0.8 if φ were γ: that is the phase whose offset is 45°."""
+    """Peak speed, mm/s, of the cell γ = 45°, e = 0.8 if φ were γ: of the phase whose offset is 45°."""
     k = (1 + 0.8) / (1 - 0.8)
     phase = 2 * math.atan(math.tan(math.pi / 8) / k)
     return point_peaks(design(math.degrees(phase), 0.8), ("speed",))["speed"].value
@@ -232,7 +232,7 @@ def page() -> str:
         "",
         *table2(rows),
         "",
-        f"The ends of the {len(listed)} printed windows are read off charts; they agree within {ends:.3f} rad.",
+        f"The ends of the {len(listed)} printed windows are read off charts and agree within {ends:.3f} rad.",
         "",
         "## Errata of the source",
         "",
