@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechwright.findings import Finding, Severity
+from mechwright.geometry.keyway import Opening
 from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.gear import opening_of, outline_of
-from mechwright_elliptic_gears.keyway import Opening
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.proof import prove_outlines
 

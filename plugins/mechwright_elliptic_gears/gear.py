@@ -7,11 +7,11 @@ import numpy as np
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline
+from mechwright.geometry.keyway import Opening, key_of_width
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Instance, Part, Profile
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.rack import Rack
 from mechwright_elliptic_gears.teeth import Teeth

@@ -58,7 +58,7 @@ class Measures:
     neck
         Half the width of the island's neck, mouths included.
     width
-        Least half width of the island anywhere but at its tip; the slot crosses itself where it is not above 0.
+        Least half width of the island but at its tip; the slot crosses itself where it is not above 0.
     web
         Least web.
     nearest

@@ -90,7 +90,9 @@ class HarmonicPieces(Law):
             w, p, amp = self._w[k], self._p[k], self._amp[k]
             if amp == 0:
                 continue
-            turns = np.arange(np.floor((w * starts[k] + p) / pi) - 1, np.ceil((w * self._ends[k] + p) / pi) + 2)
+            turns = np.arange(
+                np.floor((w * starts[k] + p) / pi) - 1, np.ceil((w * self._ends[k] + p) / pi) + 2
+            )
             # s'' = 0 makes the velocity largest; sin = ±1 the acceleration, sin = 0 the jerk.
             zero = np.arcsin(np.clip(-self._a0[k] / amp, -1, 1))
             phases = np.concatenate((turns * pi + zero, turns * pi - zero, turns * pi, turns * pi + pi / 2))
@@ -119,13 +121,13 @@ class HarmonicPieces(Law):
 
 @cache
 def cycloidal() -> HarmonicPieces:
-    """s = u - sin(2πu)/2π: the acceleration is one full sine wave."""
+    """S = u - sin(2πu)/2π: the acceleration is one full sine wave."""
     return HarmonicPieces("cycloidal", [Piece(1, 0, 1, 2 * pi)])
 
 
 @cache
 def simple_harmonic() -> HarmonicPieces:
-    """s = (1 - cos πu)/2: half a cosine wave, so the acceleration jumps at both ends."""
+    """S = (1 - cos πu)/2: half a cosine wave, so the acceleration jumps at both ends."""
     return HarmonicPieces("simple-harmonic", [Piece(1, 0, 1, pi, pi / 2)])
 
 

@@ -11,7 +11,7 @@ rates
 rest
     ds/du = 0 at both ends: the output stands still before and after.
 break
-    A place where a piece of the law ends; rates are smooth between breaks.
+    A place where the jerk jumps; all rates are smooth between breaks.
 """
 
 from abc import ABC, abstractmethod

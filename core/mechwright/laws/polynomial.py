@@ -66,11 +66,11 @@ class Polynomial(Law):
 
 @cache
 def poly345() -> Polynomial:
-    """s = 10u³ - 15u⁴ + 6u⁵: velocity and acceleration are 0 at both ends."""
+    """S = 10u³ - 15u⁴ + 6u⁵: velocity and acceleration are 0 at both ends."""
     return Polynomial((0, 0, 0, 10, -15, 6), "3-4-5")
 
 
 @cache
 def poly4567() -> Polynomial:
-    """s = 35u⁴ - 84u⁵ + 70u⁶ - 20u⁷: the jerk is 0 at both ends as well."""
+    """S = 35u⁴ - 84u⁵ + 70u⁶ - 20u⁷: the jerk is 0 at both ends as well."""
     return Polynomial((0, 0, 0, 0, 35, -84, 70, -20), "4-5-6-7")

@@ -46,9 +46,8 @@ class Table(Law):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The places where pieces of the spline meet."""
-        knots = np.unique(self._pieces[0].x)
-        return tuple(knots[(knots > 0) & (knots < 1)].tolist())
+        """None: the jerk goes on smoothly from row to row."""
+        return ()
 
     def at(self, u: ArrayLike) -> Rates:
         """The rates at u (...)."""
@@ -59,7 +58,7 @@ class Table(Law):
         """Values of a derivative at the rows and where it turns."""
         roots = self._pieces[order + 1].roots(extrapolate=False)
         roots = roots[np.isfinite(roots) & (roots > 0) & (roots < 1)]
-        values: Array = self._pieces[order](np.concatenate(([0.0, *self.breaks, 1.0], roots)))
+        values: Array = self._pieces[order](np.concatenate((np.unique(self._pieces[0].x), roots)))
         return values
 
     @cached_property
