@@ -12,7 +12,7 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
-from mechwright_geneva.locking import free_play
+from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.params import GenevaParams
@@ -69,7 +69,8 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
         "geneva.play",
         Severity.NOTE,
         "",
-        f"during dwell the locked wheel can turn by {play:.4f} degrees either way",
+        f"in the middle of the dwell the locked wheel can turn by {play:.4f} degrees either way; within "
+        f"{math.degrees(cover(m)):.1f} degrees of its ends the disc covers one horn only, and it is more",
         play,
         None,
         "deg",

@@ -241,8 +241,17 @@ WEDGES = {
 }
 
 
+# The clamp of 20 mm is wider than the gear's root allows.
+WIDE_CLAMP = {
+    "parameters": WEDGES["parameters"]
+    | {"eccentricity": 0.37, "teeth": 33, "module": 1.11, "thickness": 7.3, "bore": 2.8, "backlash": 0.07},
+    "cam": {"hold": {"method": "bore"}},
+}
+
+
 @settings(max_examples=25)
 @known_design(**WEDGES)
+@known_design(**WIDE_CLAMP)
 @given(parameters=DESIGNS, cam=SETTINGS)
 def test_a_random_design_is_proven_or_refused_by_name(parameters: dict, cam: dict) -> None:
     family = host().family("elliptic-gears")

@@ -1,6 +1,7 @@
 """From program text to proof."""
 
 from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import shapely
@@ -11,7 +12,7 @@ from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
@@ -50,19 +51,18 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
     scene = Scene(run, job, tools, paths, Stock(paths, job))
-    checks = [rule(scene) for rule in RULES]
-    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
-    checks.append(_gouge_check(scene, gouge))
-    in_tab = _deepest(
-        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
-        for top in sorted({tab.top for tab in job.tabs})
-    )
-    checks.append(_tab_check(scene, in_tab))
-    checks.append(_depth_check(scene))
-    left = remains(paths, job)
-    checks.append(_leftover_check(left))
-    held, loose = holding(paths, job)
-    checks.append(held)
+    with ThreadPoolExecutor() as pool:  # none of the three depends on another
+        cuts, stays = pool.submit(_cuts, scene), pool.submit(_stays, scene)
+        checks = [rule(scene) for rule in RULES]
+    gouge, in_tab = cuts.result()
+    left, held, loose = stays.result()
+    checks += [
+        _gouge_check(scene, gouge),
+        _tab_check(scene, in_tab),
+        _depth_check(scene),
+        _leftover_check(left),
+        held,
+    ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
     return Proof(
@@ -79,6 +79,24 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
         operations=_operations(run, seconds),
         notes=(*_notes(left), *loose),
     )
+
+
+def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
+    """The deepest cut into the part, and into a tab."""
+    paths, job = scene.paths, scene.job
+    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    in_tab = _deepest(
+        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
+        for top in sorted({tab.top for tab in job.tabs})
+    )
+    return gouge, in_tab
+
+
+def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
+    """What is left, and what holds the part."""
+    left = remains(scene.paths, scene.job)
+    held, loose = holding(scene.paths, scene.job)
+    return left, held, loose
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
@@ -120,7 +138,7 @@ def _depth_check(scene: Scene) -> Check:
     cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
-        shape = inside_of(feature)
+        shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             shape = shapely.difference(stock_shape(job), shape)
         if shape.is_empty or shape.area <= NEAR:
