@@ -52,8 +52,8 @@ def _construction(m: Mechanism) -> Iterator[Finding]:
             "geneva.floor",
             Severity.ERROR,
             "floor",
-            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave {m.roller_length:.3g} mm "
-            f"of the wheel's {params.thickness:g} mm for the rollers",
+            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
+            f"{m.roller_length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",
             params.floor,
             most,
             "mm",
@@ -159,8 +159,8 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
                 inside,
                 wanted,
                 "mm",
-                f"make hub_diameter at least {math.ceil((params.hub_diameter + 2 * (wanted - inside)) * 10) / 10:g}"
-                ", or 0 for none",
+                "make hub_diameter at least "
+                f"{math.ceil((params.hub_diameter + 2 * (wanted - inside)) * 10) / 10:g}, or 0 for none",
             )
     if m.construction == "backed" and params.fixing > 0:
         yield from _dowels(m)

@@ -47,8 +47,8 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
         "geneva.size",
         Severity.NOTE,
         "",
-        f"centre distance {m.axes:.4f} mm, crank radius {m.crank:.4f} mm, slot bottom {m.bottom:.4f} mm from the "
-        f"wheel's axis, locking disc {m.lock:.3f} mm",
+        f"centre distance {m.axes:.4f} mm, crank radius {m.crank:.4f} mm, slot bottom {m.bottom:.4f} "
+        f"mm from the wheel's axis, locking disc {m.lock:.3f} mm",
         m.axes,
         None,
         "mm",
@@ -58,8 +58,8 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
         "geneva.motion",
         Severity.NOTE,
         "",
-        f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the wheel rests "
-        f"for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
+        f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the "
+        f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
         peaks.a,
         None,
         "",
@@ -83,9 +83,9 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
         "geneva.slot",
         Severity.NOTE,
         "",
-        f"regime {REGIMES[m.side]}: critical roller radius {limit:.4f} mm, tip of the island {limit - m.groove:.3f} mm, "
-        f"neck {2 * float(found.neck[0]):.3f} mm, web {float(found.web[0]):.3f} mm; cutters up to "
-        f"{2 * m.groove:.3f} mm cut the groove",
+        f"regime {REGIMES[m.side]}: critical roller radius {limit:.4f} mm, tip of the island "
+        f"{limit - m.groove:.3f} mm, neck {2 * float(found.neck[0]):.3f} mm, web "
+        f"{float(found.web[0]):.3f} mm; cutters up to {2 * m.groove:.3f} mm cut the groove",
         limit,
         None,
         "mm",

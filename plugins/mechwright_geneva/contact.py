@@ -6,9 +6,9 @@ With the roller's normal n, its centre C and its speed D over the wheel (equatio
     N = T_w/lever,  T_w = J θw'' ω² + T_load,  crank torque T_w θw'
     R = r (1 ∓ κ r),  p = sqrt(N E*/(π L R)),  1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2
 
-At mid stroke of a curved slot the normal lies on the line of centres, δ = 90 degrees: no force turns the wheel
-there. Inertia does not need one, since θw'' passes 0 as well and N stays finite; a constant torque does. In
-the blocked zone about it the wheel's own kinetic energy has to carry the load.
+At mid stroke of a curved slot the normal lies on the line of centres, δ = 90 degrees: no force turns the
+wheel there. Inertia does not need one, since θw'' passes 0 as well and N stays finite; a constant torque
+does. In the blocked zone about it the wheel's own kinetic energy has to carry the load.
 """
 
 import math
@@ -27,8 +27,8 @@ BLOCKED = math.radians(80)
 """Pressure angle from which friction of 0.18 (steel on steel, hardly oiled) stops the wheel."""
 
 YIELD = 1.67
-"""Hertz pressure over yield strength at which a line contact begins to yield below its surface (K. L. Johnson,
-Contact Mechanics, section 6.1)."""
+"""Hertz pressure over yield strength at which a line contact begins to yield below its surface (K. L.
+Johnson, Contact Mechanics, section 6.1)."""
 
 _MIDDLE = 1e-6
 """|sin φ| below which the limit at mid stroke is taken: the next term is smaller by its square."""

@@ -15,7 +15,7 @@ def boss_radius(m: Mechanism) -> float:
 
 
 def hub_radius(m: Mechanism) -> float:
-    """Radius of the crank's hub, mm: around opening and dowels, with twice the least wall about a bare bore."""
+    """Radius of the crank's hub, mm: around opening and dowels, or twice the least wall about a bare bore."""
     params = m.params
     bare = reach(driver_opening(params)) + 2 * params.least_wall
     if not driver_dowels(m):

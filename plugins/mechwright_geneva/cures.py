@@ -1,11 +1,13 @@
 """The smallest change of one parameter that makes a curved slot sound."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.motion import Array
-from mechwright_geneva.limits import FINE_SAMPLES
+from mechwright_geneva.limits import FINE_SAMPLES, SWEEP_SAMPLES
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.sound import Walls, sound
 
@@ -32,9 +34,8 @@ def least_offset(mechanism: Mechanism) -> float | None:
     m = mechanism
     now = float(m.frame.offset)
 
-    def good(values: Array, samples: int) -> Array:
-        found: Array = sound(m.law, m.wheel_half, m.crank_half, values, m.rim, m.groove, walls_of(m), samples)
-        return found
+    def good(values: Array, samples: int) -> NDArray[np.bool_]:
+        return sound(m.law, m.wheel_half, m.crank_half, values, m.rim, m.groove, walls_of(m), samples)
 
     grid = np.linspace(-WIDEST_OFFSET, WIDEST_OFFSET, 2 * _FIRST - 1)
     return _nearest(grid, now, good, math.degrees)
@@ -45,22 +46,23 @@ def greatest_roller(mechanism: Mechanism) -> float | None:
     m = mechanism
     clearance = m.params.groove_clearance / 2
 
-    def good(values: Array, samples: int) -> Array:
+    def good(values: Array, samples: int) -> NDArray[np.bool_]:
         offset = float(m.frame.offset)
-        found: Array = sound(
-            m.law, m.wheel_half, m.crank_half, offset, m.rim, values + clearance, walls_of(m), samples
-        )
-        return found
+        walls = walls_of(m)
+        return sound(m.law, m.wheel_half, m.crank_half, offset, m.rim, values + clearance, walls, samples)
 
     grid = np.linspace(0.5, m.roller, _FIRST)
     return _nearest(grid, m.roller, good, float)
 
 
-def _nearest(grid: Array, now: float, good: object, unit: object) -> float | None:
+def _nearest(
+    grid: Array,
+    now: float,
+    good: Callable[[Array, int], NDArray[np.bool_]],
+    unit: Callable[[float], float],
+) -> float | None:
     """The good value nearest to ``now``, rounded away from it by less than a step."""
-    assert callable(good)  # noqa: S101
-    assert callable(unit)  # noqa: S101
-    able = grid[good(grid, 33)]
+    able = grid[good(grid, SWEEP_SAMPLES)]
     if not able.size:
         return None
     best = float(able[np.argmin(np.abs(able - now))])

@@ -14,8 +14,8 @@ ANGLE_SLACK = 1e-6
 """Degrees by which the angles of a straight slot may be off: rounding of the design file."""
 
 FLATTEST = 1.0
-"""Degrees that W + θd0/2 stays below 90, and W above 0: beyond, the slot's bottom is on the wheel's axis, or the
-crank has no length."""
+"""Degrees that W + θd0/2 stays below 90, and W above 0: beyond, the slot's bottom is on the wheel's axis, or
+the crank has no length."""
 
 
 @lru_cache(64)
@@ -123,8 +123,8 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
         "geneva.rollers",
         Severity.ERROR,
         "rollers",
-        f"{params.rollers} rollers, {turn:g} degrees apart, leave {locked:.4g} degrees of the crank's turn to "
-        f"lock the wheel between strokes of {2 * half:g} degrees",
+        f"{params.rollers} rollers, {turn:g} degrees apart, leave {locked:.4g} degrees of the crank's "
+        f"turn to lock the wheel between strokes of {2 * half:g} degrees",
         locked,
         least,
         "deg",

@@ -51,7 +51,7 @@ def web_place(m: Mechanism) -> tuple[Point, float]:
     """The place on +x, between two slots, with most room, and the radius of that room, mm."""
     x = np.linspace(0, m.axes - m.arc, _PLACES)
     room = np.minimum(
-        _from_way(m, x + 0j), np.minimum(m.axes - m.arc - x, x - reach(wheel_opening(m.params)))
+        _from_way(m, x, 0.0), np.minimum(m.axes - m.arc - x, x - reach(wheel_opening(m.params)))
     )
     best = int(np.argmax(room))
     return (float(x[best]), 0.0), float(room[best])
@@ -62,9 +62,8 @@ def island_places(m: Mechanism, diameter: float) -> list[Point]:
 
     Fewer than two if there is no room.
     """
-    axis = cmath.exp(-1j * m.wheel_half)
     x = np.linspace(m.bottom + m.groove, m.rim, _PLACES)
-    room = np.minimum(_from_way(m, x * axis), m.rim - x)
+    room = np.minimum(_from_way(m, x, -m.wheel_half), m.rim - x)
     able = x[room >= diameter / 2 + m.params.least_wall]
     if not able.size:
         return []
@@ -82,8 +81,9 @@ def greatest_island_dowel(m: Mechanism) -> float:
     return 0.0
 
 
-def _from_way(m: Mechanism, places: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]) -> Array:
-    """Distance (k,) of places from the walls of slot 0 and of its neighbours."""
+def _from_way(m: Mechanism, distances: Array, angle: float) -> Array:
+    """Distance (k,) of places on a ray from the walls of slot 0 and of its neighbours."""
+    places = distances * cmath.exp(1j * angle)
     way = m.stroke(np.linspace(0, 1, _WAY)).track
     turn = cmath.exp(2j * m.wheel_half)
     ways = np.concatenate((way, way * turn, way / turn))

@@ -21,7 +21,6 @@ Other laws are compared point by point, both ways and both neighbours.
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright.laws import Law
 from mechwright.motion import Array
@@ -67,7 +66,7 @@ class Measures:
 
     reach: Array
     bottom: Array
-    side: NDArray[np.int_]
+    side: Array
     mouth: Array
     island_limit: Array
     hub_limit: Array
@@ -112,7 +111,7 @@ def _rows(values: Array, rows: slice) -> Array:
 
 
 def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
-    side = np.broadcast_to(regime(frame, law), frame.crank_half.shape)
+    side = np.broadcast_to(regime(frame, law).astype(float), frame.crank_half.shape)
     run = stroke(frame, law, u)
     kappa = run.curvature
     island = _limit(kappa * side)
@@ -126,17 +125,21 @@ def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
     nearest = -np.maximum(*(_largest(-np.abs(way - place)) for place in places))
     mouth = -side * frame.entry_radius * np.sin(frame.offset)
     mouth = mouth - radius * np.sin(frame.wheel_half + frame.crank_half)
-    shape = side.shape
+    reach = frame.entry_angle + frame.crank_half / 2
+
+    def flat(values: Array) -> Array:
+        return np.broadcast_to(values, side.shape)[:, 0]
+
     return Measures(
-        *(
-            np.broadcast_to(value, shape)[:, 0]
-            for value in (frame.entry_angle + frame.crank_half / 2, frame.bottom, side, mouth)
-        ),
+        flat(reach),
+        flat(frame.bottom),
+        flat(side),
+        flat(mouth),
         island,
         hub,
         neck,
         width,
-        web - 2 * np.broadcast_to(radius, shape)[:, 0],
+        web - 2 * flat(radius),
         nearest,
     )
 

@@ -25,13 +25,13 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             "geneva.acceleration",
             Severity.WARNING,
             "law",
-            f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against {straight.a:.4g} "
-            "per crank speed squared (the straight slot jerks at its ends instead)",
+            f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against "
+            f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
             own.a,
             straight.a,
             "",
-            f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law with a lower "
-            "peak, or accept it for the sake of the jerk",
+            f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
+            "with a lower peak, or accept it for the sake of the jerk",
         )
     if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
         yield Finding(
@@ -64,8 +64,9 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
         "geneva.singular",
         Severity.ERROR if stalls else Severity.WARNING,
         "load_torque",
-        f"at mid stroke, {math.degrees(m.crank_half):g} degrees of the crank, the roller cannot turn the wheel: its "
-        f"own inertia carries {params.load_torque:g} N·m over {math.degrees(loads(m).carried):.2f} degrees and "
+        f"at mid stroke, {math.degrees(m.crank_half):g} degrees of the crank, the roller cannot turn "
+        f"the wheel: its own inertia carries {params.load_torque:g} N·m over "
+        f"{math.degrees(loads(m).carried):.2f} degrees and "
         + ("stops there" if stalls else f"loses {100 * lost:.3g} % of its speed"),
         work * 1e3,
         energy * 1e3,
@@ -83,8 +84,9 @@ def _pressure(m: Mechanism) -> Iterator[Finding]:
             "geneva.pressure",
             Severity.WARNING,
             "load_inertia",
-            f"the Hertz pressure reaches {load.pressure:.0f} MPa at {math.degrees(load.pressure_at):.1f} degrees of "
-            f"the crank; {m.params.material} on {m.params.roller_material} yields from {limit:.0f} MPa",
+            f"the Hertz pressure reaches {load.pressure:.0f} MPa at "
+            f"{math.degrees(load.pressure_at):.1f} degrees of the crank; {m.params.material} on "
+            f"{m.params.roller_material} yields from {limit:.0f} MPa",
             load.pressure,
             limit,
             "MPa",
@@ -98,8 +100,9 @@ def _pressure(m: Mechanism) -> Iterator[Finding]:
         "geneva.contact",
         Severity.NOTE,
         "",
-        f"greatest contact force {load.force:.4g} N at {math.degrees(load.force_at):.2f} degrees of the crank, on "
-        f"{carrier}; Hertz pressure {load.pressure:.4g} MPa, crank torque {load.crank_torque:.4g} N·m{steep}",
+        f"greatest contact force {load.force:.4g} N at {math.degrees(load.force_at):.2f} degrees of "
+        f"the crank, on {carrier}; Hertz pressure {load.pressure:.4g} MPa, crank torque "
+        f"{load.crank_torque:.4g} N·m{steep}",
         load.force,
         None,
         "N",

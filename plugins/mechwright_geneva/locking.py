@@ -31,9 +31,9 @@ def free_play(m: Mechanism, after: float | None = None) -> float:
 
     Notes
     -----
-    Where the disc covers both horns, a horn leaves the circle of the concave arc, R_L + c, and meets that of the
-    disc, R_L. Nearer to an end it is the end of the disc's arc that meets the concave arc, which turns by t about
-    the wheel's axis: abs(R_L d - a (exp(it) - 1)) = R_L + c, d the direction of the arc's end; about
+    Where the disc covers both horns, a horn leaves the circle of the concave arc, R_L + c, and meets that of
+    the disc, R_L. Nearer to an end it is the end of the disc's arc that meets the concave arc, which turns by
+    t about the wheel's axis: abs(R_L d - a (exp(it) - 1)) = R_L + c, d the direction of the arc's end; about
     c/(a sin η) at η from the end.
     """
     middle = m.pitch / 2 - m.crank_half

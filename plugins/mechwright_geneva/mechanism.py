@@ -14,8 +14,8 @@ from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.straight import StraightSlot
 
 OFFSET = 5.0
-"""Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight slots
-the crank then turns: both are those of the worked reference."""
+"""Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
+slots the crank then turns: both are those of the worked reference."""
 
 _CACHED = 64
 """Mechanisms that are kept: motion, checks and parts ask for the same one."""

@@ -56,8 +56,8 @@ class GenevaParams(Parameters):
     offset_angle: Annotated[float, Field(ge=-60, le=60), Unit("deg")] | None = Field(
         None,
         description=(
-            "Half the angle between the mouths of a slot; its sign tells the island's side. Left out, 5, or 0 "
-            "for straight slots."
+            "Half the angle between the mouths of a slot; its sign tells the island's side. Left out, "
+            "5, or 0 for straight slots."
         ),
     )
     entry_radius: Millimetres = Field(

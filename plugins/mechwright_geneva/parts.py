@@ -1,8 +1,8 @@
 """The parts of a design, and the heights at which they stand.
 
-From below: the hub plate under the wheel; the wheel, from z = 0, with its floor or backing plate at the bottom;
-beside it the locking disc; over both, one axial gap above the wheel, the crank plate; from the crank the rollers
-hang into the slots.
+From below: the hub plate under the wheel; the wheel, from z = 0, with its floor or backing plate at the
+bottom; beside it the locking disc; over both, one axial gap above the wheel, the crank plate; from the crank
+the rollers hang into the slots.
 """
 
 import math

@@ -1,8 +1,8 @@
-"""A proof over a whole turn, on the finished outlines: rollers and slots, disc and arcs never overlap, and the
-wheel is locked while it rests.
+"""A proof over a whole turn, on the finished outlines.
 
-Everything is seen from the wheel: the rollers' centres and the locking disc move past it. A point is in material
-if it lies inside its polygon; how deep is its distance from the nearest edge.
+Rollers and slots, disc and arcs never overlap, and the wheel is locked while it rests.
+Everything is seen from the wheel: the rollers' centres and the locking disc move past it. A point is in
+material if it lies inside its polygon; how deep is its distance from the nearest edge.
 """
 
 import math
@@ -150,9 +150,7 @@ def _wheel_angle(m: Mechanism, crank: Array) -> Array:
     return angle
 
 
-def _lock_depth(
-    m: Mechanism, disc: _Body, outline: _Body, crank: Array, theta: Array
-) -> tuple[float, float]:
+def _lock_depth(m: Mechanism, disc: _Body, outline: _Body, crank: Array, theta: Array) -> tuple[float, float]:
     """Deepest overlap of disc and wheel, and the crank angle of it."""
     # Corners of the disc seen from the wheel, and of the wheel seen from the disc.
     line = math.pi + m.crank_half - crank

@@ -13,8 +13,8 @@ While the crank turns through a stroke the disc must give way to the wheel. What
 driver's frame is the relief. From the disc inwards its edge is, in order:
 
 * the envelope of the bite as it moves off the disc, E = K + R_L i K'/|K'|, K the bite's centre;
-* the path Q of the horn's tip after it has passed the line of centres, from where it cuts the envelope back to
-  the line of centres (what the tip does before it gets there, the rim behind it has taken already);
+* the path Q of the horn's tip after it has passed the line of centres, from where it cuts the envelope back
+  to the line of centres (what the tip does before it gets there, the rim behind it has taken already);
 * from there the rim passes: an arc of radius a - l - c about the crank's axis.
 
 The other half is the same with time reversed. The driver's frame has the roller on +x:

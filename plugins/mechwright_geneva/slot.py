@@ -20,6 +20,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -191,7 +192,7 @@ def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _
     ends = [first, *(u for u in mechanism.law.breaks if first < u < last), last]
     chains: list[list[Segment]] = [[], []]
     deviation = 0.0
-    for a, b in zip(ends, ends[1:], strict=False):
+    for a, b in pairwise(ends):
 
         def curves(t: Array, a: float = a, b: float = b) -> Array:
             run = mechanism.stroke((1 - t) * a + t * b)

@@ -86,8 +86,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             Severity.ERROR,
             "offset_angle",
             f"the wheel turns {_ratio(m):.4g} times as fast as the crank at mid stroke, b/(a - b) is "
-            f"{float(m.frame.turning_ratio):.4g}: in this regime {regime or '(a cusp)'} the two ways of a slot "
-            f"cross unless the offset angle is {wanted}",
+            f"{float(m.frame.turning_ratio):.4g}: in this regime {regime or '(a cusp)'} the two ways "
+            f"of a slot cross unless the offset angle is {wanted}",
             math.degrees(offset),
             0.0,
             "deg",

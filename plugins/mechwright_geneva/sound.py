@@ -48,7 +48,7 @@ CONDITIONS = ("angles", "rollers", "bottom", "mouth", "undercut", "tip", "loop",
 
 
 def conditions(frame: Frame, radius: Array, found: Measures, walls: Walls) -> dict[str, NDArray[np.bool_]]:
-    """Which of the :data:`CONDITIONS` m designs satisfy, (m,) each; ``radius`` (m, 1) is half a slot's width."""
+    """Which of the :data:`CONDITIONS` m designs satisfy, (m,) each; ``radius`` (m, 1): half a slot's width."""
     r = np.broadcast_to(radius, (found.reach.size, 1))[:, 0]
     half = np.broadcast_to(frame.crank_half, (found.reach.size, 1))[:, 0]
     greatest_lock = found.nearest - r - walls.clearance - walls.least

@@ -60,7 +60,7 @@ class StraightSlot(Law):
 
     @cached_property
     def peaks(self) -> Peaks:
-        """The peaks: at mid stroke; of the acceleration where cos φ = sqrt(q² + 2) - q, q = (1 + L²)/(4 L)."""
+        """At mid stroke; the acceleration's where cos φ = sqrt(q² + 2) - q, q = (1 + L²)/(4 L)."""
         q = (1 + self.ratio**2) / (4 * self.ratio)
         phi = math.acos(math.sqrt(q * q + 2) - q)
         at = self.at(np.array([0.5, (1 - phi / self.crank_half_angle) / 2]))

@@ -6,7 +6,7 @@ from functools import cache, cached_property
 from math import pi
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mechwright.laws.law import Law, Peaks, Rates, largest
 from mechwright.motion import Array
@@ -67,7 +67,7 @@ class HarmonicPieces(Law):
         k = np.minimum(np.searchsorted(self._ends, u, side="right"), self._ends.size - 1)
         return self._rates(k, u)
 
-    def _rates(self, k: ArrayLike, u: Array) -> Rates:
+    def _rates(self, k: NDArray[np.intp], u: Array) -> Rates:
         """The rates of pieces k, which may be asked for at their very ends."""
         w, a0 = self._w[k], self._a0[k]
         sin, cos = np.sin(w * u + self._p[k]), np.cos(w * u + self._p[k])
