@@ -1,16 +1,17 @@
 """From program text to proof."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import shapely
 
+from mechwright.errors import ProgramError
 from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
+from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
@@ -25,13 +26,14 @@ from mechwright_cam.proof.stock import Stock
 from mechwright_cam.timing import step_times
 
 
-def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
+def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     """Simulate a program against the part it should make.
 
     Parameters
     ----------
     text
-        The program as the control would get it, from this project's posts or from anywhere.
+        The program as the control would get it, from this project's posts or from anywhere; several files,
+        name to text, if they are run one after the other.
     job
         The part, its stock, its holding and the tools on the machine.
     dialect
@@ -47,10 +49,10 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     ProgramError
         The text cannot be read; the message names the line.
     """
-    run = interpret(text, dialect)
+    run = _run(text, job, dialect)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
-    scene = Scene(run, job, tools, paths, Stock(paths, job))
+    scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
     with ThreadPoolExecutor() as pool:  # none of the three depends on another
         cuts, stays = pool.submit(_cuts, scene), pool.submit(_stays, scene)
         checks = [rule(scene) for rule in RULES]
@@ -99,6 +101,19 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     return left, held, loose
 
 
+def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+    upper_end = job.settings.machine.retract_z
+    if isinstance(text, str):
+        return interpret(text, dialect, upper_end=upper_end)
+    runs = []
+    for name, one in text.items():
+        try:
+            runs.append(interpret(one, dialect, upper_end=upper_end))
+        except ProgramError as error:
+            raise ProgramError(f"{name}: {error}") from error
+    return joined(tuple(text), runs)
+
+
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
     found = [cut for cut in cuts if cut is not None]
     return max(found, key=lambda cut: cut.depth, default=None)
@@ -128,7 +143,7 @@ def _tab_check(scene: Scene, cut: Gouge | None) -> Check:
 def _blame(scene: Scene, name: str, cut: Gouge, limit: float, message: str) -> Check:
     x, y, z = cut.at
     line = scene.line(cut.step)
-    text = f"line {line}: {message.format(cut.depth, limit)}, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
+    text = f"{scene.spot(cut.step)}: {message.format(cut.depth, limit)}, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
     return Check(name, False, text, line, cut.depth, limit, "mm", cut.at)
 
 
@@ -196,9 +211,9 @@ def _leftover_check(left: Remains) -> Check:
 def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
     """Times by operation: from one operation comment to the next; by tool where there are none."""
     named = [
-        (remark.step, remark.text[len(OPERATION_COMMENT) :])
+        (remark.step, _as_planned(remark.text[len(OPERATION_COMMENT) :]))
         for remark in run.remarks
-        if remark.text.startswith(OPERATION_COMMENT)
+        if remark.text.lower().startswith(OPERATION_COMMENT)
     ]
     if not named:
         named = [(int(step), f"T{run.tool[step]}") for step in np.flatnonzero(run.kind == Kind.TOOL)]
@@ -214,6 +229,11 @@ def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
                 OperationTime(name, tool, float(seconds[first:last].sum()), float(path[first:last].sum()))
             )
     return tuple(out)
+
+
+def _as_planned(name: str) -> str:
+    """The name of an operation; a control that shows capitals only has changed it."""
+    return name.lower() if name.isupper() else name
 
 
 def _notes(left: Remains) -> tuple[str, ...]:

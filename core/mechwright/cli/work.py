@@ -148,11 +148,11 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     return facts(design.name, design.family, inputs, found)
 
 
-def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
+def verify(program: Path, path: Path, part_name: str, as_json: bool, control: str = "") -> None:
     """Prove a program that came from anywhere."""
     from mechwright_cam import pipeline
 
-    design, _ = _open(path)
+    design, found = _open(path)
     text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
     findings = list(design.family.check(design.params))
     if errors(findings):
@@ -161,7 +161,7 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
     if part_name not in parts:
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
     try:
-        proof = pipeline.verify(design, parts[part_name], text)
+        proof = pipeline.verify(design, parts[part_name], text, found, control)
     except ProgramError as error:
         raise ProgramError(f"{program}: {error}") from error
     if as_json:
