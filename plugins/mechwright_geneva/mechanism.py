@@ -1,7 +1,7 @@
 """From the parameters to the geometry of one mechanism."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Literal
 
@@ -9,13 +9,17 @@ import numpy as np
 
 from mechwright.laws import LAWS, Law, Polynomial
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
-from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure
+from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.straight import StraightSlot
 
 OFFSET = 5.0
 """Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
 slots the crank then turns: both are those of the worked reference."""
+
+_COARSE, _ZOOMS = 65, 4
+"""Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
+parabola about the bend is flat to rounding."""
 
 _CACHED = 64
 """Mechanisms that are kept: motion, checks and parts ask for the same one."""
@@ -149,9 +153,29 @@ class Mechanism:
 
 
 def measure_at(mechanism: Mechanism, radius: float, samples: int = FINE_SAMPLES) -> Measures:
-    """The figures of a curved slot for a roller of another radius."""
+    """The figures of a curved slot for a roller of another radius, its critical radii to rounding."""
     one = Frame(*(np.array([[float(v)]]) for v in _values(mechanism.frame)))
-    return measure(one, mechanism.law, np.array([[radius]]), samples)
+    found = measure(one, mechanism.law, np.array([[radius]]), samples)
+    side = mechanism.side
+    return replace(
+        found,
+        island_limit=np.array([_critical(mechanism, side, float(found.island_limit[0]))]),
+        hub_limit=np.array([_critical(mechanism, -side, float(found.hub_limit[0]))]),
+    )
+
+
+def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
+    """The critical radius on one side, from ever finer samples about the sharpest bend."""
+    if math.isinf(sampled):
+        return sampled
+    u = samples_of(mechanism.law, _COARSE)
+    best = 0.0
+    for _ in range(_ZOOMS):
+        bend = side * stroke(mechanism.frame, mechanism.law, u).curvature
+        top = int(np.argmax(bend))
+        best = max(best, float(bend[top]))
+        u = np.linspace(u[max(top - 1, 0)], u[min(top + 1, u.size - 1)], _COARSE)
+    return 1 / best if best > 0 else math.inf
 
 
 def _values(frame: Frame) -> tuple[float, float, float, float]:

@@ -12,18 +12,21 @@ from mechwright.laws.polynomial import Polynomial
 ENDS = 1e-6
 """How far s and ds/du may be off at the ends: a thousandth of a degree on the largest stroke there is."""
 
-REST = 0.02
-"""Velocity ds/du at an end of a table that still counts as rest: 2 % of the mean velocity, about what rows
-rounded to four digits show."""
+REST = 0.05
+"""Velocity ds/du at an end of a table that still counts as rest: 5 % of the mean velocity. The slope of eleven
+rows of a usual law is known no better."""
 
 BACKWARDS = 1e-9
 """Negative velocity ds/du that is rounding."""
 
-LEAST_ROWS = 8
+RIPPLE = 0.005
+"""Negative velocity ds/du of a table that is the rounding of its rows to five digits."""
+
+LEAST_ROWS = 11
 """Rows of a table: a quintic through fewer is a guess."""
 
-WIDEST_STEP = 0.125
-"""Widest step of a table in u: an eighth, the length of the shortest piece of the named laws."""
+WIDEST_STEP = 0.1
+"""Widest step of a table in u: shorter than an eighth, the shortest piece of the named laws."""
 
 GAP = 3.0
 """A step of a table this many times its median step is a gap where rows are missing."""
@@ -46,14 +49,14 @@ class LawFault:
 def polynomial_faults(coefficients: Sequence[float]) -> Iterator[LawFault]:
     """What keeps coefficients c0, c1, … from being a law.
 
-    >>> [fault.kind for fault in polynomial_faults([0, 1])]
+    >>> [fault.kind for fault in polynomial_faults([0, 0, 1])]
     ['rest']
     """
     law = Polynomial(coefficients)
     found = list(_end_faults(law))
     yield from found
     if not found:
-        yield from _backwards(law)
+        yield from _backwards(law, BACKWARDS * max(1.0, law.peaks.v))
 
 
 def table_faults(rows: Sequence[tuple[float, float]]) -> Iterator[LawFault]:
@@ -122,7 +125,7 @@ def table_faults(rows: Sequence[tuple[float, float]]) -> Iterator[LawFault]:
                 f"let s be level at its {what}",
             )
             return
-    yield from _backwards(law)
+    yield from _backwards(law, RIPPLE)
 
 
 def _end_faults(law: Law) -> Iterator[LawFault]:
@@ -147,8 +150,8 @@ def _end_faults(law: Law) -> Iterator[LawFault]:
             )
 
 
-def _backwards(law: Law) -> Iterator[LawFault]:
-    if law.least_velocity < -BACKWARDS * max(1.0, law.peaks.v):
+def _backwards(law: Law, rounding: float) -> Iterator[LawFault]:
+    if law.least_velocity < -rounding:
         yield LawFault(
             "monotone",
             f"ds/du falls to {law.least_velocity:.4g}: the output would run backwards",
