@@ -33,6 +33,9 @@ within 0.1 % and lengths within 0.01 mm of those of a thousand samples."""
 FINE_SAMPLES = 385
 """Samples of half a stroke for one design: critical radii within 1e-9 of their limit."""
 
+_CROSSED = 1e-3
+"""Share of the roller's radius by which a wall may seem nearer to the way than it is: rounding at a cusp."""
+
 _BLOCK = 256
 """Designs taken together in a sweep, so that its arrays stay in the processor's cache."""
 
@@ -118,8 +121,7 @@ def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
     hub = _limit(-kappa * side)
     wall = (run.centre + side * radius * run.normal) * run.to_wheel
     way = run.track
-    measured = _mirrored if law.symmetric else _compared
-    neck, width, web = measured(run, wall, way, side)
+    neck, width, web = _mirrored(run, wall, way, side) if law.symmetric else _compared(run, wall, way)
     # The crank's axis, seen from the wheel at rest before and after the stroke.
     places = (frame.axes, frame.axes * np.exp(-2j * frame.wheel_half))
     nearest = -np.maximum(*(_largest(-np.abs(way - place)) for place in places))
@@ -165,6 +167,7 @@ def _largest(values: Array) -> Array:
 
 
 def _mirrored(run: Stroke, wall: Points, way: Points, side: Array) -> tuple[Array, Array, Array]:
+    """Neck and width of the island, halved, and the distance of neighbouring ways."""
     half = side * (wall * np.exp(1j * run.frame.wheel_half)).imag
     inner = half[:, :-1]  # the last sample is mid stroke, on the axis
     index = np.arange(inner.shape[1])
@@ -177,22 +180,21 @@ def _mirrored(run: Stroke, wall: Points, way: Points, side: Array) -> tuple[Arra
     return neck, inner.min(axis=-1), web
 
 
-def _compared(run: Stroke, wall: Points, way: Points, side: Array) -> tuple[Array, Array, Array]:
+def _compared(run: Stroke, wall: Points, way: Points) -> tuple[Array, Array, Array]:
     """The same figures without a mirror: walls on the way in against walls on the way out, slot by slot."""
     middle = way.shape[-1] // 2
-    axis = np.exp(1j * run.frame.wheel_half)
-    into, out = side * (wall[:, :middle] * axis).imag, -side * (wall[:, middle + 1 :] * axis).imag
+    # A wall that crosses itself comes nearer to some other place of the way than to its own.
+    own = np.abs(wall - way)[:, :, None]
+    nearer = (np.abs(wall[:, :, None] - way[:, None, :]) / np.where(own > 0, own, np.inf)).min(axis=(-1, -2))
     gap = np.abs(wall[:, :middle, None] - wall[:, None, middle + 1 :])
-    # Beyond the other wall the distance is one of overlap.
-    least = np.minimum(into, out[:, ::-1])
-    crossed = least.min(axis=-1) <= 0
     half = np.minimum(gap.min(axis=-1), gap.min(axis=-2)[:, ::-1]) / 2
     before = np.arange(middle) <= np.argmax(half, axis=-1)[:, None]
     neck = np.where(before, half, np.inf).min(axis=-1)
-    width = np.where(crossed, least.min(axis=-1), half.min(axis=-1))
+    crossed = nearer < 1 - _CROSSED
+    neck, width = np.where(crossed, -neck, neck), np.where(crossed, nearer - 1, half.min(axis=-1))
     turn = np.exp(2j * run.frame.wheel_half)
     web = np.abs((way * turn)[:, :, None] - way[:, None, :]).min(axis=(-1, -2))
-    return np.where(crossed, least.min(axis=-1), neck), width, web
+    return neck, width, web
 
 
 __all__ = ["FINE_SAMPLES", "LEFT", "RIGHT", "SWEEP_SAMPLES", "Measures", "measure", "samples_of"]

@@ -28,9 +28,7 @@ def singularity(run: Stroke, radius: ArrayLike, side: int) -> Array:
     f_alpha = (1 + p) * np.cos(turn) - n * p * np.cos(phi + turn)
     f_theta = n * p * np.cos(phi + turn) + q * (np.sin(turn) - n * np.sin(phi + turn))
     one = m * np.sin(turn) * f_theta + ((1 + p) * m * np.sin(turn) + n * p * np.sin(phi)) * f_alpha
-    two = (
-        -m * np.cos(turn) * f_theta - ((1 + p) * (1 + m * np.cos(turn)) - n * p * np.cos(phi)) * f_alpha
-    )
+    two = -m * np.cos(turn) * f_theta - ((1 + p) * (1 + m * np.cos(turn)) - n * p * np.cos(phi)) * f_alpha
     value: Array = one**2 + two**2
     return value
 

@@ -14,8 +14,7 @@ from mechwright_geneva import printed, undercut
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, alpha, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
-from mechwright_geneva.locking import horn_polar
-from mechwright_geneva.mechanism import mechanism_of, measure_at
+from mechwright_geneva.mechanism import measure_at, mechanism_of
 from mechwright_geneva.motion import straight_peaks
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
@@ -100,7 +99,11 @@ def row_facts(name):
     run = mechanism_of(REFERENCE).stroke(np.array(int(row) / 8))
     if what == "theta_w_deg":
         return math.degrees(float(run.theta))
-    z = {"centre": lambda: run.track, "outer_wall": lambda: run.wall(5, LEFT), "inner_wall": lambda: run.wall(5, RIGHT)}
+    z = {
+        "centre": lambda: run.track,
+        "outer_wall": lambda: run.wall(5, LEFT),
+        "inner_wall": lambda: run.wall(5, RIGHT),
+    }
     return pair(z[what]())
 
 
@@ -153,8 +156,8 @@ REF = {
     "F_at_mid_outer": lambda m: undercut.singularity(m.stroke(np.array(0.5)), 5, LEFT),
     "loop": lambda m: bool(m.measures.width[0] <= 0),
     "loop_at_r_6.42": lambda m: bool(measure_at(m, 6.42).width[0] <= 0),
-    "island_neck_half_width_mm": lambda m: -float(
-        (m.stroke(np.linspace(0, 0.4, 4001)).wall(5, RIGHT) * np.exp(1j * m.wheel_half)).imag.max()
+    "island_neck_half_width_mm": lambda m: (
+        -float((m.stroke(np.linspace(0, 0.4, 4001)).wall(5, RIGHT) * np.exp(1j * m.wheel_half)).imag.max())
     ),
     "island_half_width_at_mouth_mm": lambda m: float(m.measures.mouth[0]),
     "theta_off_min_no_undercut_deg": lambda m: least_offset_without_undercut(),
@@ -168,15 +171,16 @@ REF = {
     "lock_arc_rim_polar_deg": lambda m: math.degrees(Wheel(m).horn_angle),
     "locking_arc_angle_deg": lambda m: math.degrees(lock_loop(m)[0].segments[-1].sweep),
     "relief_radius_safe_mm": lambda m: m.axes - m.rim - m.params.lock_clearance,
-    "lead_in_crank_angle_deg": lambda m: math.degrees(
-        math.acos((m.axes**2 + m.crank**2 - 105**2) / (2 * m.axes * m.crank))
-    )
-    - 50,
+    "lead_in_crank_angle_deg": lambda m: (
+        math.degrees(math.acos((m.axes**2 + m.crank**2 - 105**2) / (2 * m.axes * m.crank))) - 50
+    ),
     "relief_circle_min_radius_mm": lambda m: relief_circle(),
     "sweep_min_outside_relief_mm": lambda m: m.arc,
     "through_cut_components": lambda m: pieces(m),
     "island_area_mm2": lambda m: island_area(),
-    "pressure_angle_entry_deg": lambda m: math.degrees(contact(m, m.stroke(np.array([0.0]))).pressure_angle[0]),
+    "pressure_angle_entry_deg": lambda m: math.degrees(
+        contact(m, m.stroke(np.array([0.0]))).pressure_angle[0]
+    ),
     "pressure_angle_quarter_deg": lambda m: math.degrees(
         contact(m, m.stroke(np.array([0.25]))).pressure_angle[0]
     ),
@@ -350,5 +354,7 @@ def test_alpha_is_the_angle_of_equation_3():
             run = stroke(frame, law(), np.linspace(0, 1, 101))
             for side, more in ((LEFT, 0.0), (RIGHT, math.pi)):
                 turn = run.phi + alpha(run) + more
-                point = (frame.axes - frame.crank * np.exp(1j * run.phi) - 5 * np.exp(1j * turn)) * run.to_wheel
+                point = (
+                    frame.axes - frame.crank * np.exp(1j * run.phi) - 5 * np.exp(1j * turn)
+                ) * run.to_wheel
                 assert np.abs(point - run.wall(5, side)).max() < 1e-9
