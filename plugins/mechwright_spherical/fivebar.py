@@ -34,10 +34,10 @@ class AdjustableFiveBar:
     c1n: Array
     ratio: float
 
-    def phase(self, number: int, *, rocker: Array | None = None) -> Loop:
-        """The loop of phase 1 or 2; ``rocker`` replaces the arc between the rocker's pins, rad."""
+    def phase(self, number: int) -> Loop:
+        """The loop of phase 1 or 2."""
         a, c = (self.a1, self.c1) if number == 1 else (self.a1n, self.c1n)
-        return Loop.of_pins(self.a0, a, self.b0, self.b1, c, self.p1, self.ratio, rocker=rocker)
+        return Loop.of_pins(self.a0, a, self.b0, self.b1, c, self.p1, self.ratio)
 
     @property
     def crank_arcs(self) -> tuple[Array, Array]:
@@ -122,11 +122,6 @@ def projected(
         p1=one(path_point),
         ratio=ratio,
     )
-
-
-def gap(mechanism: AdjustableFiveBar) -> tuple[Array, Array]:
-    """By how much R1 and R3 of the phases differ, rad."""
-    return tuple(np.abs(one - two) for one, two in (mechanism.crank_arcs, mechanism.rocker_arcs))  # type: ignore[return-value]
 
 
 def chord(found: Array, wanted: Array) -> Array:

@@ -12,7 +12,7 @@ from mechwright_spherical.drive import Train
 from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.shells import Shells, Span
-from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
 
@@ -59,16 +59,18 @@ def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Sol
     seats = coupler_slots(linkage, frame)
     span, arcs = shells.links["coupler"], shells.arc("coupler")
     wide, bored = hardware.boss_diameter, hardware.pin_diameter + hardware.fit
-    bodies = [body for seat in seats for body in seat.swept(span, wide)]
+    # Seats and bosses are trimmed to one spherical shell: their own ends differ by hundredths of a
+    # millimetre, and the kernel would make slivers of that.
+    beyond = (span[0] - _OVER, span[1] + _OVER)
+    bodies = [seat.surroundings(beyond, wide) for seat in seats]
     bodies.append(arc_body(seats[0].start, seats[1].start, arcs, hardware.link_width))
-    bodies.append(cylinder(point, span, wide))
+    bodies.append(cylinder(point, beyond, wide))
     nearest = min(
         (pin for seat in seats for pin in (seat.start, seat.end)), key=lambda pin: float(arc(pin, point))
     )
     bodies.append(arc_body(nearest, point, arcs, hardware.link_width))
-    beyond = (span[0] - _OVER, span[1] + _OVER)
     holes = [hole for seat in seats for hole in seat.swept(beyond, bored)]
-    return fused(bodies, [*holes, bore(params, point, span)])
+    return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
 
 
 def path_point(linkage: Linkage, frame: Array) -> Array:

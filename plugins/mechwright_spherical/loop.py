@@ -58,24 +58,11 @@ class Loop:
 
     @classmethod
     def of_pins(
-        cls,
-        a0: Array,
-        a1: Array,
-        b0: Array,
-        b1: Array,
-        c1: Array,
-        p1: Array,
-        ratio: float,
-        *,
-        rocker: Array | None = None,
+        cls, a0: Array, a1: Array, b0: Array, b1: Array, c1: Array, p1: Array, ratio: float
     ) -> "Loop":
-        """The loop that is assembled at the input angle 0 with these pins and this path point.
-
-        ``rocker`` is an arc, rad, that the rocker is made with in place of the distance of its pins.
-        """
-        cb = dot(b1, c1) if rocker is None else np.cos(rocker)
+        """The loop that is assembled at the input angle 0 with these pins and this path point."""
         side = np.where(dot(c1, cross(a1, b1)) >= 0, 1.0, -1.0)
-        return cls(a0, a1, b0, b1, ratio, dot(a1, c1), cb, side, coordinates(a1, c1, p1))
+        return cls(a0, a1, b0, b1, ratio, dot(a1, c1), dot(b1, c1), side, coordinates(a1, c1, p1))
 
     def at(self, turning: Turning, order: int = 3) -> "State":
         """The linkage at input angles, with ``order`` rates; NaN where it cannot be assembled."""

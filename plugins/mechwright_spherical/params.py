@@ -26,7 +26,8 @@ MOST_POSITIONS = 50
 """Path points of a design: a table for people."""
 
 
-def _same_length(name: str, points: tuple[Any, ...], other: str, angles: tuple[Any, ...]) -> None:
+def same_length(name: str, points: tuple[Any, ...], other: str, angles: tuple[Any, ...]) -> None:
+    """Refuse two lists that do not go together, with a ValueError that names both."""
     if len(points) != len(angles):
         raise ValueError(
             f"{name} has {len(points)} entries and {other} {len(angles)}; give one angle for each point"
@@ -77,7 +78,7 @@ class FourBarTable(Parameters):
     def _together(self) -> Self:
         if self.travel == 0:
             raise ValueError("travel is 0; give the angle that the input turns")
-        _same_length("path", self.path, "path_angles", self.path_angles)
+        same_length("path", self.path, "path_angles", self.path_angles)
         return self
 
 
@@ -133,8 +134,8 @@ class FiveBarTable(Parameters):
             raise ValueError('ratio is 0, so the arm stands still; use kind = "four-bar"')
         if self.travel == 0 or self.travel_n == 0:
             raise ValueError("travel or travel_n is 0; give the angle that the crank turns")
-        _same_length("path", self.path, "path_angles", self.path_angles)
-        _same_length("path_n", self.path_n, "path_angles_n", self.path_angles_n)
+        same_length("path", self.path, "path_angles", self.path_angles)
+        same_length("path_n", self.path_n, "path_angles_n", self.path_angles_n)
         if not self.flat_pins:
             fields = type(self).model_fields
             for name in ("projection_length", "projection_centre"):

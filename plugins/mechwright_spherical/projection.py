@@ -59,23 +59,23 @@ def project(
     return np.asarray(seen * scale)
 
 
-def unproject(points: ArrayLike, length: float, *, centre: ArrayLike = (0.0, 0.0)) -> Array:
-    """Points of the plane (..., 2) for directions (..., 3) of any length, on either side of the centre.
+def unproject(points: ArrayLike, length: float, *, centre: ArrayLike = (0.0, 0.0), side: int = 1) -> Array:
+    """Points of the plane (..., 2) for directions (..., 3) of any length on one side of the centre.
 
     Raises
     ------
     GeometryError
-        A direction lies on the horizon, where the plane has no point.
+        A direction lies on the horizon or beyond it, where the plane has no point.
 
     >>> unproject([2, -1, 2], 5).tolist()
     [5.0, -2.5]
     """
     seen = np.asarray(points, dtype=float)
-    height = np.abs(seen[..., 2]) / np.sqrt((seen**2).sum(axis=-1))
+    height = np.atleast_1d(side * seen[..., 2] / np.sqrt((seen**2).sum(axis=-1)))
     if not (height > HORIZON).all():
-        worst = seen.reshape(-1, 3)[int(np.argmin(np.atleast_1d(height)))]
+        worst = seen.reshape(-1, 3)[int(np.argmin(height))]
         raise GeometryError(
-            f"the direction {worst.tolist()} lies on the horizon of the projection, {height.min():.2g} over "
-            f"it; the limit is {HORIZON:g}: take a point nearer to the z axis"
+            f"the direction {worst.tolist()} lies at or beyond the horizon of the projection, at the height "
+            f"{height.min():.2g}; the limit is {HORIZON:g}: take a point nearer to the z axis"
         )
     return np.asarray(seen[..., :2] * (length / seen[..., 2:]) + np.asarray(centre, dtype=float))
