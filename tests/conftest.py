@@ -3,6 +3,8 @@
 import importlib.util
 import os
 import shutil
+import sys
+from collections.abc import Callable
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -29,3 +31,24 @@ def pytest_configure() -> None:
     missing += [f"{name} (PyPI)" for name in MODULES if importlib.util.find_spec(name) is None]
     if missing:
         pytest.exit(f"{REQUIRE_CLIENTS} is set, and these are missing: {', '.join(missing)}", returncode=1)
+
+
+@pytest.fixture
+def command_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., tuple[int, str, str]]:
+    """Call the command line in this process: exit code, standard output, standard error."""
+    from mechwright.cli import main
+
+    def call(*arguments: object) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["mechwright", *map(str, arguments)])
+        capsys.readouterr()
+        try:
+            main()
+            code = 0
+        except SystemExit as stop:
+            code = int(stop.code or 0)
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return call

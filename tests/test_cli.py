@@ -9,28 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.cli import main
-
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 Run = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Call the command line in this process: exit code, standard output, standard error."""
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["mechwright", *map(str, arguments)])
-        capsys.readouterr()
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
+def run(command_line: Run) -> Run:
+    return command_line
 
 
 def child(code: str) -> str:

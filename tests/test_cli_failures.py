@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mechwright.host as hosting
-from mechwright.cli import failure, main
+from mechwright.cli import failure
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.geometry import Line, Loop, Outline
@@ -58,22 +58,10 @@ def odd(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Odd]]:
 
 
 @pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Run:
+def run(command_line: Run, tmp_path: Path) -> Run:
     design = tmp_path / "odd.toml"
     design.write_text('family = "odd"\n')
-
-    def call(command: str, *arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["mechwright", command, str(design), *map(str, arguments)])
-        capsys.readouterr()
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
+    return lambda command, *arguments: command_line(command, design, *arguments)
 
 
 def test_a_plugin_that_breaks_while_it_works_is_named_in_one_line(

@@ -15,7 +15,6 @@ A design file is data. It names a family, gives its parameters and says how the 
 
 import difflib
 import hashlib
-import json
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -81,21 +80,24 @@ class Design:
     @property
     def tool_library(self) -> Path | None:
         """The design's own tool library; it lies in or below the design file's folder."""
-        if not self.cam.tool_library:
-            return None
-        folder = self.path.resolve().parent
-        try:
-            library = (folder / self.cam.tool_library).resolve()
-        except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
-            raise DesignError(
-                f"{self.path}: cam.tool_library: {self.cam.tool_library!r} is no file: {error}"
-            ) from error
-        if not library.is_relative_to(folder):
-            raise DesignError(
-                f"{self.path}: cam.tool_library: {self.cam.tool_library!r} leads out of the folder of the "
-                "design file; put the library beside it"
-            )
-        return library
+        return tool_library(self.path, self.cam)
+
+
+def tool_library(path: Path, cam: CamSettings) -> Path | None:
+    """The tool library that the file ``path`` names; raises DesignError if it leads out of its folder."""
+    if not cam.tool_library:
+        return None
+    folder = path.resolve().parent
+    try:
+        library = (folder / cam.tool_library).resolve()
+    except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
+        raise DesignError(f"{path}: cam.tool_library: {cam.tool_library!r} is no file: {error}") from error
+    if not library.is_relative_to(folder):
+        raise DesignError(
+            f"{path}: cam.tool_library: {cam.tool_library!r} leads out of the folder of the design file; "
+            "put the library beside it"
+        )
+    return library
 
 
 def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
@@ -143,9 +145,21 @@ def load(path: Path, host: Host) -> Design:
         Its family is not installed.
     """
     content, digest = read_toml(path)
+    name, family = read_head(content, path, host, _KEYS)
+    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+    cam = read_table(CamSettings, content.get("cam", {}), str(path), "cam")
+    design = Design(name, family, params, cam, path, digest)
+    _ = design.tool_library  # a path that leads out is refused before any work
+    return design
+
+
+def read_head(
+    content: Mapping[str, Any], path: Path, host: Host, keys: tuple[str, ...]
+) -> tuple[str, Family[Any]]:
+    """Name and family of a file whose top level may hold ``keys``; raises as :func:`load` does."""
     for key in content:
-        if key not in _KEYS:
-            raise DesignError(f"{path}: {_unknown(key, _KEYS)}")
+        if key not in keys:
+            raise DesignError(f"{path}: {unknown(key, keys)}")
     layout = content.get("format", FORMAT)
     if type(layout) is not int or layout != FORMAT:  # true and 1.0 equal 1
         raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
@@ -162,14 +176,9 @@ def load(path: Path, host: Host) -> Design:
     except DesignError as error:
         raise DesignError(f"{path}: {error}") from error
     try:
-        family = host.family(family_name)
+        return name, host.family(family_name)
     except PluginError as error:
         raise PluginError(f"{path}: family: {error}") from error
-    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
-    cam = read_table(CamSettings, content.get("cam", {}), str(path), "cam")
-    design = Design(name, family, params, cam, path, digest)
-    _ = design.tool_library  # a path that leads out is refused before any work
-    return design
 
 
 def read_table(model: type[T], table: object, source: str, where: str) -> T:
@@ -189,7 +198,7 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iter
         place = ".".join([where, *keys])
         if item["type"] == "extra_forbidden":
             fields = tuple(_table_at(model, keys[:-1]).model_fields)
-            yield f"{'.'.join([where, *keys[:-1]])}: {_unknown(keys[-1], fields)}"
+            yield f"{'.'.join([where, *keys[:-1]])}: {unknown(keys[-1], fields)}"
         elif item["type"] == "missing":
             yield f"{place}: is missing"
         else:
@@ -213,64 +222,8 @@ def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:
     return model
 
 
-def _unknown(key: str, known: tuple[str, ...]) -> str:
+def unknown(key: str, known: tuple[str, ...], what: str = "key") -> str:
+    """Say that a key is not known, and what was probably meant."""
     close = difflib.get_close_matches(key, known, 1)
     hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
-    return f"unknown key {key!r}; {hint}"
-
-
-def template(family: Family[Any], name: str) -> str:
-    """A commented design file of a family that builds as it is."""
-    lines = [
-        f"# {family.title}: {family.summary}",
-        '# Lengths in mm, angles in degrees, speeds in rev/min; a text may carry another unit: "2 in".',
-        f"format = {FORMAT}",
-        f"family = {json.dumps(family.name)}",
-        f"name = {json.dumps(name)}",
-        "",
-        *_table_lines(family.Params, "parameters"),
-        "",
-        *_table_lines(CamSettings, "cam"),
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def _table_lines(model: type[BaseModel], where: str) -> list[str]:
-    lines, tables = [f"[{where}]"], []
-    schema = model.model_json_schema()["properties"]
-    for key, field in model.model_fields.items():
-        default = field.get_default(call_default_factory=True)
-        if isinstance(default, BaseModel):
-            tables += ["", *_table_lines(type(default), f"{where}.{key}")]
-            continue
-        text = f"{field.description or ''}{_limits(schema[key])}"
-        if default is None:
-            lines.append(f"# {key} = ...  # {text}")
-        else:
-            lines.append(f"{key} = {_toml(default)}  # {text}")
-    return lines + tables
-
-
-def _limits(schema: dict[str, Any]) -> str:
-    options = [schema, *schema.get("anyOf", [])]
-    facts: dict[str, Any] = {}
-    for option in options:
-        facts = {**option, **facts}
-    said = [facts["unit"]] if facts.get("unit") else []
-    low = facts.get("minimum", facts.get("exclusiveMinimum"))
-    high = facts.get("maximum", facts.get("exclusiveMaximum"))
-    if low is not None and high is not None:
-        said.append(f"{low:g} to {high:g}")
-    if "enum" in facts:
-        said.append(" | ".join(str(value) for value in facts["enum"]))
-    return f" ({', '.join(said)})" if said else ""
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
-    if isinstance(value, str):
-        return json.dumps(str(value), ensure_ascii=False)
-    return repr(value)
+    return f"unknown {what} {key!r}; {hint}"

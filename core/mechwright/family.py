@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from mechwright.motion import Motion
     from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
 
 P = TypeVar("P", bound=Parameters)
 
@@ -38,6 +39,8 @@ class Family(ABC, Generic[P]):
     """One sentence."""
     Params: type[P]
     """The table ``[parameters]``."""
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
+    """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
 
     @abstractmethod
     def check(self, params: P) -> Sequence[Finding]:
@@ -78,3 +81,29 @@ class Family(ABC, Generic[P]):
             finds nothing: the remainder is reported by the proof all the same.
         """
         return ()
+
+    def synthesise(
+        self,
+        kind: str,
+        requirement: Parameters,
+        progress: "Progress",
+    ) -> "Synthesis[P]":
+        """Find designs that meet a requirement.
+
+        Parameters
+        ----------
+        kind
+            A key of ``requirements``.
+        requirement
+            An instance of its model. The same requirement gives the same designs: random starts are
+            drawn from a seed that is one of its fields.
+        progress
+            To be called now and then.
+
+        Returns
+        -------
+        synthesis
+            Designs, best first; none, and an error finding that says what would be feasible, if the
+            requirement cannot be met.
+        """
+        raise NotImplementedError(f"family {self.name} has no synthesis of kind {kind!r}")

@@ -1,7 +1,7 @@
 """The smallest honest family: a disc with a hole that turns. The tests of the kit break it in every way."""
 
 import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -13,7 +13,8 @@ from mechwright.geometry import Loop, Outline, circle
 from mechwright.motion import Channel, Motion, Poses, Scalar
 from mechwright.parameters import Parameters
 from mechwright.part import Instance, Part
-from mechwright.units import Millimetres, RevPerMin
+from mechwright.synthesis import Candidate, Synthesis
+from mechwright.units import Millimetres, Ratio, RevPerMin
 
 
 class DiscParams(Parameters):
@@ -35,11 +36,17 @@ class DiscParams(Parameters):
         return self.diameter / 2 if self.bore is None else self.bore
 
 
+class RimRequirement(Parameters):
+    rim_speed: Ratio = Field(125.0, gt=0, le=1e5, description="Wanted speed of the rim in mm/s.")
+    count: int = Field(2, ge=1, le=20, description="How many discs to choose from.")
+
+
 class Disc(Family[DiscParams]):
     name = "disc"
     title = "Disc"
     summary = "A disc that turns."
     Params = DiscParams
+    requirements: ClassVar = {"rim": RimRequirement}
 
     def check(self, params):
         wall = (params.diameter - params.hole) / 2
@@ -76,6 +83,24 @@ class Disc(Family[DiscParams]):
             {"disc": Poses.planar(0, 0, theta)},
             {"rim_speed": Scalar(params.diameter / 2 * w, "mm/s")},
         )
+
+    def synthesise(self, kind, requirement, progress):
+        found = []
+        for i in range(requirement.count):
+            progress(i / requirement.count, f"disc {i + 1}")
+            diameter = 40.0 + 10 * i
+            rate = 2 * requirement.rim_speed / diameter * 60 / math.tau
+            if rate <= 1000:
+                params = DiscParams(diameter=diameter, speed=rate)
+                rim = self.solve(params, 2).scalars["rim_speed"]
+                missed = Scalar(abs(rim.value - requirement.rim_speed), "mm/s")
+                found.append(Candidate(params, missed, {"rim": rim}))
+        if not found:
+            limit = 1000 * math.tau / 60 * (40 + 10 * requirement.count) / 2
+            message = f"no disc up to 1000 rev/min has a rim that fast; the limit is {limit:.0f} mm/s"
+            fault = Finding("disc.rim", Severity.ERROR, "rim_speed", message, remedy="ask for less")
+            return Synthesis((), (fault,))
+        return Synthesis(tuple(found))
 
     def parts(self, params):
         pitch = params.diameter / 2 - 3.5

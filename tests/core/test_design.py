@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from mechwright.design import load, template
+from mechwright.design import load
+from mechwright.design_text import template
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.family import Family
 from mechwright.host import Host, Registered

@@ -1,7 +1,9 @@
 """The family contract lets an honest family pass, and names what is wrong with a broken one."""
 
 import dataclasses
+import itertools
 import math
+from dataclasses import replace
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -493,3 +495,42 @@ def test_a_command_that_fails_shows_what_it_printed(tmp_path):
 
     with pytest.raises(AssertionError, match=r"mechwright cam ends with \d:\n.+"):
         machine({"format": 1, "family": "no-such-family", "parameters": {}, "cam": {}}, tmp_path)
+
+
+_COUNT = itertools.count(1)
+
+
+def with_synthesis(change):
+    class Other(Disc):
+        def synthesise(self, kind, requirement, progress):
+            return change(super().synthesise(kind, requirement, progress), progress)
+
+    return Other
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda result, progress: replace(result, candidates=()), "no design"),
+        (lambda result, progress: replace(result, candidates=result.candidates[:1] * 2), "twice"),
+        (lambda result, progress: [progress(0.2, ""), progress(0.1, ""), result][2], "backwards"),
+        (lambda result, progress: [progress(1.1, ""), result][1], "leaves 0 to 1"),
+        (
+            lambda result, progress: replace(
+                result, candidates=(replace(result.candidates[0], params=DiscParams(bore=39)),)
+            ),
+            "cannot be built",
+        ),
+        (
+            lambda result, progress: replace(result, candidates=result.candidates[: next(_COUNT)]),
+            "another result",
+        ),
+    ],
+)
+def test_synthesis(change, words):
+    assert_refused(with_synthesis(change), "test_synthesis", words)
+
+
+def test_a_requirement_of_an_unknown_kind_is_seen():
+    assert_refused(Disc, "test_synthesis", "unknown kinds", requirements={"wheel": ({},)})
+    assert_refused(Disc, "test_synthesis", "finds no design", requirements={"rim": ({"rim_speed": 90_000},)})

@@ -10,6 +10,7 @@ from mechwright.motion import Array
 from mechwright.tooling import CamSettings
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.planning.wedges import into_wedges
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.leads import best_start, lead_shapes, with_leads
@@ -59,7 +60,7 @@ class Finishing:
     def _pieces(self) -> list[Piece]:
         found = []
         for ring in rings(self.blocked, self.settings.climb):
-            dense = densified(ring, self.tool.radius / 4)
+            dense = densified(into_wedges(ring, self.zone.keep, self.tool.radius), self.tool.radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)
             found.extend(pieces(dense, everywhere, everywhere, self.room, 0))
         return found

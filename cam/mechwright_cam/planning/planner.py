@@ -28,13 +28,11 @@ from mechwright_cam.planning.holes import (
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
-from mechwright_cam.planning.zone import HEAVY, Zone, inner_zones, outer_zones
+from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_zones
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
 WORTH_A_TOOL = 0.25
 """An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""
-CLAMP_GAP = 1.0
-"""Least distance of the cutter from the clamp, mm."""
 
 
 def plan(job: Job) -> Program:
@@ -150,7 +148,7 @@ class _Planner:
         self._milled(f"{name}: finish", plan.mill, after, lambda pen: finish_bore(job, plan, pen))
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:
-        self._check_clamp()
+        check_clamp(self.job)
         zones = outer_zones(self.job)
         before = len(self.steps)
         if zones:
@@ -240,18 +238,6 @@ class _Planner:
             )
             for run in order(steps)
         ]
-
-    def _check_clamp(self) -> None:
-        job = self.job
-        if job.clamp is None:
-            return
-        reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
-        limit = 2 * (float(reach) - CLAMP_GAP)
-        if job.clamp.diameter > limit:
-            raise DesignError(
-                f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
-                f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
-            )
 
     def _clamp_message(self) -> str:
         clamp = self.job.clamp

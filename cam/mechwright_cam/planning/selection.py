@@ -28,6 +28,7 @@ from mechwright_cam.planning.zone import (
     Zone,
     bores,
     bottom_of,
+    check_clamp,
     inner_zones,
     outer_zones,
     roughing_mills,
@@ -224,6 +225,7 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
         _try(found, partial(plan_bore, job, bore))
     _try(found, lambda: zones.extend(inner_zones(job)))
     _try(found, lambda: zones.extend(outer_zones(job)))
+    _try(found, partial(check_clamp, job))
     if not found:
         found += _corners(job, zones)
     return job, found + _travel(job) + _remarks(job)

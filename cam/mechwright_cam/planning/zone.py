@@ -251,6 +251,23 @@ def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geome
     return channel.difference(thin), channel
 
 
+CLAMP_GAP = 1.0
+"""Least distance of the cutter from the clamp, mm."""
+
+
+def check_clamp(job: Job) -> None:
+    """Raise DesignError if the clamp comes too near to the outside."""
+    if job.clamp is None:
+        return
+    reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
+    limit = 2 * (float(reach) - CLAMP_GAP)
+    if job.clamp.diameter > limit:
+        raise DesignError(
+            f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
+            f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
+        )
+
+
 def bores(job: Job) -> list[Bore]:
     """The round holes."""
     return [feature for feature in job.features if isinstance(feature, Bore)]
@@ -260,6 +277,7 @@ __all__ = [
     "Zone",
     "bores",
     "bottom_of",
+    "check_clamp",
     "inner_zones",
     "outer_zones",
     "polygons",

@@ -68,12 +68,15 @@ def new(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given.")
     ] = None,
+    requirement: Annotated[
+        str, typer.Option(metavar="KIND", help="A requirement file instead, for `synthesize`.")
+    ] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
 ) -> None:
     """Write a commented design file that builds as it is."""
     from mechwright.cli import listing
 
-    listing.new(family, output, force)
+    listing.new(family, requirement, output, force)
 
 
 @app.command()
@@ -144,3 +147,19 @@ def verify(
     from mechwright.cli import work
 
     work.verify(program, design, part, as_json)
+
+
+@app.command()
+def synthesize(
+    requirement: Annotated[
+        Path, typer.Argument(metavar="REQUIREMENT", help="A requirement file (TOML).", show_default=False)
+    ],
+    output: OutputFolder,
+) -> None:
+    """Find designs that meet a requirement.
+
+    One design file each, best first. The exit code is 1 if none meets it.
+    """
+    from mechwright.cli import synthesis
+
+    synthesis.synthesize(requirement, output)

@@ -5,9 +5,12 @@ from pathlib import Path
 
 import typer
 
-from mechwright.design import template
+from mechwright.design import unknown
+from mechwright.design_text import requirement_template, template
+from mechwright.errors import DesignError
 from mechwright.files import write_new
 from mechwright.host import Host, host
+from mechwright.requirement import require_synthesis
 
 
 def warn_broken(found: Host) -> None:
@@ -28,6 +31,9 @@ def families(as_json: bool) -> None:
                     "summary": item.item.summary,
                     "distribution": item.distribution,
                     "parameters": item.item.Params.model_json_schema(),
+                    "requirements": {
+                        kind: model.model_json_schema() for kind, model in item.item.requirements.items()
+                    },
                 }
                 for name, item in sorted(found.families.items())
             ],
@@ -42,17 +48,26 @@ def families(as_json: bool) -> None:
     warn_broken(found)
     for name, item in sorted(found.families.items()):
         typer.echo(f"{name}  ({item.distribution})\n    {item.item.title}: {item.item.summary}")
+        if item.item.requirements:
+            typer.echo(f"    synthesis: {', '.join(item.item.requirements)}")
     typer.echo(f"controls: {', '.join(sorted(found.posts)) or 'none'}")
     typer.echo(f"formats:  {', '.join(sorted(found.exporters)) or 'none'}")
 
 
-def new(family: str, output: Path | None, force: bool) -> None:
-    """Write or print a design file."""
+def new(name: str, kind: str, output: Path | None, force: bool) -> None:
+    """Write or print a design file, or a requirement file of the kind that is asked for."""
     found = host()
     warn_broken(found)
-    text = template(found.family(family), family)
+    family = found.family(name)
+    if kind:
+        require_synthesis(family, "--requirement")
+        if kind not in family.requirements:
+            raise DesignError(f"--requirement: {unknown(kind, tuple(family.requirements), 'kind')}")
+        text, command = requirement_template(family, kind, name), "mechwright synthesize"
+    else:
+        text, command = template(family, name), "mechwright build"
     if output is None:
         typer.echo(text, nl=False)
     else:
         write_new(output, text, replace=force)
-        typer.echo(f"{output}: written; build it with: mechwright build {output} -o out")
+        typer.echo(f"{output}: written; go on with: {command} {output} -o out")

@@ -1,9 +1,12 @@
 """A progress bar on a terminal, and nothing in a pipe."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 
 class Step(Protocol):
@@ -20,12 +23,7 @@ def progress(total: int) -> Iterator[Step]:
     if not sys.stderr.isatty():
         yield lambda what: None  # noqa: ARG005 - nothing is shown
         return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
+    with _bar() as bar:
         task = bar.add_task("", total=total)
         started = False
 
@@ -35,3 +33,22 @@ def progress(total: int) -> Iterator[Step]:
             started = True
 
         yield step
+
+
+@contextmanager
+def fraction() -> Iterator[Callable[[float, str], None]]:
+    """Show how far one long piece of work is, 0 to 1, and what it is at, if standard error is a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda done, what: None  # noqa: ARG005 - nothing is shown
+        return
+    with _bar() as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda done, what: bar.update(task, completed=done, description=what)
+
+
+def _bar() -> "Progress":
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
+    return Progress(*columns, console=Console(stderr=True), transient=True)

@@ -1,16 +1,14 @@
 """The commands that work on a design file."""
 
 import json
-import sys
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, NoReturn
 
 import typer
 
-from mechwright import __version__
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
+from mechwright.cli.provenance import facts
 from mechwright.design import SIZE_LIMIT, Design, load, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
@@ -131,28 +129,10 @@ def _write_solids(design: Design, found: Host, output: Output, more: list[Export
 
 
 def _facts(design: Design, found: Host) -> dict[str, Any]:
-    origin = found.families[design.family.name].distribution
-    packages = {"cadquery", "ezdxf", "numpy", "scipy", "shapely", origin} - {"mechwright"}
     inputs = {design.path.name: design.digest}
     if design.tool_library is not None:
         inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
-    return {
-        "design": design.name,
-        "family": design.family.name,
-        "inputs_sha256": inputs,
-        "versions": {
-            "mechwright": __version__,
-            "python": ".".join(map(str, sys.version_info[:3])),
-            **{name: _version(name) for name in sorted(packages)},
-        },
-    }
-
-
-def _version(distribution: str) -> str:
-    try:
-        return version(distribution)
-    except PackageNotFoundError:
-        return "unknown"
+    return facts(design.name, design.family, inputs, found)
 
 
 def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:

@@ -72,6 +72,8 @@ class FamilyContract:
     """Channel and the channel of its rate over time, for each rate that the motion gives."""
     input_rate: ClassVar[str] = ""
     """Channel of the input's own rate over time; empty where the input is the time."""
+    requirements: ClassVar[Mapping[str, Sequence[Mapping[str, Any]]]] = {}
+    """Kind of synthesis to tables ``[requirement]`` that can be met; of a kind not named, its defaults."""
     samples: ClassVar[int] = 361
     """Samples of the motions under test; more where the motion has sharp turns."""
     max_examples: ClassVar[int] = 30
@@ -114,7 +116,8 @@ class FamilyContract:
 
     def test_schema(self) -> None:
         """Every field has a description, and every number bounds and a unit."""
-        _none(rules.schema_faults(self.family.Params))
+        for model in (self.family.Params, *self.family.requirements.values()):
+            _none(rules.schema_faults(model))
 
     # One design
 
@@ -230,6 +233,33 @@ class FamilyContract:
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
         assert difference(self.family(), self.params(design), self.family(), self.params(design)) == ""
+
+    # Synthesis
+
+    def test_synthesis(self) -> None:
+        """Every kind gives distinct designs without an error, and the same ones for the same requirement."""
+        if not self.family.requirements:
+            pytest.skip("the family has no synthesis")
+        unknown = set(self.requirements) - set(self.family.requirements)
+        assert not unknown, f"requirements of unknown kinds: {sorted(unknown)}"
+        for kind, model in self.family.requirements.items():
+            for table in self.requirements.get(kind, ({},)):
+                self._synthesise(kind, model.model_validate(dict(table)))
+
+    def _synthesise(self, kind: str, requirement: Parameters) -> None:
+        heard: list[float] = []
+        result = self.family().synthesise(kind, requirement, lambda done, what: heard.append(done))  # noqa: ARG005
+        again = self.family().synthesise(kind, requirement, lambda done, what: None)  # noqa: ARG005
+        assert result == again, f"{kind}: another result for the same requirement"
+        assert all(0 <= done <= 1 for done in heard), f"{kind}: progress {heard} leaves 0 to 1"
+        assert heard == sorted(heard), f"{kind}: progress goes backwards"
+        assert errors(result.findings) == [], f"{kind} finds no design"
+        designs = [candidate.params for candidate in result.candidates]
+        assert designs, f"{kind} finds no design, and no error says so"
+        for number, design in enumerate(designs):
+            assert isinstance(design, self.family.Params)
+            assert design not in designs[:number], f"{kind}: a design is given twice"
+            assert errors(self.family().check(design)) == [], f"{kind}: design {number + 1} cannot be built"
 
     # All designs
 

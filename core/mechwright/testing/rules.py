@@ -20,7 +20,7 @@ _CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(\.[a-z0-9]+(-[a-z0-9]+)*)+")
 # Where a field may be left out, pydantic puts its bounds into the schema under its own names.
 _LEAST = {"minimum", "exclusiveMinimum", "ge", "gt"}
 _GREATEST = {"maximum", "exclusiveMaximum", "le", "lt"}
-_CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'-]*")
+_CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_'.-]*")
 
 
 def schema_faults(params: type[Parameters]) -> list[str]:

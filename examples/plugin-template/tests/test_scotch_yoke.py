@@ -1,9 +1,11 @@
 import math
+from typing import ClassVar
 
 import numpy as np
 import pytest
-from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams
+from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams, StrokeRequirement
 
+from mechwright.findings import errors
 from mechwright.testing import FamilyContract, assert_points_close
 
 
@@ -24,6 +26,7 @@ class TestScotchYoke(FamilyContract):
         ("acceleration", "jerk"),
     )
     input_rate = "omega"
+    requirements: ClassVar = {"stroke": ({}, {"stroke": "3 in", "peak_velocity": "1 m/s"})}
 
 
 def codes(**table: float) -> set[str]:
@@ -33,6 +36,24 @@ def codes(**table: float) -> set[str]:
 def test_the_dead_centres_are_a_stroke_apart():
     x = ScotchYoke().solve(ScotchYokeParams(crank_radius=35), 3).channels["x"].values
     np.testing.assert_allclose(x, [35, -35, 35])
+
+
+def test_the_wanted_stroke_and_velocity_are_what_the_motion_has():
+    family, wanted = ScotchYoke(), StrokeRequirement(stroke=60, peak_velocity=12)
+    (found,) = family.synthesise("stroke", wanted, print).candidates
+    motion = family.solve(found.params, 721)
+    assert np.ptp(motion.channels["x"].values) == pytest.approx(60)
+    assert np.abs(motion.channels["velocity"].values).max() == pytest.approx(12 / 60 * 1000)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "parameter"),
+    [({"stroke": 4, "peak_velocity": 1}, "crank_radius"), ({"peak_velocity": 300}, "speed")],
+)
+def test_a_stroke_that_cannot_be_had_is_refused_with_the_limit(wanted, parameter):
+    result = ScotchYoke().synthesise("stroke", StrokeRequirement(**wanted), print)
+    assert result.candidates == ()
+    assert parameter in {finding.parameter for finding in errors(result.findings)}
 
 
 def test_the_pin_touches_nothing_but_the_flanks_of_the_slot():

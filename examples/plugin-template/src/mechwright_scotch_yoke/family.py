@@ -1,7 +1,7 @@
 """The family: parameters in, findings, motion and parts out."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -10,7 +10,8 @@ from mechwright.findings import Finding
 from mechwright.motion import Motion
 from mechwright.parameters import Parameters
 from mechwright.part import Part
-from mechwright.units import Millimetres, Newtons, RevPerMin
+from mechwright.synthesis import Progress, Synthesis
+from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
 
@@ -33,6 +34,13 @@ class ScotchYokeParams(Parameters):
     yoke_material: Material = Field("brass", description="Material of the yoke.")
 
 
+class StrokeRequirement(Parameters):
+    """The table ``[requirement]`` of the kind ``stroke``."""
+
+    stroke: Millimetres = Field(40.0, ge=2, le=1000, description="Between the dead centres.")
+    peak_velocity: MetresPerMin = Field(15.0, ge=0.001, le=1e4, description="Of the yoke, in mid-stroke.")
+
+
 class ScotchYoke(Family[ScotchYokeParams]):
     """A pin on a turning crank drives a slotted yoke to and fro."""
 
@@ -40,6 +48,7 @@ class ScotchYoke(Family[ScotchYokeParams]):
     title = "Scotch yoke"
     summary = "A crank pin in a straight slot turns rotation into a pure sine stroke."
     Params = ScotchYokeParams
+    requirements: ClassVar = {"stroke": StrokeRequirement}
 
     def check(self, params: ScotchYokeParams) -> Sequence[Finding]:
         """Strength, room for the bores and the stem, lost motion."""
@@ -58,3 +67,14 @@ class ScotchYoke(Family[ScotchYokeParams]):
         from mechwright_scotch_yoke import plates
 
         return plates.crank(params), plates.yoke(params)
+
+    def synthesise(
+        self,
+        kind: str,  # noqa: ARG002 - there is one kind
+        requirement: Parameters,
+        progress: Progress,  # noqa: ARG002 - a closed form takes no time
+    ) -> Synthesis[ScotchYokeParams]:
+        """The yoke of a wanted stroke and velocity."""
+        from mechwright_scotch_yoke import synthesis
+
+        return synthesis.from_stroke(StrokeRequirement.model_validate(requirement))

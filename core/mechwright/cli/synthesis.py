@@ -1,0 +1,67 @@
+"""The command ``synthesize``."""
+
+import json
+from pathlib import Path
+
+import typer
+
+from mechwright.cli.listing import warn_broken
+from mechwright.cli.progress import fraction
+from mechwright.cli.provenance import facts
+from mechwright.design import read_text
+from mechwright.design_text import design_text
+from mechwright.files import Output, check_folder, write_folder
+from mechwright.findings import Severity, errors
+from mechwright.host import host
+from mechwright.part import check_name
+from mechwright.requirement import load_requirement
+from mechwright.synthesis import Candidate
+
+FIGURES = 3
+"""Figures of a candidate on its line of the listing; synthesis.json has all of them."""
+
+
+def synthesize(path: Path, folder: Path) -> None:
+    """Write the designs that meet a requirement, best first."""
+    found = host()
+    warn_broken(found)
+    asked = load_requirement(path, found)
+    check_folder(folder)
+    with fraction() as progress:
+        result = asked.family.synthesise(asked.kind, asked.table, progress)
+    for finding in result.findings:
+        if finding.severity is not Severity.NOTE:
+            typer.echo(f"mechwright: {path}: {finding}", err=True)
+    if errors(result.findings):
+        raise typer.Exit(1)
+    inputs = {path.name: asked.digest}
+    output = Output()
+    cam = asked.cam
+    if asked.tool_library is not None:
+        text, inputs[cam.tool_library] = read_text(asked.tool_library)
+        cam = cam.model_copy(update={"tool_library": asked.tool_library.name})
+        output.add(cam.tool_library, text)
+    listing = []
+    width = len(str(len(result.candidates)))
+    for number, candidate in enumerate(result.candidates, start=1):
+        name = check_name(f"{asked.name}-{number:0{width}}", "name of a design")
+        output.add(f"{name}.toml", design_text(asked.family, name, candidate.params, cam))
+        found_in_it = [finding.as_dict() for finding in asked.family.check(candidate.params)]
+        listing.append({"design": f"{name}.toml", **candidate.as_dict(), "findings": found_in_it})
+        typer.echo(f"{name}.toml: {_line(candidate)}")
+    summary = {
+        "family": asked.family.name,
+        "kind": asked.kind,
+        "requirement": asked.table.model_dump(mode="json"),
+        "findings": [finding.as_dict() for finding in result.findings],
+        "candidates": listing,
+    }
+    output.add("synthesis.json", json.dumps(summary, indent=2) + "\n")
+    write_folder(folder, output, "synthesize", facts(asked.name, asked.family, inputs, found))
+    count = len(result.candidates)
+    typer.echo(f"{folder}: {count} design{'s' * (count != 1)} written, best first, and synthesis.json")
+
+
+def _line(candidate: Candidate[object]) -> str:  # type: ignore[type-var]
+    shown = {"residual": candidate.residual, **dict(list(candidate.figures.items())[:FIGURES])}
+    return ", ".join(f"{name} {one.value:.6g} {one.unit}".rstrip() for name, one in shown.items())

@@ -1,0 +1,152 @@
+"""``mechwright synthesize``: designs that meet a requirement, and every way to ask for the wrong thing."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+import mechwright.host as hosting
+from mechwright.design import load
+from mechwright.host import Registered
+from mechwright.requirement import load_requirement
+
+sys.path.insert(0, str(Path(__file__).parent / "core"))
+from disc_family import Disc
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture(autouse=True)
+def disc(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    found = hosting.load()
+    found.families["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
+    monkeypatch.setattr(hosting, "load", lambda: found)
+    hosting.host.cache_clear()
+    yield
+    hosting.host.cache_clear()
+
+
+def requirement(folder: Path, text: str) -> Path:
+    path = folder / "wanted.toml"
+    path.write_text(text)
+    return path
+
+
+def test_designs_are_written_best_first_with_their_residuals(command_line: Run, tmp_path: Path) -> None:
+    path = requirement(tmp_path, 'family = "disc"\n[requirement]\nrim_speed = 200\n[cam]\nclearance = 7\n')
+    code, said, wrong = command_line("synthesize", path, "-o", tmp_path / "out")
+    assert (code, wrong) == (0, "")
+    assert "wanted-1.toml: residual" in said
+    summary = json.loads((tmp_path / "out" / "synthesis.json").read_text())
+    assert (summary["family"], summary["kind"]) == ("disc", "rim")
+    assert summary["requirement"] == {"rim_speed": 200, "count": 2}
+    assert [one["design"] for one in summary["candidates"]] == ["wanted-1.toml", "wanted-2.toml"]
+    for one in summary["candidates"]:
+        design = load(tmp_path / "out" / one["design"], hosting.host())
+        rim = design.family.solve(design.params, 2).scalars["rim_speed"].value
+        assert rim == pytest.approx(200, abs=1e-9)
+        assert one["figures"]["rim"] == {"value": pytest.approx(200), "unit": "mm/s"}
+        assert design.cam.clearance == 7
+        assert command_line("check", tmp_path / "out" / one["design"])[0] == 0
+    manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
+    assert set(manifest["outputs"]) == {"wanted-1.toml", "wanted-2.toml", "synthesis.json"}
+
+
+def test_many_designs_sort_as_they_are_numbered(command_line: Run, tmp_path: Path) -> None:
+    path = requirement(tmp_path, 'family = "disc"\n[requirement]\nkind = "rim"\ncount = 12\n')
+    assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
+    names = sorted(file.name for file in (tmp_path / "out").glob("wanted*"))
+    assert (names[0], names[-1]) == ("wanted-01.toml", "wanted-12.toml")
+
+
+def test_a_requirement_that_cannot_be_met_is_exit_code_1_and_writes_nothing(
+    command_line: Run, tmp_path: Path
+) -> None:
+    path = requirement(tmp_path, 'family = "disc"\n[requirement]\nrim_speed = 90000\n')
+    code, said, wrong = command_line("synthesize", path, "-o", tmp_path / "out")
+    assert (code, said) == (1, "")
+    assert "rim_speed: no disc up to 1000 rev/min" in wrong
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('family = "elliptic"\n', "family: "),
+        (
+            'family = "disc"\n[requirement]\nkind = "rims"\n',
+            "requirement.kind: unknown kind 'rims'; did you mean",
+        ),
+        ('family = "disc"\n[requirement]\nkind = 3\n', "requirement.kind: unknown kind '3'"),
+        ('family = "disc"\n[requirement]\nspeed = 3\n', "requirement: unknown key 'speed'"),
+        ('family = "disc"\n[requirement]\nrim_speed = -3\n', "requirement.rim_speed: "),
+        ('family = "disc"\nrequirement = 3\n', "requirement: is 3; write a table [requirement]"),
+        ('family = "disc"\n[parameters]\nbore = 3\n', "unknown key 'parameters'"),
+        ('family = "disc"\n[cam]\nclear = 3\n', "cam: unknown key 'clear'"),
+        ('family = "disc"\n[cam]\ntool_library = "../a.toml"\n', "leads out"),
+    ],
+)
+def test_a_mistake_is_one_line(command_line: Run, tmp_path: Path, text: str, words: str) -> None:
+    code, said, wrong = command_line("synthesize", requirement(tmp_path, text), "-o", tmp_path / "out")
+    assert (code, said) == (2, "")
+    assert len(wrong.splitlines()) == 1
+    assert words in wrong
+    assert str(tmp_path / "wanted.toml") in wrong
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_family_without_a_synthesis_says_so(
+    command_line: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Disc, "requirements", {})
+    path = requirement(tmp_path, 'family = "disc"\n')
+    code, _, wrong = command_line("synthesize", path, "-o", tmp_path / "out")
+    assert code == 2
+    assert "family disc has no synthesis" in wrong
+    code, _, wrong = command_line("new", "disc", "--requirement", "rim")
+    assert code == 2
+    assert "has no synthesis" in wrong
+
+
+def test_one_kind_has_to_be_named_where_there_are_two(
+    command_line: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Disc, "requirements", Disc.requirements | {"hub": Disc.requirements["rim"]})
+    path = requirement(tmp_path, 'family = "disc"\n')
+    code, _, wrong = command_line("synthesize", path, "-o", tmp_path / "out")
+    assert code == 2
+    assert "requirement.kind: is missing; one of: rim, hub" in wrong
+
+
+def test_a_new_requirement_file_can_be_met(command_line: Run, tmp_path: Path) -> None:
+    path = tmp_path / "rim.toml"
+    assert command_line("new", "disc", "--requirement", "rim", "-o", path)[0] == 0
+    asked = load_requirement(path, hosting.host())
+    assert (asked.kind, asked.table) == ("rim", Disc.requirements["rim"]())
+    assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
+    code, _, wrong = command_line("new", "disc", "--requirement", "rin")
+    assert code == 2
+    assert "did you mean 'rim'" in wrong
+
+
+def test_a_tool_library_goes_with_the_designs(command_line: Run, tmp_path: Path) -> None:
+    library = Path(hosting.__file__).parents[2] / "cam" / "mechwright_cam" / "data" / "tools.toml"
+    (tmp_path / "shop").mkdir()
+    (tmp_path / "shop" / "own.toml").write_text(library.read_text())
+    path = requirement(tmp_path, 'family = "disc"\n[cam]\ntool_library = "shop/own.toml"\n')
+    assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
+    design = load(tmp_path / "out" / "wanted-1.toml", hosting.host())
+    assert design.tool_library is not None
+    assert design.tool_library.read_text() == library.read_text()
+
+
+def test_the_families_listing_names_the_kinds(command_line: Run) -> None:
+    assert "    synthesis: rim" in command_line("families")[1].splitlines()
+    (listed,) = [
+        family
+        for family in json.loads(command_line("families", "--json")[1])["families"]
+        if family["name"] == "disc"
+    ]
+    assert "rim_speed" in listed["requirements"]["rim"]["properties"]
