@@ -15,7 +15,9 @@ from mechwright.host import Host
 from mechwright.output import Post
 from mechwright.part import Part
 from mechwright.program import Program
+from mechwright.tooling import CamSettings, Tool
 from mechwright_cam.exporters import Curves, DxfExporter
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
 from mechwright_cam.planning import choose_tools, lay_out, plan
@@ -30,8 +32,13 @@ class Machined:
 
     job: Job
     program: Program
-    text: str
+    files: dict[str, str]
     proof: Proof
+
+    @property
+    def text(self) -> str:
+        """The program's text, all its files one after the other."""
+        return "".join(self.files.values())
 
 
 def plates(parts: Sequence[Part]) -> list[Part]:
@@ -95,12 +102,14 @@ def _post(design: Design, host: Host) -> Post:
 
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
-    _post(design, host)
-    return prepare(design, plates(design.family.parts(design.params)))[0]
+    found = list(_post(design, host).check(design.cam))
+    return found + prepare(design, plates(design.family.parts(design.params)))[0]
 
 
-def machine(job: Job, post: Post) -> Machined:
+def machine(job: Job, post: Post, place: int = 0) -> Machined:
     """Plan a program, post it, and prove the posted text.
+
+    Programs of one design that have numbers are told apart by their ``place``.
 
     Raises
     ------
@@ -109,11 +118,31 @@ def machine(job: Job, post: Post) -> Machined:
     ProofError
         The program would not cut the right part.
     """
-    program = plan(job)
-    text = post.write(program)
-    proof = prove(text, job)
+    cam = job.settings
+    job = replace(job, tools=tuple(_measured(tool, cam) for tool in job.tools))
+    posting = cam.post.model_copy(update={"program_number": cam.post.program_number + place})
+    program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
+    files = post.files(program)
+    named = {name + post.suffix: text for name, text in files.items()}
+    proof = prove(named if len(files) > 1 else next(iter(files.values())), job, dialect_of(post))
     proof.require()
-    return Machined(job, program, text, proof)
+    return Machined(job, program, files, proof)
+
+
+def _measured(tool: Tool, cam: CamSettings) -> Tool:
+    """The tool with the length that the design file gives it."""
+    length = cam.measured.lengths.get(tool.name, tool.length)
+    return tool if length == tool.length else tool.model_copy(update={"length": length})
+
+
+def dialect_of(post: Post) -> Dialect:
+    """How the post's control reads a program; raises PluginError if the post names none that is known."""
+    try:
+        return DIALECTS[post.dialect]
+    except KeyError:
+        raise PluginError(
+            f"post {post.name!r} names the dialect {post.dialect!r}; known: {', '.join(DIALECTS)}"
+        ) from None
 
 
 def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
@@ -124,13 +153,15 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    findings = [*post.check(design.cam), *findings]
     if errors(findings) or not jobs:
         return findings
-    made = [machine(job, post) for job in jobs]
+    made = [machine(job, post, place) for place, job in enumerate(jobs)]
     for item in made:
         name = item.job.part.name
         output.add(f"{name}{drawing.suffix}", drawing.part(item.job.part))
-        output.add(f"{name}{post.suffix}", item.text)
+        for stem, text in item.files.items():
+            output.add(f"{stem}{post.suffix}", text)
     tools = {tool.number: tool for item in made for tool in item.program.tools}
     table, text = post.tool_table([tools[number] for number in sorted(tools)])
     if table:
@@ -143,8 +174,23 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     return findings
 
 
-def verify(design: Design, part: Part, text: str) -> Proof:
-    """Prove a program that came from anywhere, with every cutter of the library at hand."""
+def verify(design: Design, part: Part, text: str, host: Host | None = None, control: str = "") -> Proof:
+    """Prove a program that came from anywhere, with every cutter of the library at hand.
+
+    It is read as ``control`` reads it, or else the control of the design file.
+    """
+    dialect = LINUXCNC
+    if host is not None:
+        dialect = dialect_of(_post(design, host))
+    if control:
+        try:
+            dialect = (
+                DIALECTS[control] if control in DIALECTS or host is None else dialect_of(host.post(control))
+            )
+        except (KeyError, PluginError):
+            known = sorted({*DIALECTS, *(host.posts if host else ())})
+            raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
     library = _library(design)
     job = make_job(part, design.cam, choose_tools(part, design.cam, library))
-    return prove(text, replace(job, tools=library.tools))
+    tools = tuple(_measured(tool, design.cam) for tool in library.tools)
+    return prove(text, replace(job, tools=tools), dialect)

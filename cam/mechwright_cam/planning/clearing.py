@@ -12,6 +12,7 @@ import shapely
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import SLACK, Zone
@@ -33,6 +34,8 @@ from mechwright_cam.toolpath.path import Path
 
 SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
+FLOOR_SLIVER = TOLERANCES.leftover / 4
+"""The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
 COARSE_FIT = 2 * ROUGH
@@ -114,9 +117,10 @@ class Roughing:
         self.free = shapely.difference(self.room, self.blocked)
         self.reach = grow(self.free, tool.radius, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.take = opened(take, SLIVER)  # first, for it leaves far fewer corners
+        self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
+        self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
         if not shapely.is_empty(zone.waste):
-            self.take = opened(shapely.difference(self.take, zone.waste), SLIVER)
+            self.take = opened(shapely.difference(self.take, zone.waste), self.sliver)
 
     @property
     def share(self) -> float:
@@ -189,11 +193,11 @@ class Roughing:
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), SLIVER)
+                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), self.sliver)
                 if not polygons(take):
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, radius - SLIVER, ROUGH)
+            wanted = grow(take, radius - self.sliver, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):

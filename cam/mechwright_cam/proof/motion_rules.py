@@ -11,9 +11,6 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 
-LAST_DECIMAL = 1e-4
-"""A ramp may end this much lower than its angle allows, mm: both its ends are rounded in the text."""
-
 
 def travel(scene: Scene) -> Check:
     """The moves fit into the machine, wherever the stock is clamped."""
@@ -132,7 +129,8 @@ def entries(scene: Scene) -> Check:
     plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
-    steep = drop > flat * np.tan(np.radians(limit)) + LAST_DECIMAL
+    # A ramp may end lower than its angle allows by the last decimal: both its ends are rounded in the text.
+    steep = drop > flat * np.tan(np.radians(limit)) + 10.0**-scene.dialect.decimals
     suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])

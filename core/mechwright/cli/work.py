@@ -33,13 +33,20 @@ def _refuse(findings: list[Finding], path: Path) -> NoReturn:
 
 
 def _findings(design: Design, found: Host) -> list[Finding]:
-    """What the family says, then, if that allows it, what the cutters say."""
+    """What the family says; then, if that allows it, whether plates collide, and what the cutters say."""
     findings = list(design.family.check(design.params))
     if not errors(findings):
         from mechwright_cam import pipeline
 
+        findings += _interference(design, solids=False)
         findings += pipeline.check(design, found)
     return findings
+
+
+def _interference(design: Design, *, solids: bool) -> list[Finding]:
+    from mechwright_cam.interference import interference_findings
+
+    return interference_findings(design.family, design.params, solids=solids)
 
 
 def check(path: Path, as_json: bool) -> None:
@@ -70,7 +77,7 @@ def write(
     exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
     check_folder(folder)
     output = Output()
-    with progress(5 if command == "build" else 3) as step:
+    with progress({"build": 6, "solve": 3}.get(command, 4)) as step:
         step("checking")
         findings = list(design.family.check(design.params))
         if errors(findings):
@@ -82,6 +89,12 @@ def write(
             motion = design.family.solve(design.params, samples)
             output.add("motion.csv", motion_csv(motion))
             output.add("summary.json", summary_json(motion))
+        if command != "solve":
+            step("interference")
+            met = _interference(design, solids=command != "cam")
+            findings += met
+            if errors(met):
+                _refuse(met, path)
         if command in {"cam", "build"}:
             from mechwright_cam import pipeline
 
@@ -135,11 +148,11 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     return facts(design.name, design.family, inputs, found)
 
 
-def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
+def verify(program: Path, path: Path, part_name: str, as_json: bool, control: str = "") -> None:
     """Prove a program that came from anywhere."""
     from mechwright_cam import pipeline
 
-    design, _ = _open(path)
+    design, found = _open(path)
     text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
     findings = list(design.family.check(design.params))
     if errors(findings):
@@ -148,7 +161,7 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
     if part_name not in parts:
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
     try:
-        proof = pipeline.verify(design, parts[part_name], text)
+        proof = pipeline.verify(design, parts[part_name], text, found, control)
     except ProgramError as error:
         raise ProgramError(f"{program}: {error}") from error
     if as_json:

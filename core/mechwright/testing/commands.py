@@ -10,6 +10,9 @@ from typing import Any
 
 from mechwright.testing.rules import toml
 
+_COLLISION = "interference.collision"
+"""Code of the finding that two bodies collide."""
+
 
 def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]]:
     """Run ``mechwright cam`` on a design.
@@ -31,15 +34,8 @@ def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]
     AssertionError
         The command failed; the message is what it printed. Or a program is missing.
     """
-    file, output = folder / "design.toml", folder / "out"
-    file.write_text(toml(design), encoding="utf-8")
-    done = subprocess.run(  # noqa: S603 - our own interpreter and our own words
-        [sys.executable, "-m", "mechwright", "cam", file, "-o", output],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    output = folder / "out"
+    done = _run(design, folder, "cam", "-o", output)
     if done.returncode:
         raise AssertionError(f"mechwright cam ends with {done.returncode}:\n{done.stdout}{done.stderr}")
     proofs: dict[str, dict[str, Any]] = json.loads((output / "proof.json").read_text(encoding="utf-8"))
@@ -47,3 +43,53 @@ def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]
         if not list(output.glob(f"{part}.*")):
             raise AssertionError(f"there is a proof of {part}, but no file")
     return proofs
+
+
+def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list[str]:
+    """What stands in what while the mechanism of a design moves.
+
+    Parameters
+    ----------
+    design
+        The content of the design file.
+    folder
+        An empty folder to work in.
+    solids
+        Whether the mechanism has parts that are no plates: they are compared where solids are made.
+
+    Returns
+    -------
+    messages
+        One for each pair of bodies; none if the mechanism is clear.
+
+    Raises
+    ------
+    AssertionError
+        The command failed otherwise; the message is what it printed.
+    """
+    if solids:
+        done = _run(design, folder, "model", "-o", folder / "out")
+        found = [line for line in done.stderr.splitlines() if _COLLISION in line]
+        if done.returncode and not found:
+            raise AssertionError(f"mechwright model ends with {done.returncode}:\n{done.stdout}{done.stderr}")
+        return found
+    done = _run(design, folder, "check", "--json")
+    try:
+        findings = json.loads(done.stdout)["findings"]
+    except ValueError as error:
+        raise AssertionError(f"mechwright check says:\n{done.stdout}{done.stderr}") from error
+    return [finding["message"] for finding in findings if finding["code"] == _COLLISION]
+
+
+def _run(
+    design: Mapping[str, Any], folder: Path, command: str, *options: str | Path
+) -> subprocess.CompletedProcess[str]:
+    file = folder / "design.toml"
+    file.write_text(toml(design), encoding="utf-8")
+    return subprocess.run(  # noqa: S603 - our own interpreter and our own words
+        [sys.executable, "-m", "mechwright", command, file, *options],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        capture_output=True,
+        text=True,
+        check=False,
+    )

@@ -215,20 +215,28 @@ class FamilyContract:
 
     def test_programs_are_proven(self, design: Mapping[str, Any], tmp_path: Path) -> None:
         """Every plate part of the design is machined, by a program that has been proven."""
-        found = host()
-        registered = found.families.get(self.family.name)
-        if registered is None or type(registered.item) is not self.family:
-            pytest.skip(f"family {self.family.name} is not installed")
-        if not found.posts:
+        file = self._file(design)
+        if not host().posts:
             pytest.skip("no post is installed")
-        table = self.params(design).model_dump(mode="json", exclude_none=True)
-        file = {"format": 1, "family": self.family.name, "parameters": table, "cam": dict(self.cam)}
         proofs = commands.machine(file, tmp_path)
         plates = {part.name for part in self._parts(design) if part.outline is not None}
         assert plates == set(proofs), "a plate part without a program"
         for part, proof in proofs.items():
             assert 0 <= proof["gouge_max_mm"] <= TOLERANCES.gouge, part
             assert 0 <= proof["leftover_reachable_max_mm"] <= TOLERANCES.leftover, part
+
+    def test_no_interference(self, design: Mapping[str, Any], tmp_path: Path) -> None:
+        """No two bodies stand in each other at any instant of the motion."""
+        solids = any(part.outline is None for part in self._parts(design))
+        _none(commands.collisions(self._file(design), tmp_path, solids=solids))
+
+    def _file(self, design: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The design file of an example; skips the test if the family is not installed."""
+        registered = host().families.get(self.family.name)
+        if registered is None or type(registered.item) is not self.family:
+            pytest.skip(f"family {self.family.name} is not installed")
+        table = self.params(design).model_dump(mode="json", exclude_none=True)
+        return {"format": 1, "family": self.family.name, "parameters": table, "cam": dict(self.cam)}
 
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
