@@ -41,12 +41,33 @@ class Tool(Parameters):
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
     centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
     point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
+    shank_diameter: Millimetres | None = Field(
+        None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
+    )
+    stick_out: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=400,
+        description="Length out of the holder, if it is set; the setup sheet says the least.",
+    )
+    holder_diameter: Millimetres = Field(
+        40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
+    )
+    life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
+        None, description="Minutes in cut after which an edge is worn."
+    )
     length: Millimetres | None = Field(
         None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
     )
     cutting: dict[str, CuttingData] = Field(
         default_factory=dict, description="Material name to cutting data."
     )
+
+    @model_validator(mode="after")
+    def _flutes_are_out(self) -> Self:
+        if self.stick_out is not None and self.stick_out < self.flute_length:
+            raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
+        return self
 
     @property
     def radius(self) -> float:
