@@ -5,9 +5,9 @@ from functools import lru_cache
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
+from mechwright.geometry.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.rack import Rack
 from mechwright_elliptic_gears.teeth import Teeth

@@ -10,7 +10,7 @@ relief
     A semicircle through a floor corner, its centre on the corner's bisector, that lets a round cutter leave
     the corner free.
 
-The keyway points along +x, towards the far vertex, where the gear has most material.
+The keyway points along +x.
 """
 
 import math
