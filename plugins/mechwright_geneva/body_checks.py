@@ -8,7 +8,7 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.openings import hub_radius, opening_findings, reach, wheel_opening
+from mechwright_geneva.openings import driver_radius, hub_radius, opening_findings, reach, wheel_opening
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.sound import LEAST_BITE
 from mechwright_geneva.wheel import Wheel
@@ -24,7 +24,9 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
     """Construction, openings, locking, driver."""
     found = [*_construction(m), *opening_findings(m.params)]
     if not errors(found):
-        found += [*_lock(m), *_hub(m), *_pin(m), *_driver(m)]
+        found += _driver(m)
+    if not errors(found):
+        found += [*_lock(m), *_hub(m), *_pin(m)]
     yield from found
 
 
@@ -214,7 +216,7 @@ def _pin(m: Mechanism) -> Iterator[Finding]:
 def _driver(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     inner, outer = driver_room(m)
-    wanted = params.least_wall if params.fixing == 0 else 2 * params.least_wall + params.fixing
+    wanted = driver_radius(0.0, params.least_wall, params.fixing)
     if outer - inner < wanted:
         blame = "driver_bore" if params.fixing == 0 or outer - inner < params.least_wall else "fixing"
         bore = 2 * (outer - wanted)
@@ -251,16 +253,3 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
             None,
             "mm",
         )
-    gap = m.crank - m.roller - m.lock
-    if not params.rollers or gap >= 0:
-        return
-    yield Finding(
-        "geneva.roller-lock",
-        Severity.ERROR,
-        "lock_radius",
-        "the roller stands in the locking disc",
-        gap,
-        0.0,
-        "mm",
-        f"make lock_radius at most {m.crank - m.roller:.2f}",
-    )

@@ -28,10 +28,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Loop
+from mechwright.geometry import Arc, Line, Loop
 from mechwright.geometry.fit import fit_curves
 from mechwright.geometry.segments import Segment
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import Points
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.slot import FIT
@@ -130,24 +131,46 @@ class _Half:
         """Segments from the disc to the deepest place, and their deviation."""
         last = self.passing()
         s, t = self.crossing(last)
-        segments: list[Segment] = []
-        deviation = 0.0
-        for function, start, end in ((self.envelope, 0.0, s), (self.horn, t, last)):
-            if abs(end - start) < _SLIVER:
-                continue
+        chain, one = self._along(self.envelope, 0.0, s)
+        if chain is None:
+            chain = self._step(s, complex(self.horn(np.array(t))))
+        path, two = self._along(self.horn, t, last)
+        if path is None:
+            raise GeometryError("the path of the wheel's horn is not smooth")
+        return [*chain, *path], max(one, two)
 
-            def curve(
-                share: Array, f: Callable[[Array], Points] = function, a: float = start, b: float = end
-            ) -> Array:
-                points = f((1 - share) * a + share * b)
-                if self.leaving:
-                    points = np.conj(points)
-                return np.stack((points.real, points.imag), axis=-1)[None]
+    def _along(
+        self, function: Callable[[Array], Points], start: float, end: float
+    ) -> tuple[list[Segment] | None, float]:
+        """The curve from one u to another, and its deviation; None if it is not smooth."""
+        if abs(end - start) < _SLIVER:
+            return [], 0.0
 
-            (chain,), error = fit_curves(curve, 1, FIT, "relief")
-            segments += chain
-            deviation = max(deviation, error)
-        return segments, deviation
+        def curve(share: Array) -> Array:
+            points = self._mirrored(function((1 - share) * start + share * end))
+            return np.stack((points.real, points.imag), axis=-1)[None]
+
+        try:
+            (chain,), deviation = fit_curves(curve, 1, FIT, "relief")
+        except GeometryError:
+            return None, 0.0
+        return list(chain), deviation
+
+    def _mirrored(self, points: Points) -> Points:
+        return np.conj(points) if self.leaving else points
+
+    def _step(self, s: float, horn: complex) -> list[Segment]:
+        """A step and an arc inside the envelope, for laws given by a table that ripples at its end."""
+        m = self.mechanism
+        deep = min(abs(horn), float(np.abs(self.envelope(np.linspace(0, s, _SAMPLES))).min()))
+        first, last = self._mirrored(np.array([np.exp(-1j * m.crank_half), horn]))
+        start, end = float(np.angle(first)), float(np.angle(last))
+        arc = Arc((0.0, 0.0), deep, start, end - start, "relief")
+        disc = complex(m.lock * first)
+        steps: list[Segment] = [Line((disc.real, disc.imag), arc.start, "relief"), arc]
+        if abs(horn) - deep > TOLERANCES.closure:
+            steps.append(Line(arc.end, (float(last.real), float(last.imag)), "relief"))
+        return steps
 
 
 def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
