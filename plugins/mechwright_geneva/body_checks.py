@@ -13,9 +13,6 @@ from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.sound import LEAST_BITE
 from mechwright_geneva.wheel import Wheel
 
-LEAST_FLOOR = 0.5
-"""Least depth of a groove and length of a roller, mm."""
-
 ROLLER_WALL = 0.1
 """Least wall of a roller about its pin, in roller radii: what the smallest needle rollers have."""
 
@@ -31,7 +28,6 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
 
 
 def _construction(m: Mechanism) -> Iterator[Finding]:
-    params = m.params
     if not m.straight and m.construction == "through":
         yield Finding(
             "geneva.islands-loose",
@@ -47,21 +43,6 @@ def _construction(m: Mechanism) -> Iterator[Finding]:
             "construction",
             "straight slots have no islands that a backing plate could carry",
             remedy='use construction = "through" or "blind"',
-        )
-    if m.construction != "through" and m.roller_length < LEAST_FLOOR:
-        most = params.thickness - params.axial_gap - LEAST_FLOOR
-        yield Finding(
-            "geneva.floor",
-            Severity.ERROR,
-            "floor",
-            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
-            f"{m.roller_length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",
-            params.floor,
-            most,
-            "mm",
-            f"make floor at most {math.floor(most * 100) / 100:g}"
-            if most >= 0.2
-            else "make thickness larger, or axial_gap smaller",
         )
 
 

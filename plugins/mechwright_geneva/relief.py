@@ -24,6 +24,7 @@ z = -(z_fixed - a) exp(-iφ).
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -46,6 +47,13 @@ _STEPS = 12
 _REST = 1e-9
 """Rate of the wheel below which its direction is rounding."""
 
+_MET = 1e-10
+"""Distance, mm, at which two curves have met: far below a closure gap."""
+
+_GRID, _ZOOMS = 257, 5
+"""Samples that bracket a place on the stroke, and how often: 256 to the fifth reaches the last bit but
+one."""
+
 _SLIVER = 1e-9
 """A share of the stroke below which a piece of the edge is not drawn."""
 
@@ -65,7 +73,7 @@ class _Half:
         run = self.mechanism.stroke(1 - u)
         return -run.phi, 2 * self.mechanism.wheel_half - run.theta, run.first
 
-    @property
+    @cached_property
     def horn_angle(self) -> float:
         """Polar angle ψ of the grown wheel's horn from the middle of its bite."""
         m = self.mechanism
@@ -96,12 +104,10 @@ class _Half:
     def passing(self) -> float:
         """The u at which the horn is on the line of centres."""
         low, high = 0.0, 1.0
-        for _ in range(60):
-            middle = (low + high) / 2
-            if float(self._motion(np.array(middle))[1]) < self.horn_angle:
-                low = middle
-            else:
-                high = middle
+        for _ in range(_ZOOMS):
+            u = np.linspace(low, high, _GRID)
+            before = int(np.searchsorted(self._motion(u)[1], self.horn_angle)) - 1
+            low, high = float(u[max(before, 0)]), float(u[min(before + 1, _GRID - 1)])
         return (low + high) / 2
 
     def crossing(self, last: float) -> tuple[float, float]:
@@ -117,9 +123,12 @@ class _Half:
         s = float(np.interp(np.angle(path[beyond[0]]), turned, u))
         step = 1e-6 * last
         for _ in range(_STEPS):
-            miss = complex(self.envelope(np.array(s)) - self.horn(np.array(t)))
-            ds = complex(self.envelope(np.array(s + step)) - self.envelope(np.array(s - step))) / (2 * step)
-            dt = complex(self.horn(np.array(t + step)) - self.horn(np.array(t - step))) / (2 * step)
+            first = self.envelope(np.array([s, s + step, s - step]))
+            second = self.horn(np.array([t, t + step, t - step]))
+            miss = complex(first[0] - second[0])
+            if abs(miss) < _MET:
+                break
+            ds, dt = ((curve[1] - curve[2]) / (2 * step) for curve in (first, second))
             matrix = np.array([[ds.real, -dt.real], [ds.imag, -dt.imag]])
             if abs(np.linalg.det(matrix)) == 0:
                 break
