@@ -12,7 +12,7 @@ from mechwright_spherical.drive import Train
 from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.shells import Shells, Span
-from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
 
@@ -34,11 +34,16 @@ def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq
     span = shells.links[name]
     return fused(
         [
-            arc_body(*ends, shells.arc(name), hardware.link_width),
+            _arc(params, *ends, shells.arc(name)),
             *(cylinder(end, span, hardware.boss_diameter) for end in ends),
         ],
         [bore(params, end, span) for end in ends],
     )
+
+
+def _arc(params: SphericalParams, u: Array, v: Array, span: Span, *, start: float = 0.0) -> cq.Solid:
+    make = shell_strip if params.hardware.section == "shell" else arc_body
+    return make(u, v, span, params.hardware.link_width, start=start)
 
 
 def bore(params: SphericalParams, at: Array, span: Span) -> cq.Solid:
@@ -63,12 +68,12 @@ def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Sol
     # millimetre, and the kernel would make slivers of that.
     beyond = (span[0] - _OVER, span[1] + _OVER)
     bodies = [seat.surroundings(beyond, wide) for seat in seats]
-    bodies.append(arc_body(seats[0].start, seats[1].start, arcs, hardware.link_width))
+    bodies.append(_arc(params, seats[0].start, seats[1].start, arcs))
     bodies.append(cylinder(point, beyond, wide))
     nearest = min(
         (pin for seat in seats for pin in (seat.start, seat.end)), key=lambda pin: float(arc(pin, point))
     )
-    bodies.append(arc_body(nearest, point, arcs, hardware.link_width))
+    bodies.append(_arc(params, nearest, point, arcs))
     holes = [hole for seat in seats for hole in seat.swept(beyond, bored)]
     return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
 
@@ -94,11 +99,11 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     loop = linkage.shown.loop
     axes = [X, direction(float(arc(loop.a0, loop.b0)))]
     span, arcs = shells.links["ground"], shells.arc("ground")
-    bodies = [arc_body(axes[0], axes[1], arcs, hardware.link_width, start=-math.radians(stand.arc))]
+    bodies = [_arc(params, axes[0], axes[1], arcs, start=-math.radians(stand.arc))]
     if train is not None and train.idler_axis is not None:
         axes.append(_in_ground(linkage, train.idler_axis))
-        bodies.append(arc_body(axes[0], axes[2], arcs, hardware.link_width))
-        bodies.append(arc_body(axes[1], axes[2], arcs, hardware.link_width))
+        bodies.append(_arc(params, axes[0], axes[2], arcs))
+        bodies.append(_arc(params, axes[1], axes[2], arcs))
     bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
     post = post_direction(stand)
     top = shells.outside + stand.height

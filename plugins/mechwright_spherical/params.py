@@ -156,6 +156,10 @@ class HardwareTable(Parameters):
     standoff: Millimetres = Field(5.0, ge=0, le=200, description="From the sphere to the coupler's shell.")
     link_thickness: Millimetres = Field(5.0, ge=0.5, le=100, description="Thickness of the links, radially.")
     link_width: Millimetres = Field(8.0, ge=1, le=200, description="Width of the links, across.")
+    section: Literal["rectangle", "shell"] = Field(
+        "rectangle",
+        description="Section of the arcs: flat to both sides, or a true strip of a spherical shell.",
+    )
     boss_diameter: Millimetres = Field(
         12.0, ge=2, le=200, description="Diameter of the bosses around the pins."
     )
