@@ -80,7 +80,7 @@ def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Sol
 
 def path_point(linkage: Linkage, frame: Array) -> Array:
     """The path point in the coupler's frame."""
-    return np.asarray(frame.T @ linkage.phases[0].loop.position(np.zeros(1))[:, 0])
+    return np.asarray(frame.T @ linkage.phases[0].at_reference.p[0][:, 0])
 
 
 def coupler_slots(linkage: Linkage, frame: Array) -> tuple[Slot, Slot]:

@@ -110,11 +110,15 @@ class FiveBarTable(Parameters):
     )
     ratio: Ratio = Field(printed.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
     phase: Literal[1, 2] = Field(1, description="Phase that motion and assembly show.")
+    start: Degrees = Field(
+        0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 1 starts."
+    )
+    start_n: Degrees = Field(0.0, ge=-360, le=360, description="The same in phase 2.")
     travel: Degrees = Field(
         printed.ANGLES[-1],
         ge=-720,
         le=720,
-        description="How far the crank turns in phase 1 from the adjustment.",
+        description="How far the crank turns in phase 1, from its start.",
     )
     travel_n: Degrees = Field(printed.ANGLES_N[-1], ge=-720, le=720, description="The same in phase 2.")
     path: tuple[Pin, ...] = Field(

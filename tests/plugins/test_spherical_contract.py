@@ -11,8 +11,8 @@ class TestSpherical(FamilyContract):
     examples: ClassVar = ({}, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
     refused: ClassVar = (
         ({"radius": 40}, "radius"),
-        ({"five_bar": {"travel": -150}}, "five_bar.travel"),
-        ({"five_bar": {"travel_n": 170}}, "five_bar.travel_n"),
+        ({"five_bar": {"travel": -190}}, "five_bar.travel"),
+        ({"five_bar": {"start": -150}}, "five_bar.travel"),
         ({"five_bar": {"a1": [0.0, 0.0004]}}, "five_bar.a1"),
         ({"five_bar": {"a1": [0.0, 0.0, 0.0]}}, "five_bar.a1"),
         ({"five_bar": {"a1": [1.0]}}, "five_bar.a1"),
