@@ -130,7 +130,9 @@ def _apart(
     four = linkage.four_bar
     if four is not None:
         ranges = input_range(*four.arcs)
-        said = ", ".join(f"{round(math.degrees(a), 2):g}° to {round(math.degrees(b), 2):g}°" for a, b in ranges)
+        said = ", ".join(
+            f"{round(math.degrees(a), 2):g}° to {round(math.degrees(b), 2):g}°" for a, b in ranges
+        )
         remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
     else:
         remedy = f"end at less than {reach:.4g}°, or choose other pins"

@@ -1,6 +1,7 @@
 """The solid parts of a design: what each is made of, in its body's own frame. Imports the CAD kernel."""
 
 import math
+from functools import lru_cache
 
 import cadquery as cq
 import numpy as np
@@ -8,10 +9,11 @@ import numpy as np
 from mechwright.motion import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
-from mechwright_spherical.drive import Train
-from mechwright_spherical.linkage import Linkage
+from mechwright_spherical.drive import Train, train_of
+from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import Shells, Span
+from mechwright_spherical.parts import gear_cones, gear_span, link_arcs, pin_places, second_size
+from mechwright_spherical.shells import Shells, Span, shells_of
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
@@ -19,12 +21,45 @@ from mechwright_spherical.vectors import arc
 PITCH_PLAY = 0.05
 """How much thinner pitch cones are drawn, mm, so that two that touch do not cut each other."""
 
+_CACHED = 64
+"""Solids that are kept: those of some four designs."""
+
 X = np.array([1.0, 0.0, 0.0])
 
 
 def direction(angle: float) -> Array:
     """The direction in a link's frame at an arc, rad, from its first joint."""
     return np.array([math.cos(angle), math.sin(angle), 0.0])
+
+
+@lru_cache(_CACHED)
+def solid(params: SphericalParams, name: str) -> cq.Solid:
+    """The solid of the part of that name; the same one for the same design.
+
+    Raises
+    ------
+    GeometryError
+        The kernel cannot make it.
+    """
+    linkage, shells = linkage_of(params), shells_of(params)
+    train = train_of(linkage, params.drive)
+    pins = pin_places(params)
+    if name in pins:
+        span, _, angle = pins[name]
+        return cylinder(direction(angle), shells.pins[span], params.hardware.pin_diameter)
+    if name == "shaft-idler":
+        return cylinder(X, shells.pins["idler"], params.hardware.pin_diameter)
+    if name == "tool":
+        return tool(params, shells, path_point(linkage, pins_of_phase(linkage, 1)))
+    if name == "ground":
+        return ground(params, shells, linkage, train)
+    if name == "coupler":
+        return coupler(params, shells, linkage)
+    if train is not None and name in (cones := gear_cones(train)):
+        return gear(params, gear_span(params, shells, train), cones[name][1])
+    own = name.removesuffix("-n")
+    arcs = link_arcs(linkage) if own == name else second_size(linkage, shells)
+    return link(params, shells, own, arcs[own])
 
 
 def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq.Solid:
@@ -128,11 +163,6 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
 def _in_ground(linkage: Linkage, axis: Array) -> Array:
     loop = linkage.shown.loop
     return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
-
-
-def pin(span: Span, at: Array, diameter: float) -> cq.Solid:
-    """A straight pin or shaft."""
-    return cylinder(at, span, diameter)
 
 
 def tool(params: SphericalParams, shells: Shells, at: Array) -> cq.Solid:
