@@ -20,11 +20,15 @@ STILL = Poses.planar(0.0, 0.0, np.zeros(181))
 
 
 def motion(**poses):
-    return Motion("theta2", {"theta2": Channel(TURN, "rad")}, {name.replace("_", "-"): p for name, p in poses.items()})
+    return Motion(
+        "theta2", {"theta2": Channel(TURN, "rad")}, {name.replace("_", "-"): p for name, p in poses.items()}
+    )
 
 
 def plate(name, outer, *inner, body=None, z=0.0, thickness=5.0, machined=()):
-    return Part(name, Outline(outer, inner), thickness, "steel", (Instance(body or name, z),), machined=machined)
+    return Part(
+        name, Outline(outer, inner), thickness, "steel", (Instance(body or name, z),), machined=machined
+    )
 
 
 def box(x0, y0, x1, y1):
@@ -47,7 +51,11 @@ def test_a_pin_without_clearance_turns_in_its_bore():
     for radius in (0.5, 3.0, 40.0):
         lug = plate("lug", box(-50, -50, 50, 50), hole(radius))
         pin = plate("pin", disc(radius))
-        for turning in (motion(lug=STILL, pin=spin()), motion(lug=spin(), pin=STILL), motion(lug=spin(30), pin=spin(30, turns=-2))):
+        for turning in (
+            motion(lug=STILL, pin=spin()),
+            motion(lug=spin(), pin=STILL),
+            motion(lug=spin(30), pin=spin(30, turns=-2)),
+        ):
             report = interference([lug, pin], turning)
             assert report.clear, report.collisions
             assert report.pairs == 1
@@ -72,7 +80,9 @@ def test_a_block_without_clearance_slides_in_its_guide():
     wide = Poses.planar(30.05 * np.cos(TURN), 0.0, np.zeros(181))
     (hit,) = interference([guide, block], motion(guide=STILL, block=wide)).collisions
     assert hit.depth == pytest.approx(0.05, abs=1e-3)
-    assert hit.instant.value % math.pi == pytest.approx(0, abs=0.02) or hit.instant.value % math.pi == pytest.approx(math.pi, abs=0.02)
+    assert hit.instant.value % math.pi == pytest.approx(
+        0, abs=0.02
+    ) or hit.instant.value % math.pi == pytest.approx(math.pi, abs=0.02)
 
 
 def test_a_pin_slides_in_a_slot_of_its_own_width():
@@ -95,7 +105,10 @@ def test_plates_on_each_other_touch_and_pressed_into_each_other_do_not():
 def bump(height):
     """A disc of radius 20 with a bump one degree long."""
     outer = [(20 * math.cos(a), 20 * math.sin(a)) for a in np.radians(np.arange(1.0, 360.0, 0.25))]
-    outer += [(r * math.cos(a), r * math.sin(a)) for r, a in ((20 + height, math.radians(-0.5)), (20 + height, math.radians(0.5)))]
+    outer += [
+        (r * math.cos(a), r * math.sin(a))
+        for r, a in ((20 + height, math.radians(-0.5)), (20 + height, math.radians(0.5)))
+    ]
     return Loop.polygon(outer)
 
 
@@ -154,13 +167,21 @@ def test_a_recess_makes_room_to_its_depth():
     slide = Poses.planar(0.0, 40 * np.cos(TURN), np.zeros(181))
     rider = plate("rider", box(-10, -5, 10, 5), z=2.0)
     assert interference([base, rider], motion(base=STILL, rider=slide)).clear
-    (hit,) = interference([base, plate("rider", box(-10, -5, 10, 5), z=1.9)], motion(base=STILL, rider=slide)).collisions
+    (hit,) = interference(
+        [base, plate("rider", box(-10, -5, 10, 5), z=1.9)], motion(base=STILL, rider=slide)
+    ).collisions
     assert hit.depth == pytest.approx(0.1, abs=1e-6)
-    counterbore = plate("base", box(-30, -20, 30, 20), hole(3), machined=(
-        Bore("seat", (0.0, 0.0), 12, 0, 2.0), Bore("bore", (0.0, 0.0), 6, 0, 5.0), outside))
+    counterbore = plate(
+        "base",
+        box(-30, -20, 30, 20),
+        hole(3),
+        machined=(Bore("seat", (0.0, 0.0), 12, 0, 2.0), Bore("bore", (0.0, 0.0), 6, 0, 5.0), outside),
+    )
     head, shank = plate("head", disc(6), z=3.0), plate("shank", disc(3), z=-5.0, thickness=8.0)
     assert interference([counterbore, head, shank], motion(base=STILL, head=spin(), shank=spin())).clear
-    assert not interference([counterbore, plate("head", disc(6), z=2.9)], motion(base=STILL, head=spin())).clear
+    assert not interference(
+        [counterbore, plate("head", disc(6), z=2.9)], motion(base=STILL, head=spin())
+    ).clear
 
 
 def test_plates_face_to_face_are_compared_in_one_plane():
@@ -183,14 +204,21 @@ def test_an_instance_of_no_body_is_refused():
 
 
 def test_a_motion_of_two_samples_is_checked_too():
-    two = Motion("s", {"s": Channel(np.array([0.0, 10.0]), "mm")}, {
-        "a": Poses.planar(0.0, 0.0, np.zeros(2)), "b": Poses.planar(np.array([-20.0, 20.0]), 0.0, np.zeros(2))})
+    two = Motion(
+        "s",
+        {"s": Channel(np.array([0.0, 10.0]), "mm")},
+        {
+            "a": Poses.planar(0.0, 0.0, np.zeros(2)),
+            "b": Poses.planar(np.array([-20.0, 20.0]), 0.0, np.zeros(2)),
+        },
+    )
     (hit,) = interference([plate("a", box(-1, -1, 1, 1)), plate("b", box(-1, 0.5, 1, 3))], two).collisions
     assert hit.depth == pytest.approx(0.5, abs=0.02)
     assert str(hit.instant).startswith("s = 5") or str(hit.instant).startswith("s = 4")
 
 
 # Against brute force: thousands of poses, each compared by itself.
+
 
 @st.composite
 def shapes(draw):
@@ -211,7 +239,9 @@ def movements(draw):
     first, second = draw(st.sampled_from([1, 2, 3])), draw(st.sampled_from([1, 2]))
 
     def at(t):
-        return Poses.planar(x0 + ax * np.cos(first * t), y0 + ay * np.sin(second * t), turns * t + swing * np.sin(t))
+        return Poses.planar(
+            x0 + ax * np.cos(first * t), y0 + ay * np.sin(second * t), turns * t + swing * np.sin(t)
+        )
 
     return at
 
@@ -219,7 +249,9 @@ def movements(draw):
 @settings(max_examples=40)
 @given(shapes(), shapes(), movements(), movements())
 def test_random_plates_agree_with_brute_force(one, two, first, second):
-    parts = [Part(name, outline, 3.0, "pom", (Instance(name),)) for name, outline in (("one", one), ("two", two))]
+    parts = [
+        Part(name, outline, 3.0, "pom", (Instance(name),)) for name, outline in (("one", one), ("two", two))
+    ]
     report = interference(parts, motion(one=first(TURN), two=second(TURN)))
     t = np.linspace(0, math.tau, 541)
     a, b = _moved(one.polygon(), first(t)), _moved(two.polygon(), second(t))
@@ -243,7 +275,9 @@ def test_random_plates_agree_with_brute_force(one, two, first, second):
 @settings(max_examples=40)
 @given(shapes(), shapes(), movements(), movements())
 def test_random_plates_that_collide_are_as_deep_as_brute_force_says(one, two, first, second):
-    parts = [Part(name, outline, 3.0, "pom", (Instance(name),)) for name, outline in (("one", one), ("two", two))]
+    parts = [
+        Part(name, outline, 3.0, "pom", (Instance(name),)) for name, outline in (("one", one), ("two", two))
+    ]
     report = interference(parts, motion(one=first(TURN), two=second(TURN)))
     if report.clear:
         return
@@ -256,10 +290,12 @@ def test_random_plates_that_collide_are_as_deep_as_brute_force_says(one, two, fi
 
 
 def _moved(polygon, poses):
-    return np.array([
-        shapely.transform(polygon, lambda p, r=r, d=d: p @ r[:2, :2].T + d[:2])
-        for r, d in zip(poses.rotation, poses.position, strict=True)
-    ])
+    return np.array(
+        [
+            shapely.transform(polygon, lambda p, r=r, d=d: p @ r[:2, :2].T + d[:2])
+            for r, d in zip(poses.rotation, poses.position, strict=True)
+        ]
+    )
 
 
 def _depth(a, b):

@@ -132,9 +132,7 @@ def deepest(
     return best
 
 
-def _collision(
-    one: Body, two: Body, motion: Motion, time: float, depth: float, at: Array
-) -> Collision:
+def _collision(one: Body, two: Body, motion: Motion, time: float, depth: float, at: Array) -> Collision:
     turn, place = space_path(one.poses.rotation, one.poses.position).at(np.array([time]))
     x, y, z = (turn[0] @ at + place[0]).tolist()
     return Collision(one.name, two.name, _instant(motion, time), depth, (x, y, z))
@@ -168,9 +166,7 @@ def _reach(parts: Sequence[Part]) -> float:
     return float(np.hypot(1, 1) * max(far, default=_USUAL))
 
 
-def interference_findings(
-    family: Family[Any], params: Parameters, *, solids: bool
-) -> list[Finding]:
+def interference_findings(family: Family[Any], params: Parameters, *, solids: bool) -> list[Finding]:
     """What the check says of a design whose own check found no error."""
     parts = family.parts(params)
     if sum(len(part.instances) for part in parts) < 2:

@@ -34,7 +34,9 @@ def meetings(fixed: Slab, moving: Slab, path: Path) -> Found:
     if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, 0.0)):
         # Whatever follows, they collide: some instants are enough to look for the deepest.
         times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
-        meet = [time for time in times if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, time))]
+        meet = [
+            time for time in times if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, time))
+        ]
         return Found(np.array(meet), None, 0.0)
     if path.still:
         return Found(np.empty(0), 0.0, 0.0)

@@ -154,9 +154,7 @@ def _halved(parts: list[_Pairs], number: Ints) -> _Pairs:
     return _Pairs(np.tile(one, 2), np.tile(two, 2), np.concatenate((twice, twice + 1)))
 
 
-def _cull(
-    fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs
-) -> tuple[_Pairs, _Pairs, _Pairs]:
+def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pairs, _Pairs, _Pairs]:
     """Drop pairs of spheres that stay apart; give pairs to look at again, pairs of pieces, pairs to halve."""
     here = fixed.centre.T[:, pairs.one]
     path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
