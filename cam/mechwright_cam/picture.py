@@ -111,7 +111,15 @@ def _part(job: Job, frame: Frame) -> str:
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
-    return plate + _recesses(job, frame)
+    return plate + _gone(job, frame) + _recesses(job, frame)
+
+
+def _gone(job: Job, frame: Frame) -> str:
+    """What an earlier setup has cut through."""
+    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.gone, DETAIL)))
+    data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
+    look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
+    return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
 
 
 def _recesses(job: Job, frame: Frame) -> str:

@@ -20,10 +20,12 @@ from mechwright_cam.exporters import Curves, DxfExporter
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
-from mechwright_cam.planning import choose_tools, lay_out, plan
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.limits import check_machine
+from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.proof import Proof, cut_through, prove
 from mechwright_cam.reach import cut_outline
 from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setups import lay_out_setups, sides, turned_shape
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,8 @@ class Machined:
     program: Program
     files: dict[str, str]
     proof: Proof
+    proven: str | dict[str, str]
+    """What the proof has read: the text, or several files by name."""
 
     @property
     def text(self) -> str:
@@ -54,18 +58,21 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     findings
         What the cutters cannot do, and what the family says of the parts as they leave them.
     jobs
-        One for each part; fewer if a finding is an error.
+        One for each part, and one more where the underside is milled as well; fewer if a finding is an
+        error.
     """
     library = _library(design)
     findings: list[Finding] = []
-    jobs = []
+    jobs: list[Job] = []
     for part in parts:
-        job, found = lay_out(part, design.cam, library)
+        laid, found = lay_out_setups(part, design.cam, library)
+        found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
-        if job is not None and not errors(found):
-            jobs.append(job)
-    if len(jobs) == len(parts):
-        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
+        if not errors(found):
+            jobs += laid
+    tops = [job for job in jobs if job.side == "top"]
+    if len(tops) == len(parts):
+        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in tops}
         findings += design.family.check_cut(design.params, cut)
     return findings, jobs
 
@@ -102,8 +109,21 @@ def _post(design: Design, host: Host) -> Post:
 
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
-    found = list(_post(design, host).check(design.cam))
-    return found + prepare(design, plates(design.family.parts(design.params)))[0]
+    post = _post(design, host)
+    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    return _control(post, design.cam, jobs) + findings
+
+
+def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
+    """What the control cannot do, for both sides."""
+    every = [cam, *(job.settings for job in jobs if job.side == "underside")]
+    return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
+
+
+def _after(first: Machined, job: Job, post: Post) -> Job:
+    """The second setup of a part, with what the first one has left of the plate."""
+    gone = cut_through(first.proven, first.job, dialect_of(post))
+    return replace(job, gone=turned_shape(gone, first.job, job))
 
 
 def machine(job: Job, post: Post, place: int = 0) -> Machined:
@@ -124,9 +144,10 @@ def machine(job: Job, post: Post, place: int = 0) -> Machined:
     program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
     files = post.files(program)
     named = {name + post.suffix: text for name, text in files.items()}
-    proof = prove(named if len(files) > 1 else next(iter(files.values())), job, dialect_of(post))
+    text = named if len(files) > 1 else next(iter(files.values()))
+    proof = prove(text, job, dialect_of(post))
     proof.require()
-    return Machined(job, program, files, proof)
+    return Machined(job, program, files, proof, text)
 
 
 def _measured(tool: Tool, cam: CamSettings) -> Tool:
@@ -152,14 +173,17 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     """
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
-    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
-    findings = [*post.check(design.cam), *findings]
+    parts = plates(design.family.parts(design.params))
+    findings, jobs = prepare(design, parts)
+    findings = [*_control(post, design.cam, jobs), *findings]
     if errors(findings) or not jobs:
         return findings
-    made = [machine(job, post, place) for place, job in enumerate(jobs)]
+    made: list[Machined] = []
+    for place, job in enumerate(jobs):
+        made.append(machine(_after(made[-1], job, post) if job.side == "underside" else job, post, place))
+    for part in parts:
+        output.add(f"{part.name}{drawing.suffix}", drawing.part(part))
     for item in made:
-        name = item.job.part.name
-        output.add(f"{name}{drawing.suffix}", drawing.part(item.job.part))
         for stem, text in item.files.items():
             output.add(f"{stem}{post.suffix}", text)
     tools = {tool.number: tool for item in made for tool in item.program.tools}
@@ -174,10 +198,19 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     return findings
 
 
-def verify(design: Design, part: Part, text: str, host: Host | None = None, control: str = "") -> Proof:
+def verify(
+    design: Design,
+    part: Part,
+    text: str,
+    host: Host | None = None,
+    control: str = "",
+    *,
+    underside: bool = False,
+) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand.
 
-    It is read as ``control`` reads it, or else the control of the design file.
+    It is read as ``control`` reads it, or else the control of the design file. It cuts the first side of the
+    part, or its underside.
     """
     dialect = LINUXCNC
     if host is not None:
@@ -191,6 +224,15 @@ def verify(design: Design, part: Part, text: str, host: Host | None = None, cont
             known = sorted({*DIALECTS, *(host.posts if host else ())})
             raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
     library = _library(design)
-    job = make_job(part, design.cam, choose_tools(part, design.cam, library))
+    _, under = sides(part)
+    if underside or under:
+        jobs, found = lay_out_setups(part, design.cam, library)
+        chosen = [job for job in jobs if (job.side == "underside") == underside]
+        if errors(found) or not chosen:
+            fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
+            raise DesignError(f"{design.path}: {fault}")
+        (job,) = chosen
+    else:
+        job = make_job(part, design.cam, choose_tools(part, design.cam, library))
     tools = tuple(_measured(tool, design.cam) for tool in library.tools)
     return prove(text, replace(job, tools=tools), dialect)

@@ -123,6 +123,19 @@ class Posting(Parameters):
     )
 
 
+class SecondSide(Parameters):
+    """How the plate is turned over for features that only the underside shows."""
+
+    work_offset: WorkOffset = Field("G55", description="Work offset of the second side.")
+    flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
+    locate: Literal["bore", "edges", "dowels"] = Field(
+        "bore", description="What X0 Y0 is picked up by: the largest bore, the plate's edges, or two dowels."
+    )
+    dowel_diameter: Millimetres = Field(
+        6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
+    )
+
+
 class Measured(Parameters):
     """What was read at the machine; the setup sheet says how."""
 
@@ -152,6 +165,7 @@ class CamSettings(Parameters):
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
     machine: Machine = Field(Machine(), description="The mill.")
     post: Posting = Field(Posting(), description="How the program is written.")
+    second_side: SecondSide = Field(SecondSide(), description="The second side.")
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
     hold: Hold = Field(Hold(), description="How the part is held.")

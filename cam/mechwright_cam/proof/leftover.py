@@ -163,8 +163,9 @@ def _measured(
     points, outward = wall.at(stations)
     x0, y0, x1, y1 = job.stock
     x, y = points.T
-    # Where the part's edge is the stock's edge there is nothing to cut.
-    asked = (x > x0 + NEAR) & (x < x1 - NEAR) & (y > y0 + NEAR) & (y < y1 - NEAR)
+    # Where the part's edge is the stock's edge there is nothing to cut, nothing above the limit at least.
+    edge = TOLERANCES.leftover
+    asked = (x > x0 + edge) & (x < x1 - edge) & (y > y0 + edge) & (y < y1 - edge)
     if aside is not None:
         asked &= ~shapely.contains_xy(aside, x, y)
     return points[asked], _thickness(points[asked], outward[asked], groups), stations[asked]

@@ -3,6 +3,7 @@
 import numpy as np
 import shapely
 
+from mechwright.motion import Array
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
@@ -13,7 +14,7 @@ from mechwright_cam.proof.scene import Scene
 
 
 def travel(scene: Scene) -> Check:
-    """The moves fit into the machine, wherever the stock is clamped."""
+    """The moves fit into the machine: where the stock is clamped if that is known, else wherever it is."""
     paths, machine = scene.paths, scene.job.settings.machine
     if paths.steps.size == 0:
         return Check("travel", True, "no moves")
@@ -41,7 +42,37 @@ def travel(scene: Scene) -> Check:
                 limit,
                 "mm",
             )
+        beyond = _beyond(scene, axis, lower, upper, limit)
+        if beyond is not None:
+            return beyond
     return Check("travel", True, "all moves are within the machine's travel")
+
+
+def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -> Check | None:
+    """The move that leaves the travel furthest, where offsets and the ends of travel are known."""
+    cam, steps = scene.job.settings, scene.paths.steps
+    low: float | None = getattr(cam.machine, f"low_{axis.lower()}")
+    place: float | None = getattr(cam.measured, axis.lower())
+    if low is None or place is None:
+        return None
+    length = np.zeros(steps.size)
+    if axis == "Z":
+        known = {n: tool.length for n, tool in scene.tools.items() if tool.length is not None}
+        length = np.array([known.get(number, np.nan) for number in scene.run.tool[steps].tolist()])
+    over = np.fmax(low - (lower + place + length), upper + place + length - (low + limit))
+    if np.isnan(over).all() or np.nanmax(over) <= NEAR:
+        return None
+    worst = int(np.nanargmax(over))
+    found = float(over[worst])
+    return scene.bad(
+        "travel",
+        int(steps[worst]),
+        f"the move leaves the travel of {axis} by {found:.1f} mm (machine {axis} {low:g} to {low + limit:g}, "
+        f"work offset at {place:g}); clamp the stock elsewhere",
+        found,
+        0.0,
+        "mm",
+    )
 
 
 def flutes(scene: Scene) -> Check:

@@ -16,14 +16,17 @@ from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
-from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
+from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
-from mechwright_cam.proof.plane import Shape
+from mechwright_cam.proof.plane import Shape, swept
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.timing import step_times
+
+SWEPT = 0.01
+"""Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
 
 
 def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
@@ -112,6 +115,15 @@ def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
+
+
+def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
+    """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
+    paths = Paths(_run(text, job, dialect), {tool.number: tool for tool in job.tools})
+    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
+    gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
+    rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)
+    return rest
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:

@@ -23,7 +23,7 @@ class Stock:
 
     def __init__(self, paths: Paths, job: Job) -> None:
         self.paths = paths
-        self.plate = stock_shape(job)
+        self.plate = shapely.difference(stock_shape(job), job.gone)
         cutting = np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))
         low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
         self.cuts: Ints = paths.steps[cutting & (low < 0)]

@@ -73,7 +73,7 @@ class Spindle:
     plates
         Names of the plates that it joins.
     head
-        Radius, mm, of a head on top of the highest plate, or 0.
+        Radius, mm, of a head on top of the highest plate, or 0; no plate above may come close to it.
     """
 
     name: str
@@ -122,6 +122,7 @@ def stack(
     clearance: float,
     gap: float,
     neighbours: Sequence[tuple[str, str]] = (),
+    together: Sequence[tuple[str, ...]] = (),
 ) -> Stack:
     """Deal plates to layers.
 
@@ -139,6 +140,8 @@ def stack(
         Air between layers, mm.
     neighbours
         Pairs of plates that slide along each other by design and may share a layer.
+    together
+        Groups of plates that have to share one.
 
     Raises
     ------
@@ -176,6 +179,8 @@ def stack(
         layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
         if set(chosen) != set(range(max(chosen) + 1)):
             continue  # an empty layer only makes spindles longer
+        if any(len({layer[name] for name in group}) > 1 for group in together):
+            continue
         ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
         cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
         if best is not None and cost >= best[0]:
@@ -184,7 +189,7 @@ def stack(
             continue
         if any(ends[s][0] <= layer[p] <= ends[s][1] for s, found in blocked.items() for p in found):
             continue
-        if any(layer[p] == ends[s][1] + 1 for s, found in covered.items() for p in found):
+        if any(layer[p] > ends[s][1] for s, found in covered.items() for p in found):
             continue
         best = (cost, layer)
     if best is None:
