@@ -50,6 +50,50 @@ def elliptic_pair() -> str:
     )
 
 
+def figure_eight() -> str:
+    """The train of the example from above, at one position, with the path of Q and its constant part."""
+    family = EllipticGears()
+    params = family.Params(stages=2, bore=12, phase=90, speed=600 / math.tau, band=10)
+    motion = family.solve(params, 361)
+    window = {name: motion.scalars[f"Q.constant_speed_window.{name}"].value for name in ("start", "end")}
+    drawn = []
+    fills = {"gear-2": "#c9d6e3", "gear-3": "#d3e0cf", "gear-4": "#e8d9bd", "gear-5": "#d9cfe2"}
+    plates = [part for part in family.parts(params) if part.outline is not None]
+    outlines = {instance.body: part.outline for part in plates for instance in part.instances}
+    for body, fill in {**fills, "coupler": "none"}.items():
+        poses = motion.poses[body]
+        angle = math.atan2(poses.rotation[SAMPLE, 1, 0], poses.rotation[SAMPLE, 0, 0])
+        loops = outlines[body].moved(*poses.position[SAMPLE, :2], angle).loops
+        data = "".join(path(loop.flatten(0.01), close=True) for loop in loops)
+        colour, width = ("#b3261e", 1.0) if body == "coupler" else ("#22303c", 0.5)
+        drawn.append(
+            f'<path d="{data}" fill="{fill}" fill-rule="evenodd" stroke="{colour}" stroke-width="{width}"/>'
+        )
+    theta = motion.channels["theta2"].values
+    trace = np.column_stack([motion.channels[name].values for name in ("Q.x", "Q.y")])
+    steady = (theta >= window["start"]) & (theta <= window["end"])
+    drawn += [
+        f'<path d="{path(trace, close=True)}" fill="none" stroke="#1b6e3c" stroke-width=".7"/>',
+        f'<path d="{path(trace[steady])}" fill="none" stroke="#1b6e3c" stroke-width="2.2"/>',
+    ]
+    cx, cy = place(*trace[SAMPLE]).split(",")
+    drawn.append(f'<circle cx="{cx}" cy="{cy}" r="1.6" fill="#b3261e"/>')
+    return "\n".join(
+        [
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-180 -90 360 170" width="900">',
+            "<title>Four elliptic gears, their coupler, and the figure of eight of its middle; the thick "
+            "part is run at a near-constant speed</title>",
+            *drawn,
+            "</svg>\n",
+        ]
+    )
+
+
+PICTURES = {"elliptic-pair.svg": elliptic_pair, "figure-eight.svg": figure_eight}
+"""File to what draws it."""
+
+
 if __name__ == "__main__":
     IMAGES.mkdir(exist_ok=True)
-    (IMAGES / "elliptic-pair.svg").write_text(elliptic_pair(), encoding="utf-8")
+    for name, draw in PICTURES.items():
+        (IMAGES / name).write_text(draw(), encoding="utf-8")

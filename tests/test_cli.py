@@ -107,7 +107,7 @@ BAD = {
     "unknown control": (
         "linuxcnc",
         "heidenhain",
-        "cam.control: control 'heidenhain' is not installed; known: linuxcnc",
+        "cam.control: control 'heidenhain' is not installed; known: fanuc, grbl",
     ),
     "unknown family": ("elliptic-gears", "eliptic-gears", "family 'eliptic-gears' is not installed"),
     "unknown material": ("aluminium", "cheese", "'cheese'"),
@@ -255,3 +255,18 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(
     monkeypatch.setattr("mechwright.cli.work._findings", lambda *_: pytest.fail("worked"))
     monkeypatch.setattr("mechwright.cli.work.progress", lambda *_: pytest.fail("worked"))
     assert run("build", EXAMPLE, "-o", tmp_path)[0] == 2
+
+
+def test_verify_reads_a_program_as_its_control_does(run: Run, tmp_path: Path) -> None:
+    design = tmp_path / "pair.toml"
+    design.write_text(EXAMPLE.read_text().replace('"linuxcnc"', '"fanuc"'))
+    code, _, err = run("cam", design, "-o", tmp_path / "out")
+    assert code == 0, err
+    program = tmp_path / "out" / "gear.nc"
+    assert program.read_text().startswith("%\nO0001 (GEAR)\n")
+    assert run("verify", program, "--design", design, "--part", "gear")[0] == 0
+    assert run("verify", program, "--design", EXAMPLE, "--part", "gear", "--control", "fanuc")[0] == 0
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
+    assert (code, "line 2" in err) == (2, True)
+    code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear", "--control", "siemens")
+    assert (code, "--control: 'siemens' is not known; one of: fanuc, grbl" in err) == (2, True)

@@ -16,8 +16,9 @@ Planner and proof both start from a job and from nothing else, so that the proof
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Literal
 
 import shapely
 
@@ -74,6 +75,12 @@ class Job:
         Bridges that hold the part; empty if a clamp does.
     clamp
         The bore clamp, if that holds the part.
+    side
+        ``"underside"`` if the plate has been turned over.
+    gone
+        What of the plate earlier setups have cut away from top to bottom, work coordinates.
+    pick_up
+        Middle of the bore by which a plate that has been turned over is picked up, work coordinates.
     """
 
     part: Part
@@ -83,6 +90,9 @@ class Job:
     stock: tuple[float, float, float, float]
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
+    side: Literal["top", "underside"] = "top"
+    gone: shapely.Geometry = field(default_factory=shapely.Polygon)
+    pick_up: Point | None = None
 
     @property
     def thickness(self) -> float:

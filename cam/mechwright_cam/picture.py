@@ -4,8 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import shapely
+
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
+from mechwright.sections import sections
 from mechwright_cam import svg
 from mechwright_cam.job import Job, Tab
 from mechwright_cam.trace import Stroke, Traced, trace
@@ -104,10 +107,33 @@ def _part(job: Job, frame: Frame) -> str:
     assert outline is not None  # noqa: S101 - a job is about a plate
     placed = outline.moved(-job.origin[0], -job.origin[1])
     data = "".join(svg.path(loop.flatten(DETAIL), close=True) for loop in placed.loops)
-    return svg.element(
+    plate = svg.element(
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
+    return plate + _gone(job, frame) + _recesses(job, frame)
+
+
+def _gone(job: Job, frame: Frame) -> str:
+    """What an earlier setup has cut through."""
+    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.gone, DETAIL)))
+    data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
+    look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
+    return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
+
+
+def _recesses(job: Job, frame: Frame) -> str:
+    """The floors of recesses, darker the deeper they lie."""
+    whole = job.target
+    layers = []
+    for layer in sections(job.part, DETAIL)[:-1]:
+        taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
+        rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
+        data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
+        if data:
+            look = {"fill": "#5f7688", "fill_opacity": 0.4, "fill_rule": "evenodd", "stroke": "#1b2733"}
+            layers.append(svg.element("path", d=data, **look, stroke_width=0.04 * frame.letters))
+    return "".join(layers)
 
 
 def _holding(job: Job, frame: Frame) -> str:

@@ -15,13 +15,17 @@ from mechwright.host import Host
 from mechwright.output import Post
 from mechwright.part import Part
 from mechwright.program import Program
+from mechwright.tooling import CamSettings, Tool
 from mechwright_cam.exporters import Curves, DxfExporter
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
-from mechwright_cam.planning import choose_tools, lay_out, plan
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.limits import check_machine
+from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.proof import Proof, cut_through, prove
 from mechwright_cam.reach import cut_outline
 from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setups import lay_out_setups, sides, turned_shape
 
 
 @dataclass(frozen=True)
@@ -30,8 +34,15 @@ class Machined:
 
     job: Job
     program: Program
-    text: str
+    files: dict[str, str]
     proof: Proof
+    proven: str | dict[str, str]
+    """What the proof has read: the text, or several files by name."""
+
+    @property
+    def text(self) -> str:
+        """The program's text, all its files one after the other."""
+        return "".join(self.files.values())
 
 
 def plates(parts: Sequence[Part]) -> list[Part]:
@@ -47,18 +58,21 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     findings
         What the cutters cannot do, and what the family says of the parts as they leave them.
     jobs
-        One for each part; fewer if a finding is an error.
+        One for each part, and one more where the underside is milled as well; fewer if a finding is an
+        error.
     """
     library = _library(design)
     findings: list[Finding] = []
-    jobs = []
+    jobs: list[Job] = []
     for part in parts:
-        job, found = lay_out(part, design.cam, library)
+        laid, found = lay_out_setups(part, design.cam, library)
+        found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
-        if job is not None and not errors(found):
-            jobs.append(job)
-    if len(jobs) == len(parts):
-        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in jobs}
+        if not errors(found):
+            jobs += laid
+    tops = [job for job in jobs if job.side == "top"]
+    if len(tops) == len(parts):
+        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in tops}
         findings += design.family.check_cut(design.params, cut)
     return findings, jobs
 
@@ -95,12 +109,27 @@ def _post(design: Design, host: Host) -> Post:
 
 def check(design: Design, host: Host) -> list[Finding]:
     """Find out whether the chosen cutters can make the parts, and what they leave."""
-    _post(design, host)
-    return prepare(design, plates(design.family.parts(design.params)))[0]
+    post = _post(design, host)
+    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    return _control(post, design.cam, jobs) + findings
 
 
-def machine(job: Job, post: Post) -> Machined:
+def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
+    """What the control cannot do, for both sides."""
+    every = [cam, *(job.settings for job in jobs if job.side == "underside")]
+    return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
+
+
+def _after(first: Machined, job: Job, post: Post) -> Job:
+    """The second setup of a part, with what the first one has left of the plate."""
+    gone = cut_through(first.proven, first.job, dialect_of(post))
+    return replace(job, gone=turned_shape(gone, first.job, job))
+
+
+def machine(job: Job, post: Post, place: int = 0) -> Machined:
     """Plan a program, post it, and prove the posted text.
+
+    Programs of one design that have numbers are told apart by their ``place``.
 
     Raises
     ------
@@ -109,11 +138,32 @@ def machine(job: Job, post: Post) -> Machined:
     ProofError
         The program would not cut the right part.
     """
-    program = plan(job)
-    text = post.write(program)
-    proof = prove(text, job)
+    cam = job.settings
+    job = replace(job, tools=tuple(_measured(tool, cam) for tool in job.tools))
+    posting = cam.post.model_copy(update={"program_number": cam.post.program_number + place})
+    program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
+    files = post.files(program)
+    named = {name + post.suffix: text for name, text in files.items()}
+    text = named if len(files) > 1 else next(iter(files.values()))
+    proof = prove(text, job, dialect_of(post))
     proof.require()
-    return Machined(job, program, text, proof)
+    return Machined(job, program, files, proof, text)
+
+
+def _measured(tool: Tool, cam: CamSettings) -> Tool:
+    """The tool with the length that the design file gives it."""
+    length = cam.measured.lengths.get(tool.name, tool.length)
+    return tool if length == tool.length else tool.model_copy(update={"length": length})
+
+
+def dialect_of(post: Post) -> Dialect:
+    """How the post's control reads a program; raises PluginError if the post names none that is known."""
+    try:
+        return DIALECTS[post.dialect]
+    except KeyError:
+        raise PluginError(
+            f"post {post.name!r} names the dialect {post.dialect!r}; known: {', '.join(DIALECTS)}"
+        ) from None
 
 
 def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
@@ -123,14 +173,19 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     """
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
-    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    parts = plates(design.family.parts(design.params))
+    findings, jobs = prepare(design, parts)
+    findings = [*_control(post, design.cam, jobs), *findings]
     if errors(findings) or not jobs:
         return findings
-    made = [machine(job, post) for job in jobs]
+    made: list[Machined] = []
+    for place, job in enumerate(jobs):
+        made.append(machine(_after(made[-1], job, post) if job.side == "underside" else job, post, place))
+    for part in parts:
+        output.add(f"{part.name}{drawing.suffix}", drawing.part(part))
     for item in made:
-        name = item.job.part.name
-        output.add(f"{name}{drawing.suffix}", drawing.part(item.job.part))
-        output.add(f"{name}{post.suffix}", item.text)
+        for stem, text in item.files.items():
+            output.add(f"{stem}{post.suffix}", text)
     tools = {tool.number: tool for item in made for tool in item.program.tools}
     table, text = post.tool_table([tools[number] for number in sorted(tools)])
     if table:
@@ -143,8 +198,41 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     return findings
 
 
-def verify(design: Design, part: Part, text: str) -> Proof:
-    """Prove a program that came from anywhere, with every cutter of the library at hand."""
+def verify(
+    design: Design,
+    part: Part,
+    text: str,
+    host: Host | None = None,
+    control: str = "",
+    *,
+    underside: bool = False,
+) -> Proof:
+    """Prove a program that came from anywhere, with every cutter of the library at hand.
+
+    It is read as ``control`` reads it, or else the control of the design file. It cuts the first side of the
+    part, or its underside.
+    """
+    dialect = LINUXCNC
+    if host is not None:
+        dialect = dialect_of(_post(design, host))
+    if control:
+        try:
+            dialect = (
+                DIALECTS[control] if control in DIALECTS or host is None else dialect_of(host.post(control))
+            )
+        except (KeyError, PluginError):
+            known = sorted({*DIALECTS, *(host.posts if host else ())})
+            raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
     library = _library(design)
-    job = make_job(part, design.cam, choose_tools(part, design.cam, library))
-    return prove(text, replace(job, tools=library.tools))
+    _, under = sides(part)
+    if underside or under:
+        jobs, found = lay_out_setups(part, design.cam, library)
+        chosen = [job for job in jobs if (job.side == "underside") == underside]
+        if errors(found) or not chosen:
+            fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
+            raise DesignError(f"{design.path}: {fault}")
+        (job,) = chosen
+    else:
+        job = make_job(part, design.cam, choose_tools(part, design.cam, library))
+    tools = tuple(_measured(tool, design.cam) for tool in library.tools)
+    return prove(text, replace(job, tools=tools), dialect)

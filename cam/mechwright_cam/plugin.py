@@ -8,9 +8,9 @@ from mechwright_cam.exporters import DxfExporter, GlbExporter, StepExporter, Stl
 @hookimpl
 def mechwright_register_posts() -> list[type[Post]]:
     """The controls that programs can be written for."""
-    from mechwright_cam.posts import LinuxCncPost
+    from mechwright_cam.posts import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
 
-    return [LinuxCncPost]
+    return [LinuxCncPost, FanucPost, HaasPost, Mach3Post, GrblPost]
 
 
 @hookimpl

@@ -9,6 +9,7 @@ remainder
     that the cutter touches.
 """
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.part import Bore
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
 from mechwright_cam.toolpath.offsets import grow, polygons
 
@@ -54,12 +56,25 @@ def _swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     return grow(keep, radius, PRECISION)
 
 
-def remainder_depths(keep: shapely.Geometry, radius: float) -> tuple[Array, Array]:
+def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
+    """Corners (n, 2) of a shape, or those of them that stand on another shape."""
+    points: Array = shapely.get_coordinates(keep)
+    if near is None:
+        return points
+    shapely.prepare(near)
+    found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
+    return found
+
+
+def remainder_depths(
+    keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None
+) -> tuple[Array, Array]:
     """Wall points (n, 2), mm, and the thickness (n,) that a cutter of ``radius`` leaves on each.
 
-    Thickness is the distance from the wall point to the nearest place that the cutter touches.
+    Thickness is the distance from the wall point to the nearest place that the cutter touches. If a shape
+    ``near`` is given, only walls that stand at it count.
     """
-    walls = shapely.get_coordinates(keep)
+    walls = _points(keep, near)
     touched = shapely.boundary(closing(keep, radius))
     shapely.prepare(touched)
     depths = np.zeros(len(walls))
@@ -81,21 +96,41 @@ def _edges(lines: shapely.Geometry) -> NDArray[Any]:
     return np.concatenate(edges)
 
 
-def leaves_at_most(keep: shapely.Geometry, radius: float, limit: float) -> bool:
-    """Whether a cutter of ``radius`` comes within ``limit`` of every point of the wall."""
+def leaves_at_most(
+    keep: shapely.Geometry, radius: float, limit: float, near: shapely.Geometry | None = None
+) -> bool:
+    """Whether a cutter of ``radius`` comes within ``limit`` of all walls, or of those ``near`` a shape."""
     # A wall point has more than that in front of it if it lies that deep in the closing: a test of points
     # against one polygon, much faster than distances.
     deep = grow(_swollen(keep, radius), -radius - limit, PRECISION)
     if shapely.is_empty(deep):
         return True
     shapely.prepare(deep)
-    x, y = shapely.get_coordinates(keep).T
+    x, y = _points(keep, near).T
     return not shapely.contains_xy(deep, x, y).any()
 
 
-def remainder(keep: shapely.Geometry, radius: float) -> float:
+def closed_area(swollen: shapely.Geometry, radius: float) -> float:
+    """Area of what a cutter of ``radius`` leaves, from the shape grown by the radius, mm².
+
+    A grown shape is a union of discs of that radius, so its inner parallel curve is regular and Steiner's
+    formula A - r L + π r² χ is exact, reentrant corners included; χ is 1 for each polygon, less 1 for each
+    hole.
+
+    Examples
+    --------
+    >>> square = shapely.box(0, 0, 10, 10)
+    >>> round(closed_area(shapely.buffer(square, 2.0, quad_segs=500), 2.0), 3)
+    100.0
+    """
+    parts = polygons(swollen)
+    euler = len(parts) - sum(len(part.interiors) for part in parts)
+    return float(swollen.area - radius * swollen.length + math.pi * radius**2 * euler)
+
+
+def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
     """The greatest thickness that a cutter of ``radius`` leaves on the wall of ``keep``, mm."""
-    return float(remainder_depths(keep, radius)[1].max())
+    return float(remainder_depths(keep, radius, near)[1].max(initial=0.0))
 
 
 def unreachable(keep: shapely.Geometry, radius: float, limit: float) -> tuple[Spot, ...]:

@@ -16,6 +16,8 @@ from OCP.GProp import GProp_GProps
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline, Outline, Segment
 from mechwright.motion import Array
+from mechwright.part import Part
+from mechwright.sections import volume
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.tessellate import forget, triangle_count, triangulate
 
@@ -76,6 +78,30 @@ def check_plate(solid: cq.Solid, outline: Outline, thickness: float) -> None:
     _check_area(top, outline)
     _check_edges(top, segments)
     _check_triangles(faces, shapely.get_num_coordinates(polygon))
+
+
+RECESSED = 1e-5
+"""Relative difference of the volume of a plate with recesses: its polygons are this exact, see FINE."""
+
+
+def check_recessed(solid: cq.Solid, part: Part) -> None:
+    """Refuse a plate with recesses whose volume or height is not that of the part's sections.
+
+    Raises
+    ------
+    GeometryError
+        Says what is wrong, with the value and the limit.
+    """
+    check_solid(solid)
+    wanted = volume(part)
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(solid.wrapped, properties, QUADRATURE)
+    error = properties.Mass() / wanted - 1
+    if abs(error) > RECESSED:
+        raise GeometryError(
+            f"the solid has {properties.Mass():.4f} mm³, its sections have {wanted:.4f}: "
+            f"{error:.2g} apart, limit {RECESSED:g}"
+        )
 
 
 def top_area(face: cq.Face) -> float:

@@ -1,7 +1,8 @@
-"""Solids: a plate is its outline, extruded; an assembly is its parts in the poses of the motion.
+"""Solids: a plate is its outline, extruded, less its recesses; an assembly is its parts in their poses.
 
 Every segment becomes exactly one edge and one wall: lines and arcs as they are, B-splines pole by pole.
-Neighbouring edges share their vertex, openings are inner wires, and nothing is cut, fused or cleaned up.
+Neighbouring edges share their vertex, openings are inner wires, and nothing is cut, fused or cleaned up, but
+for recesses: those are cut by the kernel, and held against the part's sections afterwards.
 This module imports the CAD kernel (1.6 s).
 """
 
@@ -17,16 +18,18 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace,
 from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
 from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.Standard import Standard_Failure
 from OCP.TColgp import TColgp_Array1OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.motion import Motion
-from mechwright.part import Part
-from mechwright_cam.solid_check import check_plate, check_solid
+from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.sections import blind
+from mechwright_cam.solid_check import check_plate, check_recessed, check_solid
 
 _UP = gp_Dir(0.0, 0.0, 1.0)
 _DOWN = gp_Dir(0.0, 0.0, -1.0)
@@ -56,7 +59,7 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
 
 @lru_cache(maxsize=32)
 def part_solid(part: Part) -> cq.Solid:
-    """The checked solid of a part, made once per process.
+    """The checked solid of a part, recesses cut, made once per process.
 
     Raises
     ------
@@ -65,13 +68,64 @@ def part_solid(part: Part) -> cq.Solid:
     """
     try:
         if part.outline is not None:
-            return plate(part.outline, part.thickness)
+            whole = plate(part.outline, part.thickness)
+            recesses = blind(part)
+            return recessed(whole, part, recesses) if recesses else whole
         assert part.build is not None  # noqa: S101 - Part has either an outline or this
         solid = part.build()
         check_solid(solid)
         return solid
     except GeometryError as error:
         raise GeometryError(f"part {part.name}: {error}") from error
+
+
+BEYOND = 1.0
+"""A cut from the top face starts this far above it, mm: the kernel is spared a common face."""
+
+
+def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:
+    """A plate with the recesses of a part cut into it.
+
+    Raises
+    ------
+    GeometryError
+        The kernel cannot cut them, or what it made is not what the part's sections say.
+    """
+    cuts = [_taken(feature, part.thickness) for feature in recesses]
+    try:
+        made = whole.cut(*cuts).clean()
+    except Standard_Failure as error:
+        names = ", ".join(feature.name for feature in recesses)
+        raise GeometryError(f"the CAD kernel cannot cut {names} into the plate ({error})") from error
+    pieces = made.Solids()
+    if len(pieces) != 1:
+        raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
+    check_recessed(pieces[0], part)
+    return pieces[0]
+
+
+def _taken(feature: Feature, thickness: float) -> cq.Shape:
+    """The solid that a recess takes out of the plate."""
+    above = BEYOND if feature.top <= 0 else 0.0
+    match feature:
+        case Bore():
+            loops = [Loop((circle(feature.centre, feature.diameter / 2),))]
+        case Profile():
+            loops = [_forwards(feature.loop)]
+        case Pocket():
+            loops = [_forwards(feature.boundary), *(_forwards(loop).reversed() for loop in feature.islands)]
+    solid = _extruded(Outline(loops[0], tuple(loops[1:])), feature.depth + above)
+    if isinstance(feature, Profile) and feature.side == "outside":
+        x0, y0, x1, y1 = feature.loop.bounds
+        reach = 4 * (x1 - x0 + y1 - y0)  # wider than any plate around the step
+        middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+        disc = Outline(Loop((circle(middle, reach),)), (loops[0].reversed(),))
+        solid = _extruded(disc, feature.depth + above)
+    return solid.translate(cq.Vector(0, 0, thickness - feature.top - feature.depth))
+
+
+def _forwards(loop: Loop) -> Loop:
+    return loop if loop.area > 0 else loop.reversed()
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:

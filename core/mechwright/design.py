@@ -26,6 +26,7 @@ from pydantic import BaseModel, ValidationError
 from mechwright.errors import DesignError, OutputError, PluginError
 from mechwright.family import Family
 from mechwright.host import Host
+from mechwright.machine import MACHINES, Machine
 from mechwright.parameters import Parameters
 from mechwright.part import check_name
 from mechwright.tooling import CamSettings
@@ -85,19 +86,67 @@ class Design:
 
 def tool_library(path: Path, cam: CamSettings) -> Path | None:
     """The tool library that the file ``path`` names; raises DesignError if it leads out of its folder."""
-    if not cam.tool_library:
-        return None
+    return beside(path, cam.tool_library, "cam.tool_library") if cam.tool_library else None
+
+
+def machine_file(path: Path, cam: CamSettings) -> Path | None:
+    """The machine file that the file ``path`` names, None if it names a machine or none."""
+    model = cam.machine.model
+    return beside(path, model, "cam.machine.model") if model.endswith(".toml") else None
+
+
+def beside(path: Path, name: str, key: str) -> Path:
+    """A file in or below the folder of the design file ``path``; raises DesignError if it leads out of it."""
     folder = path.resolve().parent
     try:
-        library = (folder / cam.tool_library).resolve()
+        found = (folder / name).resolve()
     except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
-        raise DesignError(f"{path}: cam.tool_library: {cam.tool_library!r} is no file: {error}") from error
-    if not library.is_relative_to(folder):
+        raise DesignError(f"{path}: {key}: {name!r} is no file: {error}") from error
+    if not found.is_relative_to(folder):
         raise DesignError(
-            f"{path}: cam.tool_library: {cam.tool_library!r} leads out of the folder of the design file; "
-            "put the library beside it"
+            f"{path}: {key}: {name!r} leads out of the folder of the design file; put the file beside it"
         )
-    return library
+    return found
+
+
+def read_cam(content: Mapping[str, Any], path: Path) -> CamSettings:
+    """The table ``[cam]`` of a file, with the machine that it names.
+
+    Raises
+    ------
+    OutputError
+        The machine file cannot be read.
+    DesignError
+        A key is wrong, or the machine is not known; the known ones are listed.
+    """
+    table = content.get("cam", {})
+    machine = table.get("machine") if isinstance(table, Mapping) else None
+    if isinstance(machine, str):
+        machine = {"model": machine}
+    if isinstance(machine, Mapping) and isinstance(machine.get("model"), str) and machine["model"]:
+        known = _machine(machine["model"], path)
+        table = {**table, "machine": {**known, **machine}}
+    return read_table(CamSettings, table, str(path), "cam")
+
+
+def _machine(model: str, path: Path) -> dict[str, Any]:
+    """The figures of a built-in machine, or of a machine file beside ``path``."""
+    if model.endswith(".toml"):
+        file = beside(path, model, "cam.machine.model")
+        figures = read_toml(file)[0]
+        if "model" in figures:
+            raise DesignError(f"{file}: model: a machine file stands for itself; write its figures")
+        read_table(Machine, figures, str(file), "machine")  # mistakes are told with the file's name
+        return figures
+    machines = read_toml(MACHINES)[0]
+    if model not in machines:
+        raise DesignError(
+            f"{path}: cam.machine.model: {unknown(model, tuple(machines), 'machine')}; or name a .toml file "
+            "beside the design file"
+        )
+    figures = machines[model]
+    assert isinstance(figures, dict)  # noqa: S101 - a file of our own
+    return figures
 
 
 def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
@@ -147,7 +196,7 @@ def load(path: Path, host: Host) -> Design:
     content, digest = read_toml(path)
     name, family = read_head(content, path, host, _KEYS)
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
-    cam = read_table(CamSettings, content.get("cam", {}), str(path), "cam")
+    cam = read_cam(content, path)
     design = Design(name, family, params, cam, path, digest)
     _ = design.tool_library  # a path that leads out is refused before any work
     return design

@@ -8,10 +8,11 @@ from mechwright.family import HOOK_API
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from mechwright.findings import Finding
     from mechwright.motion import Motion
     from mechwright.part import Part
     from mechwright.program import Program
-    from mechwright.tooling import Tool
+    from mechwright.tooling import CamSettings, Tool
 
 
 class Post(ABC):
@@ -24,10 +25,21 @@ class Post(ABC):
     """Name for people."""
     suffix: ClassVar[str] = ".nc"
     """Ending of program files."""
+    dialect: ClassVar[str] = "linuxcnc"
+    """The control, by the name of a post that comes with the program, whose rules the text follows when the
+    proof reads it back."""
 
     @abstractmethod
     def write(self, program: "Program") -> str:
         """The program text, lines ended by a line feed."""
+
+    def files(self, program: "Program") -> dict[str, str]:
+        """The program as files, stem to text, in the order in which they are run; most controls take one."""
+        return {program.name: self.write(program)}
+
+    def check(self, settings: "CamSettings") -> "Sequence[Finding]":  # noqa: ARG002 - for controls with limits
+        """What the control cannot do of what a design file asks for."""
+        return ()
 
     @abstractmethod
     def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:

@@ -64,7 +64,12 @@ class Bore:
 
 @dataclass(frozen=True)
 class Pocket:
-    """A flat-bottomed recess inside ``boundary``, around ``islands``."""
+    """A flat-bottomed recess inside ``boundary``, around ``islands``.
+
+    A boundary that reaches beyond the plate's outline, or along it, is open there: the cutter runs out over
+    the edge, and no wall stands. A groove across the rim is drawn a little longer than the plate. The recess
+    of one level may lie in that of another: ``top`` is then the other's ``depth``.
+    """
 
     name: str
     boundary: Loop

@@ -7,7 +7,8 @@ the stock. Feeds are mm/min.
 from dataclasses import dataclass, field
 from typing import Literal
 
-from mechwright.tooling import Tool
+from mechwright.machine import Machine
+from mechwright.tooling import Measured, Posting, Tool
 
 OPERATION_COMMENT = "operation: "
 """How a program's text names the operation that follows, in a comment; times are reported by that name."""
@@ -98,13 +99,19 @@ class Program:
     name
         Stem of its file.
     work_offset
-        ``"G54"`` to ``"G59.3"``.
+        ``"G54"`` to ``"G59"``, or one of the extended offsets of a control.
     clearance
         Height of rapid moves, mm.
     notes
         Lines for the head: part, material, stock, origin.
     sections
         In cutting order.
+    machine
+        The mill, whose places the program goes to between tools and at its end.
+    posting
+        How the text is written.
+    measured
+        Offsets as measured, where they are to stand in the text.
     """
 
     name: str
@@ -112,6 +119,9 @@ class Program:
     clearance: float
     sections: tuple[ToolSection, ...]
     notes: tuple[str, ...] = field(default=())
+    machine: Machine = field(default=Machine())
+    posting: Posting = field(default=Posting())
+    measured: Measured = field(default=Measured())
 
     @property
     def tools(self) -> tuple[Tool, ...]:

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mechwright.design import read_head, read_table, read_toml, tool_library, unknown
+from mechwright.design import read_cam, read_head, read_table, read_toml, tool_library, unknown
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.host import Host
@@ -97,7 +97,7 @@ def load_requirement(path: Path, host: Host) -> Requirement:
         family,
         kind,
         read_table(family.requirements[kind], rest, str(path), "requirement"),
-        read_table(CamSettings, content.get("cam", {}), str(path), "cam"),
+        read_cam(content, path),
         path,
         digest,
     )

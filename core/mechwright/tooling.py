@@ -1,12 +1,14 @@
 """Cutters, machines, stock and holding: the tables under ``[cam]`` of a design file, and the tool library."""
 
+import re
 from enum import StrEnum
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
+from mechwright.machine import Machine as Machine  # families and CAM know it from here
 from mechwright.parameters import Parameters
-from mechwright.units import Degrees, MetresPerMin, Millimetres, MillimetresPerMin, Ratio, RevPerMin
+from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
 
 
 class ToolKind(StrEnum):
@@ -39,39 +41,38 @@ class Tool(Parameters):
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
     centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
     point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
+    shank_diameter: Millimetres | None = Field(
+        None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
+    )
+    stick_out: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=400,
+        description="Length out of the holder, if it is set; the setup sheet says the least.",
+    )
+    holder_diameter: Millimetres = Field(
+        40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
+    )
+    life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
+        None, description="Minutes in cut after which an edge is worn."
+    )
+    length: Millimetres | None = Field(
+        None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
+    )
     cutting: dict[str, CuttingData] = Field(
         default_factory=dict, description="Material name to cutting data."
     )
+
+    @model_validator(mode="after")
+    def _flutes_are_out(self) -> Self:
+        if self.stick_out is not None and self.stick_out < self.flute_length:
+            raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
+        return self
 
     @property
     def radius(self) -> float:
         """Half the diameter, mm."""
         return self.diameter / 2
-
-
-class Machine(Parameters):
-    """A three-axis mill."""
-
-    name: str = Field("three-axis mill", max_length=60, description="Its name on the setup sheet.")
-    travel_x: Millimetres = Field(500.0, gt=0, le=10000, description="Travel of X.")
-    travel_y: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Y.")
-    travel_z: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Z.")
-    rapid: MillimetresPerMin = Field(10000.0, gt=0, le=200000, description="Speed of a rapid move.")
-    max_feed: MillimetresPerMin = Field(5000.0, gt=0, le=100000, description="Fastest feed.")
-    spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
-    spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
-    acceleration: Ratio = Field(
-        1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
-    )
-    tool_change: Annotated[Ratio, Field(ge=0, le=3600)] = Field(
-        12.0, description="Time of a tool change in s."
-    )
-
-    @model_validator(mode="after")
-    def _spindle(self) -> Self:
-        if self.spindle_min >= self.spindle_max:
-            raise ValueError("spindle_min must be below spindle_max")
-        return self
 
 
 class Stock(Parameters):
@@ -115,7 +116,56 @@ class Hold(Parameters):
 LEAST_CLEARANCE = 0.5
 """Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
 
-WorkOffset = Literal["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"]
+_OFFSET = re.compile(r"G(5[4-9]|59\.[123]|54\.1 P([1-9]|[1-9]\d|[12]\d\d|300)|154 P[1-9]\d?)")
+
+
+def _work_offset(text: str) -> str:
+    if not _OFFSET.fullmatch(text):
+        raise ValueError("should be G54 to G59, or as the control has it G59.1 to G59.3, G54.1 P1, G154 P1")
+    return text
+
+
+WorkOffset = Annotated[str, AfterValidator(_work_offset)]
+"""Every work offset that some control has; its post says which."""
+
+
+class Posting(Parameters):
+    """How the program is written, whatever it does."""
+
+    program_number: int = Field(1, ge=1, le=9999, description="O number of the first program, if it has one.")
+    line_numbers: int = Field(0, ge=0, le=100, description="Step of the N numbers; 0 writes none.")
+    restart: bool = Field(False, description="Every operation can be started from: it states all modes.")
+    optional_stops: bool = Field(False, description="An M1 before every tool change.")
+    cycles: bool = Field(True, description="Drilling cycles; false writes out their moves.")
+    exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
+    offsets: bool = Field(False, description="Write the measured offsets into the program (G10).")
+    tool_change: Literal["pause", "files"] = Field(
+        "pause", description="Where the control has no tool change: stop for it, or one file per tool."
+    )
+
+
+class SecondSide(Parameters):
+    """How the plate is turned over for features that only the underside shows."""
+
+    work_offset: WorkOffset = Field("G55", description="Work offset of the second side.")
+    flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
+    locate: Literal["bore", "edges", "dowels"] = Field(
+        "bore", description="What X0 Y0 is picked up by: the largest bore, the plate's edges, or two dowels."
+    )
+    dowel_diameter: Millimetres = Field(
+        6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
+    )
+
+
+class Measured(Parameters):
+    """What was read at the machine; the setup sheet says how."""
+
+    x: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine X of the work offset.")
+    y: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Y of the work offset.")
+    z: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Z of the work offset.")
+    lengths: dict[str, Annotated[Millimetres, Field(ge=-1000, le=1000)]] = Field(
+        default_factory=dict, description="Tool name to its length offset H."
+    )
 
 
 class CamSettings(Parameters):
@@ -124,7 +174,9 @@ class CamSettings(Parameters):
     control: str = Field(
         "linuxcnc", min_length=1, max_length=40, description="Control that reads the program."
     )
-    work_offset: WorkOffset = Field("G54", description="Work offset, G54 to G59.3.")
+    work_offset: WorkOffset = Field(
+        "G54", description="Work offset: G54 to G59; G59.3, G54.1 P48 or G154 P99 where the control has it."
+    )
     origin: Literal["axis", "corner", "centre"] = Field(
         "axis", description="X and Y zero: the part's axis, the stock's lower left corner, or its centre."
     )
@@ -133,6 +185,9 @@ class CamSettings(Parameters):
     )
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
     machine: Machine = Field(Machine(), description="The mill.")
+    post: Posting = Field(Posting(), description="How the program is written.")
+    second_side: SecondSide = Field(SecondSide(), description="The second side.")
+    measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
     hold: Hold = Field(Hold(), description="How the part is held.")
     climb: bool = Field(True, description="Climb milling; false cuts conventionally.")
@@ -144,4 +199,14 @@ class CamSettings(Parameters):
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    clearing: Literal["contour", "adaptive"] = Field(
+        "contour",
+        description="How recesses and openings are roughed: along their walls, or with bounded engagement.",
+    )
+    engagement: Degrees = Field(
+        60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
+    )
+    adaptive_depth: Ratio = Field(
+        1.5, gt=0, le=5, description="Depth of an adaptive pass in cutter diameters."
+    )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")

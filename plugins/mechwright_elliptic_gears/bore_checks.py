@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright.findings import Finding, Severity, errors
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright_elliptic_gears.gear import opening_of, teeth_of
-from mechwright_elliptic_gears.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 LEAST_RIM = 1.0
@@ -17,7 +17,7 @@ FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
 
 LEAST_WIDTH = 0.3
-"""Smallest bore, keyway or relief, mm: there are no end mills for smaller ones."""
+"""Smallest hole, keyway or relief, mm: there are no end mills for smaller ones."""
 
 SMALLEST_EDGE = 0.01
 """Straight length, mm, that must stay between reliefs, and between relief and bore."""
@@ -37,9 +37,9 @@ def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
 
 
 def _smallest(params: EllipticGearParams) -> Iterator[Finding]:
-    for name in ("bore", "keyway_width", "keyway_relief"):
+    for name in ("bore", "keyway_width", "keyway_relief", "tracer_diameter"):
         value = getattr(params, name)
-        if 0 < value < LEAST_WIDTH:
+        if value is not None and 0 < value < LEAST_WIDTH:
             yield Finding(
                 "bore.size",
                 Severity.ERROR,
@@ -134,10 +134,10 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
     teeth = teeth_of(params)
     m = teeth.rack.module
     opening = opening_of(params)
-    plain = _room(params, np.zeros((1, 2))) - params.bore / 2
+    plain = room(params, np.zeros((1, 2))) - params.bore / 2
     rim, blame = plain, "bore" if opening else "eccentricity"
     if opening and opening.has_keyway:
-        rim = min(plain, _room(params, opening.loop().flatten()))
+        rim = min(plain, room(params, opening.loop().flatten()))
         if rim < plain:
             blame = "keyway_relief" if opening.relief and rim < _without_relief(params) else "keyway_depth"
     full = FULL_RIM * (teeth.rack.addendum + teeth.rack.dedendum) / m
@@ -168,11 +168,11 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
 def _without_relief(params: EllipticGearParams) -> float:
     opening = opening_of(params.model_copy(update={"keyway_relief": 0.0}))
     assert opening is not None  # noqa: S101 - asked only where there is a keyway
-    return _room(params, opening.loop().flatten())
+    return room(params, opening.loop().flatten())
 
 
-def _room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
-    """Least distance, mm, of points (n, 2) from the root curve; negative beyond it."""
+def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
+    """Least distance, mm, of points (n, 2), part frame, from the root curve; negative beyond it."""
     teeth = teeth_of(params)
     ellipse = teeth.ellipse
     on_pitch = ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point

@@ -12,10 +12,18 @@ from mechwright.errors import GeometryError
 from mechwright.findings import Finding, Severity, errors
 from mechwright.materials import material
 from mechwright_elliptic_gears.bore_checks import opening_findings
-from mechwright_elliptic_gears.gear import offset_miss, offsets_that_mesh, outline_of, rack_of, teeth_of
+from mechwright_elliptic_gears.gear import (
+    fillet_mill,
+    offset_miss,
+    offsets_that_mesh,
+    outline_of,
+    rack_of,
+    teeth_of,
+)
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import prove
+from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
 
 LEAST_CLEARANCE = 0.1
@@ -44,6 +52,7 @@ def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
         undercut_findings,
         _tip,
         opening_findings,
+        train_findings,
         _drive,
         _mesh,
         _figures,
@@ -275,15 +284,13 @@ def _figures(params: EllipticGearParams) -> Iterator[Finding]:
         None,
         "mm",
     )
-    # The fillet is tightest at its bottom, where the pitch curve is flattest.
-    rack = teeth.rack
-    radius = rack.tip_radius + rack.arc_depth**2 / (teeth.ellipse.greatest_radius + rack.arc_depth)
+    mill = fillet_mill(params)
     yield Finding(
         "gear.fillet",
         Severity.NOTE,
         "",
-        f"the largest end mill that cuts every fillet exactly has a diameter of {2 * radius:.3f} mm",
-        2 * radius,
+        f"the largest end mill that cuts every fillet exactly has a diameter of {mill:.3f} mm",
+        mill,
         None,
         "mm",
     )

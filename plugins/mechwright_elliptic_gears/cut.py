@@ -1,14 +1,15 @@
-"""What the chosen cutters leave of the gear: whether pairs of it still mesh, and whether the key goes in."""
+"""What the chosen cutters leave of the gears: whether pairs still mesh, and whether the keys go in."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechwright.findings import Finding, Severity
+from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.gear import opening_of, outline_of
-from mechwright_elliptic_gears.keyway import Opening
+from mechwright_elliptic_gears.gear_parts import Gear, gears_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.proof import prove_outlines
 
@@ -20,16 +21,33 @@ KEY_FIT = 0.01
 takes up more."""
 
 
-def cut_findings(params: EllipticGearParams, cut: "shapely.Polygon") -> Iterator[Finding]:
-    """Judge the gear with its unreachable corners filled."""
+def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]") -> tuple[Finding, ...]:
+    """Judge the gears with their unreachable corners filled: part name to polygon."""
+    gears = {body: gear for gear in gears_of(params) for body, _ in gear.bodies if gear.name in cut}
+    found: list[Finding] = []
+    for one, other in (
+        (("gear-2", "gear-4"),) if params.stages == 1 else (("gear-2", "gear-3"), ("gear-4", "gear-5"))
+    ):
+        if one in gears and other in gears:
+            found.append(_pair(params, cut[gears[one].name], cut[gears[other].name]))
+    for gear in dict.fromkeys(gears.values()):
+        found += _opening(params, gear, cut[gear.name])
+    return tuple(dict.fromkeys(found))  # both pairs of a train have the same to say
+
+
+def _ring(polygon: "shapely.Polygon") -> Array:
     import shapely
 
-    ring = shapely.get_coordinates(shapely.orient_polygons(shapely.Polygon(cut.exterior)))[:-1]
+    ring: Array = shapely.get_coordinates(shapely.orient_polygons(shapely.Polygon(polygon.exterior)))[:-1]
+    return ring
+
+
+def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Polygon") -> Finding:
     deviation = outline_of(params).deviation
-    proof = prove_outlines(params, ring, 2 * (deviation + TOLERANCES.flatten))
+    proof = prove_outlines(params, _ring(one), 2 * (deviation + TOLERANCES.flatten), _ring(other))
     depth, overlap = float(proof.mesh.depth.max()), proof.mesh.overlap
     if proof.collides:
-        yield Finding(
+        return Finding(
             "gear.cut-mesh",
             Severity.ERROR,
             "cam.tools",
@@ -40,25 +58,23 @@ def cut_findings(params: EllipticGearParams, cut: "shapely.Polygon") -> Iterator
             "mm",
             "add a smaller end mill",
         )
-    else:
-        yield Finding(
-            "gear.cut-mesh",
-            Severity.NOTE,
-            "",
-            f"as cut, the pair meshes: overlap {overlap:g} mm², transmission error "
-            f"{proof.error * 1e6:.1f} µrad",
-            proof.error * 1e6,
-            None,
-            "µrad",
-        )
-    opening = opening_of(params)
-    if opening is not None:
-        yield from _opening(opening, cut)
+    return Finding(
+        "gear.cut-mesh",
+        Severity.NOTE,
+        "",
+        f"as cut, the pair meshes: overlap {overlap:g} mm², transmission error {proof.error * 1e6:.1f} µrad",
+        proof.error * 1e6,
+        None,
+        "µrad",
+    )
 
 
-def _opening(opening: Opening, cut: "shapely.Polygon") -> Iterator[Finding]:
+def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> Iterator[Finding]:
     import shapely
 
+    opening = opening_of(params)
+    if opening is None:
+        return
     holes = [shapely.Polygon(hole) for hole in cut.interiors]
     hole = next((hole for hole in holes if hole.contains(shapely.Point(0, 0))), None)
     if hole is None:
@@ -73,9 +89,12 @@ def _opening(opening: Opening, cut: "shapely.Polygon") -> Iterator[Finding]:
             "add a smaller end mill",
         )
         return
-    if not opening.has_keyway:
+    if gear.key is None:
         return
-    outside = shapely.difference(shapely.Polygon(opening.key_section()), hole)
+    key = shapely.affinity.rotate(
+        shapely.Polygon(opening.key_section()), gear.key, origin=(0, 0), use_radians=True
+    )
+    outside = shapely.difference(key, hole)
     corners = shapely.get_coordinates(outside)
     depth = float(np.max(shapely.distance(hole, shapely.points(corners)), initial=0.0))
     if depth > KEY_FIT:

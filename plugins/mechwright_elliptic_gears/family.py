@@ -1,27 +1,31 @@
 """The family ``elliptic-gears``."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
     from mechwright.motion import Motion
     from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
 
 
 class EllipticGears(Family[EllipticGearParams]):
-    """Two congruent elliptic gears that turn about their foci."""
+    """Congruent elliptic gears that turn about their foci: a pair, or a train of two."""
 
     name = "elliptic-gears"
     title = "Elliptic gears"
-    summary = "A pair of congruent elliptic gears, each turning about a focus, with a varying speed ratio."
+    summary = "A pair of congruent elliptic gears, or a train of two whose coupler draws a figure of eight."
     Params = EllipticGearParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
 
     def check(self, params: EllipticGearParams) -> Sequence[Finding]:
         """Undercut, tips, roots, bore, phase, pressure angle at the shaft, and the mesh proof."""
@@ -36,7 +40,7 @@ class EllipticGears(Family[EllipticGearParams]):
         return motion_of(params, samples)
 
     def parts(self, params: EllipticGearParams) -> "Sequence[Part]":
-        """The gear, which stands in the mechanism twice.
+        """The gears, and of a train all that carries and joins them.
 
         Raises
         ------
@@ -44,17 +48,24 @@ class EllipticGears(Family[EllipticGearParams]):
             ``check`` finds an error; the message is that of the first one.
         """
         from mechwright_elliptic_gears.checks import findings
-        from mechwright_elliptic_gears.gear import part_of
+        from mechwright_elliptic_gears.parts import parts_of
 
         for finding in errors(findings(params)):
             raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-        return (part_of(params),)
+        return parts_of(params)
 
     def check_cut(
         self, params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]"
     ) -> Sequence[Finding]:
         """Whether pairs of the gear as cut still mesh, and its key goes in."""
         from mechwright_elliptic_gears.cut import cut_findings
-        from mechwright_elliptic_gears.gear import PART
 
-        return tuple(cut_findings(params, cut[PART])) if PART in cut else ()
+        return cut_findings(params, cut)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[EllipticGearParams]":
+        """Trains with the longest near-constant speed of Q, or with one at the least acceleration or jerk."""
+        from mechwright_elliptic_gears.synthesis import synthesise
+
+        return synthesise(kind, REQUIREMENTS[kind].model_validate(requirement.model_dump()), progress)

@@ -1,26 +1,16 @@
-"""From the design table to the gear: sizes, teeth, outline and part."""
+"""From the design table to the gear: sizes, teeth and outline."""
 
 import math
 from functools import lru_cache
 
-import numpy as np
-
 from mechwright.errors import GeometryError
-from mechwright.geometry import Loop, Outline
-from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Feature, Instance, Part, Profile
+from mechwright.geometry import Outline
+from mechwright.geometry.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.rack import Rack
 from mechwright_elliptic_gears.teeth import Teeth
-
-PART = "gear"
-"""Name of the part; both gears are this one."""
-
-BODIES = {"gear-2": (0.45, 0.58, 0.70), "gear-4": (0.80, 0.68, 0.42)}
-"""The driving and the driven gear in the motion, each with its colour."""
 
 OFFSET_SLACK = 1e-6
 """Pitches by which a tooth offset may miss: a micrometre in a metre, far below any backlash."""
@@ -51,6 +41,15 @@ def rack_of(params: EllipticGearParams) -> Rack:
         params.tip_radius * module,
         params.backlash,
     )
+
+
+def fillet_mill(params: EllipticGearParams) -> float:
+    """Diameter, mm, of the largest end mill that cuts every fillet exactly.
+
+    A fillet is tightest at its bottom, where the pitch curve is flattest.
+    """
+    rack, depth = rack_of(params), rack_of(params).arc_depth
+    return 2 * (rack.tip_radius + depth**2 / (ellipse_of(params).greatest_radius + depth))
 
 
 def offsets_that_mesh(teeth: int) -> tuple[float, float]:
@@ -112,6 +111,8 @@ def opening_of(params: EllipticGearParams) -> Opening | None:
 def outline_of(params: EllipticGearParams) -> Outline:
     """The outline in the part frame: origin on the axis of rotation, far vertex on +x.
 
+    Its keyway, if there is one, points to the far vertex, and it has no other holes than the bore.
+
     Raises
     ------
     GeometryError
@@ -121,34 +122,3 @@ def outline_of(params: EllipticGearParams) -> Outline:
     outer, deviation = gear_loop(teeth_of(params))
     opening = opening_of(params)
     return Outline(outer, () if opening is None else (opening.loop(),), deviation)
-
-
-def part_of(params: EllipticGearParams) -> Part:
-    """The gear with its features: bore, keyway, then the outside, which tabs may hold at the tips."""
-    outline = outline_of(params)
-    depth = params.thickness
-    features: list[Feature] = []
-    if params.bore > 0:
-        features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
-    if params.keyway_width > 0:
-        features.append(Profile("keyway", outline.inner[0], "inside", 0, depth))
-    features.append(Profile("outside", outline.outer, "outside", 0, depth, _tab_sites(outline.outer)))
-    return Part(
-        PART,
-        outline,
-        params.thickness,
-        params.material,
-        instances=tuple(Instance(body, colour=colour) for body, colour in BODIES.items()),
-        machined=tuple(features),
-    )
-
-
-def _tab_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
-    """The middle of every tip, where a tab's mark touches no flank, and the tip's chord as its limit."""
-    sites = []
-    for segment in loop.segments:
-        if segment.tag == "tip":
-            x, y = segment.at(0.5)[0].tolist()
-            width = float(np.hypot(segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]))
-            sites.append(((x, y), width))
-    return tuple(sites)

@@ -1,4 +1,4 @@
-"""Motion of the pair and of its equivalent coupler, in closed form.
+"""Motion of a pair and of a train of two pairs, in closed form.
 
 Gear 2 turns about O2 = 0, gear 4 about O4 = 2a on the x axis; all angles are counter-clockwise from x, to
 the far vertex of each gear. The other foci J = 2 a e exp(i θ2) and K = 2a + 2 a e exp(i θ4) stay 2a apart:
@@ -12,6 +12,12 @@ the pair moves like a crossed anti-parallelogram with the coupler J-K. With D = 
 * (8) to (11) θ3 = θ2 + θ4 (mod 2π) is the direction of J-K, and ω3, α3 are the sums of the others.
 
 Every angle may be any real number: θ4 falls by 2π for each turn of gear 2.
+
+In a train gear 2 drives gear 3 as above. Gear 4 is fixed to gear 3 and drives gear 5 in the same way:
+
+* (17) θ4 = θ3 + φ. Gears 2 and 3 are turned until θ2 is the phase angle γ, and only then gear 4 is fixed with
+  θ4 = 0, so φ = -θ3(γ), that is tan(φ/2) = (1 + e)/(1 - e) tan(γ/2);
+* (18) to (20) gear 4 has the speed of gear 3, (21) to (23) gear 5 that of (5) to (7) with θ4 as the input.
 """
 
 from dataclasses import dataclass
@@ -20,6 +26,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.motion import Array
+
+Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
+"""Points, directions or vectors as x + i y."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +57,20 @@ class Turning:
         )
 
 
-def driven(gear: Turning, eccentricity: float) -> Turning:
+def ratio(cos: Array, eccentricity: Array | float) -> Array:
+    """Speed ratio f = ω4/ω2 = -(1 - e²)/D at cos θ2: equation (5)."""
+    e = eccentricity
+    f: Array = (e * e - 1) / (1 + e * e - 2 * e * cos)
+    return f
+
+
+def mate_pointer(pointer: Complex, eccentricity: Array | float) -> Complex:
+    """exp(i θ4) from exp(i θ2), without the angles: cos θ4 = ((1 + e²) cos θ2 - 2 e)/D, sin θ4 = f sin θ2."""
+    mate: Complex = np.conj((pointer - eccentricity) / (1 - eccentricity * pointer))
+    return mate
+
+
+def driven(gear: Turning, eccentricity: Array | float) -> Turning:
     """Motion of the gear that ``gear`` drives: equations (5) to (7) and their time derivative.
 
     >>> pair = driven(Turning.of(0.0, 10.0), 0.8)
@@ -59,16 +81,43 @@ def driven(gear: Turning, eccentricity: float) -> Turning:
     turns = np.floor((theta + np.pi) / (2 * np.pi))
     half = (theta - 2 * np.pi * turns) / 2
     angle = 2 * np.pi * (1 - turns) - 2 * np.arctan2((1 + e) * np.sin(half), (1 - e) * np.cos(half))
-    sin, d = np.sin(theta), 1 + e * e - 2 * e * np.cos(theta)
-    f = -(1 - e * e) / d
-    f1 = 2 * e * (1 - e * e) * sin / d**2
-    f2 = 2 * e * (1 - e * e) * (np.cos(theta) / d**2 - 4 * e * sin**2 / d**3)
+    cos, sin = np.cos(theta), np.sin(theta)
+    f = ratio(cos, e)
+    # With f = -(1 - e²)/D the derivatives are f' = 2 e f² sin θ / (1 - e²), and that of the product.
+    twice = 2 * e / (1 - e * e)
+    f1 = twice * f * f * sin
+    f2 = twice * f * (f * cos + 2 * f1 * sin)
     return Turning(
         angle,
         f * gear.omega,
         f1 * gear.omega**2 + f * gear.alpha,
         f2 * gear.omega**3 + 3 * f1 * gear.omega * gear.alpha + f * gear.jerk,
     )
+
+
+def phase_offset(phase: float, eccentricity: float) -> float:
+    """φ = -θ3(γ), rad, by which gear 4 stands ahead of gear 3 on their shaft; it grows by 2π with γ.
+
+    >>> round(phase_offset(np.pi / 2, 0.4), 9)
+    2.331809081
+    """
+    return float(_offset(phase, eccentricity))
+
+
+def _offset(phase: Array | float, eccentricity: Array | float) -> Array:
+    return 2 * np.pi - driven(Turning.of(phase, 0.0), eccentricity).theta
+
+
+def train(
+    gear2: Turning, eccentricity: Array | float, phase: Array | float
+) -> tuple[Turning, Turning, Turning]:
+    """Motion of gears 3, 4 and 5 of a train with the phase angle ``phase``, rad: equations (17) to (23).
+
+    Arrays of eccentricities and phases broadcast with the angles of gear 2.
+    """
+    gear3 = driven(gear2, eccentricity)
+    gear4 = Turning(gear3.theta + _offset(phase, eccentricity), gear3.omega, gear3.alpha, gear3.jerk)
+    return gear3, gear4, driven(gear4, eccentricity)
 
 
 def coupler(gear: Turning, mate: Turning) -> Turning:
@@ -80,33 +129,6 @@ def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[
     """s2 and s4 (n,), mm, from each axis to the pitch point: equations (1) and (2)."""
     s2 = semi_major * (1 - eccentricity**2) / (1 - eccentricity * np.cos(gear.theta))
     return s2, 2 * semi_major - s2
-
-
-@dataclass(frozen=True, slots=True)
-class PointMotion:
-    """Position (n,) mm, velocity mm/s, acceleration mm/s² of a point, as complex numbers x + i y."""
-
-    position: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
-    velocity: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
-    acceleration: np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
-
-    @property
-    def speed(self) -> Array:
-        """Magnitude of the velocity (n,), mm/s."""
-        return np.abs(self.velocity)
-
-
-def coupler_midpoint(gear: Turning, mate: Turning, semi_major: float, eccentricity: float) -> PointMotion:
-    """Motion of Q, the middle of the coupler: (J + K)/2 = a + a e (exp(i θ2) + exp(i θ4))."""
-    arm = semi_major * eccentricity
-    total = semi_major + 0j
-    velocity, acceleration = 0j, 0j
-    for turning in (gear, mate):
-        pointer = arm * np.exp(1j * turning.theta)
-        total = total + pointer
-        velocity = velocity + 1j * turning.omega * pointer
-        acceleration = acceleration + (1j * turning.alpha - turning.omega**2) * pointer
-    return PointMotion(np.asarray(total), np.asarray(velocity), np.asarray(acceleration))
 
 
 def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: float) -> Array:

@@ -1,35 +1,32 @@
-"""The motion of a design: channels, poses and figures over one turn of gear 2."""
+"""The motion of a design: channels and poses over one turn of gear 2; its figures stand in ``figures``."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Mapping
 
 import numpy as np
 
 from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Poses, Scalar
-from mechwright_elliptic_gears.gear import BODIES, ellipse_of
+from mechwright.motion import Array, Channel, Motion, Poses
+from mechwright_elliptic_gears.figures import figures
+from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
-    coupler_midpoint,
     driven,
     pitch_radii,
     shaft_pressure_angle,
-    steepest_shaft_pressure_angle,
+    train,
 )
+from mechwright_elliptic_gears.layout import DOWELS, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.window import near_constant
-
-BAND = 0.02
-"""Width of the band of near-constant speed of Q over a ω2: the 10 mm/s at a = 50 mm and 10 rad/s with which
-the published pairs are compared."""
-
-_PEAK_SAMPLES = 2048
-"""Grid that finds a peak; twice refined by its own step it is exact to 1e-9 of a turn."""
+from mechwright_elliptic_gears.point import PointMotion, place, point_of_coupler
 
 
 def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     """Sample one turn of gear 2 at constant speed, both ends included.
+
+    The origin is the axis of the coupler's gear 2 (single pair) or 4 (train), the axis of its mate lies at
+    2a on x; gear 2 of a train turns about (-2a, 0).
 
     Raises
     ------
@@ -42,83 +39,89 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     omega = params.speed * math.tau / 60
     theta2 = np.linspace(0, math.tau, samples)
     gear2 = Turning.of(theta2, omega)
-    gear4 = driven(gear2, e)
-    link = coupler(gear2, gear4)
-    s2, s4 = pitch_radii(gear2, a, e)
-    q = coupler_midpoint(gear2, gear4, a, e)
+    phase = params.phase_angle
+    turning: dict[str, Turning] = {"2": gear2}
+    if phase is None:
+        first, second, link = gear2, driven(gear2, e), "3"
+        turning |= {"4": second}
+        inputs = [gear2]
+    else:
+        gear3, first, second = train(gear2, e, phase)
+        turning |= {"3": gear3, "4": first, "5": second}
+        link, inputs = "6", [gear2, first]
+    turning[link] = coupler(first, second)
+    q = point_of_coupler(first, second, a, e, place(params.point_along, params.point_across, a))
     channels = {"time": Channel(theta2 / omega, "s")}
-    for number, turning in (("2", gear2), ("4", gear4), ("3", link)):
+    for number, one in turning.items():
         channels |= {
-            f"theta{number}": Channel(turning.theta, "rad"),
-            f"omega{number}": Channel(turning.omega, "rad/s"),
-            f"alpha{number}": Channel(turning.alpha, "rad/s^2"),
-            f"jerk{number}": Channel(turning.jerk, "rad/s^3"),
+            f"theta{number}": Channel(one.theta, "rad"),
+            f"omega{number}": Channel(one.omega, "rad/s"),
+            f"alpha{number}": Channel(one.alpha, "rad/s^2"),
+            f"jerk{number}": Channel(one.jerk, "rad/s^3"),
         }
-    channels |= {
-        "ratio": Channel(gear4.omega / gear2.omega, ""),
-        "s2": Channel(s2, "mm"),
-        "s4": Channel(s4, "mm"),
-        "xQ": Channel(q.position.real, "mm"),
-        "yQ": Channel(q.position.imag, "mm"),
-        "vxQ": Channel(q.velocity.real, "mm/s"),
-        "vyQ": Channel(q.velocity.imag, "mm/s"),
-        "vQ": Channel(q.speed, "mm/s"),
-        "axQ": Channel(q.acceleration.real, "mm/s^2"),
-        "ayQ": Channel(q.acceleration.imag, "mm/s^2"),
-        "aQ": Channel(np.abs(q.acceleration), "mm/s^2"),
-        "pressure_angle": Channel(shaft_pressure_angle(gear2, e, math.radians(params.pressure_angle)), "rad"),
-    }
-    still = 2 * a * e
-    first, second = BODIES
-    poses = {
-        first: Poses.planar(0.0, 0.0, gear2.theta),
-        second: Poses.planar(2 * a, 0.0, gear4.theta),
-        "coupler": Poses.planar(still * np.cos(theta2), still * np.sin(theta2), link.theta),
-    }
-    return Motion("theta2", channels, poses, _figures(params, a, omega))
+    channels["ratio"] = Channel(second.omega / omega, "")
+    if phase is None:
+        s2, s4 = pitch_radii(gear2, a, e)
+        channels |= {"s2": Channel(s2, "mm"), "s4": Channel(s4, "mm")}
+    channels |= _point_channels(q)
+    alpha = math.radians(params.pressure_angle)
+    steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
+    channels["pressure_angle"] = Channel(steepest, "rad")
+    poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
+    return Motion("theta2", channels, poses, figures(params))
 
 
-def _figures(params: EllipticGearParams, a: float, omega: float) -> dict[str, Scalar]:
-    e = params.eccentricity
-
-    def pair(theta2: Array) -> tuple[Turning, Turning]:
-        gear2 = Turning.of(theta2, omega)
-        return gear2, driven(gear2, e)
-
-    def speed(theta2: Array) -> Array:
-        return coupler_midpoint(*pair(theta2), a, e).speed
-
-    window = near_constant(speed, BAND * a * omega)
+def _point_channels(q: PointMotion) -> dict[str, Channel]:
     return {
-        "centre_distance": Scalar(2 * a, "mm"),
-        "ratio_max": Scalar((1 + e) / (1 - e), ""),
-        "ratio_min": Scalar((1 - e) / (1 + e), ""),
-        "omega4_max": Scalar(omega * (1 + e) / (1 - e), "rad/s"),
-        "alpha4_max": Scalar(peak(lambda t: np.abs(pair(t)[1].alpha)), "rad/s^2"),
-        "jerk4_max": Scalar(peak(lambda t: np.abs(pair(t)[1].jerk)), "rad/s^3"),
-        "vQ_max": Scalar(peak(speed), "mm/s"),
-        "aQ_max": Scalar(peak(lambda t: np.abs(coupler_midpoint(*pair(t), a, e).acceleration)), "mm/s^2"),
-        "window_start": Scalar(window.start, "rad"),
-        "window_length": Scalar(window.length, "rad"),
-        "window_speed": Scalar(window.low, "mm/s"),
-        "pressure_angle_max": Scalar(
-            steepest_shaft_pressure_angle(e, math.radians(params.pressure_angle)), "rad"
-        ),
+        "Q.x": Channel(q.position.real, "mm"),
+        "Q.y": Channel(q.position.imag, "mm"),
+        "Q.velocity.x": Channel(q.velocity.real, "mm/s"),
+        "Q.velocity.y": Channel(q.velocity.imag, "mm/s"),
+        "Q.speed": Channel(q.speed, "mm/s"),
+        "Q.acceleration.x": Channel(q.acceleration.real, "mm/s^2"),
+        "Q.acceleration.y": Channel(q.acceleration.imag, "mm/s^2"),
+        "Q.acceleration": Channel(np.abs(q.acceleration), "mm/s^2"),
+        "Q.jerk.x": Channel(q.jerk.real, "mm/s^3"),
+        "Q.jerk.y": Channel(q.jerk.imag, "mm/s^3"),
+        "Q.jerk": Channel(np.abs(q.jerk), "mm/s^3"),
     }
 
 
-def peak(function: Callable[[Array], Array]) -> float:
-    """Greatest value of a smooth function of period 2π, independent of any sampling of the motion.
+def _pair_poses(turning: Mapping[str, Turning], a: float, e: float) -> dict[str, Poses]:
+    theta2, theta4 = turning["2"].theta, turning["4"].theta
+    return {
+        "gear-2": Poses.planar(0.0, 0.0, theta2),
+        "gear-4": Poses.planar(2 * a, 0.0, theta4),
+        "coupler": Poses.planar(*_free_focus(theta2, a, e), turning["3"].theta),
+    }
 
-    >>> round(peak(lambda t: 3 + np.sin(t - 1)), 12)
-    4.0
-    """
-    centre, half = math.pi, math.pi
-    best = -math.inf
-    for _ in range(3):
-        at = centre + half * np.linspace(-1, 1, _PEAK_SAMPLES + 1)
-        values = function(at)
-        top = int(np.argmax(values))
-        best = max(best, float(values[top]))
-        centre, half = float(at[top]), half * 2 / _PEAK_SAMPLES
-    return best
+
+def _train_poses(params: EllipticGearParams, turning: Mapping[str, Turning]) -> dict[str, Poses]:
+    """Gears, coupler, joints (their pins turn with gears 4 and 5), dowels, and what stands still."""
+    layout = Layout.of(params)
+    a, e = layout.semi_major, layout.eccentricity
+    theta4, theta5 = turning["4"].theta, turning["5"].theta
+    j, k = _free_focus(theta4, a, e), _free_focus(theta5, a, e)
+    still, theta3 = np.zeros_like(theta4), turning["3"].theta
+    radius = layout.dowel_circle / 2
+    dowels = {} if params.keyway_width > 0 else DOWELS
+    return {
+        "base": Poses.planar(0.0, 0.0, still),
+        "gear-2": Poses.planar(-2 * a, 0.0, turning["2"].theta),
+        "gear-3": Poses.planar(0.0, 0.0, theta3),
+        "gear-4": Poses.planar(0.0, 0.0, theta4),
+        "gear-5": Poses.planar(2 * a, 0.0, theta5),
+        "coupler": Poses.planar(*j, turning["6"].theta),
+        "joint-j": Poses.planar(*j, theta4),
+        "joint-k": Poses.planar(k[0] + 2 * a, k[1], theta5),
+        "axis-2": Poses.planar(-2 * a, 0.0, still),
+        "axis-5": Poses.planar(2 * a, 0.0, still),
+        **{
+            name: Poses.planar(radius * np.cos(theta3 + at), radius * np.sin(theta3 + at), theta3)
+            for name, at in dowels.items()
+        },
+    }
+
+
+def _free_focus(theta: Array, a: float, e: float) -> tuple[Array, Array]:
+    return 2 * a * e * np.cos(theta), 2 * a * e * np.sin(theta)

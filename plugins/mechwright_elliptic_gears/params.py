@@ -1,8 +1,9 @@
-"""The design table of a pair of elliptic gears."""
+"""The design table of a pair, or of a train of two pairs, of elliptic gears."""
 
+import math
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from mechwright.materials import MATERIALS, material
 from mechwright.parameters import Parameters
@@ -18,14 +19,34 @@ MaterialName = Annotated[
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
 
+LEAST_TEETH = 6
+"""Fewer have no room for a root and a shaft."""
+
 MOST_TEETH = 300
 """More teeth say nothing new and take minutes to prove and to cut."""
 
 
-class EllipticGearParams(Parameters):
-    """Two congruent elliptic gears, each turning about one focus of its pitch ellipse.
+OFF_LINE = 2000
+"""mm. Bound of ``point_across``: twice the largest ``semi_major``; ``check`` knows the coupler's reach."""
 
-    Lengths of the tooth profile are in modules. ``check`` says what cannot be built.
+TRAIN_ONLY = (
+    "phase",
+    "gap",
+    "pin_diameter",
+    "coupler_thickness",
+    "tracer_diameter",
+    "base_thickness",
+    "dowel_diameter",
+    "dowel_circle",
+)
+"""Fields that a single pair has no use for."""
+
+
+class EllipticGearParams(Parameters):
+    """Congruent elliptic gears, each turning about one focus of its pitch ellipse: a pair, or a train of two.
+
+    Lengths of the tooth profile are in modules. Fields that are left out have the value that their
+    description or :mod:`mechwright_elliptic_gears.layout` says. ``check`` says what cannot be built.
 
     Examples
     --------
@@ -33,13 +54,19 @@ class EllipticGearParams(Parameters):
     True
     """
 
+    stages: int = Field(
+        1, ge=1, le=2, description="1: gears 2 and 4; 2: a train of gears 2 and 3, 4 and 5, with its coupler."
+    )
+    phase: Annotated[float, Field(ge=0, le=360), Unit("deg")] | None = Field(
+        None, description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90."
+    )
     eccentricity: Ratio = Field(
         0.4,
         ge=0,
         le=0.9,  # at 0.9 the ratio swings from 1:19 to 19:1
         description="Eccentricity of the pitch ellipse; the speed ratio swings up to (1 + e) / (1 - e).",
     )
-    teeth: int = Field(25, ge=6, le=MOST_TEETH, description="Number of teeth of each gear.")
+    teeth: int = Field(25, ge=LEAST_TEETH, le=MOST_TEETH, description="Number of teeth of each gear.")
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
         None, description="Pitch on the ellipse over π; give this or semi_major."
     )
@@ -82,6 +109,47 @@ class EllipticGearParams(Parameters):
         description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
     )
     speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of gear 2.")
+    point_along: Ratio = Field(
+        0.5, ge=-1, le=2, description="Where point Q stands along the coupler: 0 at J, 1 at K."
+    )
+    point_across: Millimetres = Field(
+        0.0, ge=-OFF_LINE, le=OFF_LINE, description="Distance of Q from the line J-K, to its left."
+    )
+    band: Annotated[float, Field(gt=0, le=1e6), Unit("mm/s")] | None = Field(
+        None,
+        description="Spread of Q's speed that still counts as constant; left out, 0.02 semi_major × speed.",
+    )
+    gap: Annotated[float, Field(ge=0.2, le=50), Unit("mm")] | None = Field(
+        None, description="Height of the spacers between the plates of a train; left out, 2."
+    )
+    pin_diameter: Annotated[float, Field(ge=0.5, le=100), Unit("mm")] | None = Field(
+        None, description="Joints J and K of the coupler; left out, half the bore."
+    )
+    coupler_thickness: Annotated[float, Field(ge=0.3, le=100), Unit("mm")] | None = Field(
+        None, description="Plate of the coupler; left out, 6."
+    )
+    tracer_diameter: Annotated[float, Field(ge=0, le=100), Unit("mm")] | None = Field(
+        None, description="Hole at Q for a pen or a tool, 0 for none; left out, the pin's."
+    )
+    base_thickness: Annotated[float, Field(ge=0.3, le=200), Unit("mm")] | None = Field(
+        None, description="Base plate; left out, 10."
+    )
+    dowel_diameter: Annotated[float, Field(ge=0.5, le=50), Unit("mm")] | None = Field(
+        None,
+        description="Three dowels that join gears 3 and 4 without a key; left out, a third of the bore.",
+    )
+    dowel_circle: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
+        None, description="Diameter of the circle of the dowels; left out, as small as the spacer allows."
+    )
+
+    @field_validator("band", mode="before")
+    @classmethod
+    def _band_has_a_width(cls, value: Any) -> Any:
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and value <= 0:
+            raise ValueError(
+                "is no spread of speeds; give one above 0 mm/s, or leave it out for 0.02 semi_major × speed"
+            )
+        return value
 
     @model_validator(mode="before")
     @classmethod
@@ -98,4 +166,22 @@ class EllipticGearParams(Parameters):
             raise ValueError("keyway_width needs a bore; set bore, or keyway_width = 0")
         if self.keyway_width == 0 and (self.keyway_depth is not None or self.keyway_relief > 0):
             raise ValueError("keyway_depth and keyway_relief need a keyway; set keyway_width")
+        if self.stages == 1:
+            for name in TRAIN_ONLY:
+                if getattr(self, name) is not None:
+                    raise ValueError(f"{name} belongs to a train; set stages = 2, or leave it out")
+        elif self.bore == 0:
+            raise ValueError("stages = 2 needs shafts; set bore")
+        elif self.keyway_width > 0 and (self.dowel_diameter or self.dowel_circle):
+            raise ValueError(
+                "dowel_diameter and dowel_circle are for gears without a key; leave them out, "
+                "or set keyway_width = 0"
+            )
         return self
+
+    @property
+    def phase_angle(self) -> float | None:
+        """Phase angle γ, rad; None for a single pair."""
+        if self.stages == 1:
+            return None
+        return math.radians(90.0 if self.phase is None else self.phase)

@@ -59,13 +59,15 @@ def prove(params: EllipticGearParams) -> MeshProof:
     return prove_outlines(params, outline.outer.flatten(tolerance), 2 * (outline.deviation + tolerance))
 
 
-def prove_outlines(params: EllipticGearParams, points: Array, allowance: float) -> MeshProof:
-    """Run an outline (n, 2), mm, counter-clockwise, part frame, against its copy.
+def prove_outlines(
+    params: EllipticGearParams, points: Array, allowance: float, mate: Array | None = None
+) -> MeshProof:
+    """Run an outline (n, 2), mm, counter-clockwise, part frame, against that of its mate, or its copy.
 
     ``allowance`` is the depth, mm, that the making of the outline itself can cause.
     """
     teeth = teeth_of(params)
-    result = mesh(points, points, teeth.ellipse, teeth.count, allowance=allowance)
+    result = mesh(points, points if mate is None else mate, teeth.ellipse, teeth.count, allowance=allowance)
     normal = teeth.rack.backlash / 2 * math.cos(teeth.rack.pressure_angle)
     levers = contact_levers(teeth.ellipse, result.theta2, teeth.rack.pressure_angle)
     flanks = list(zip((result.ahead, result.behind), levers, strict=True))

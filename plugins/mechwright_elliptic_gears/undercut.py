@@ -23,7 +23,10 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
     space, side = np.unravel_index(int(np.argmin(factor)), factor.shape)
     better = least_teeth(params)
     if better is None:
-        remedy = "use a smaller eccentricity or dedendum, or a larger pressure_angle"
+        remedy = "use a smaller dedendum or a larger pressure_angle"
+        most = greatest_eccentricity(params)
+        if most is not None:
+            remedy = f"make eccentricity at most {most:g}, which some number of teeth can have, or {remedy}"
     else:
         remedy = f"use {better.teeth} teeth, the least number that works"
         if params.semi_major is not None:
@@ -40,6 +43,28 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
         "",
         remedy,
     )
+
+
+def greatest_eccentricity(params: EllipticGearParams) -> float | None:
+    """The greatest smaller eccentricity with which some number of teeth is free of undercut, to 0.001.
+
+    Finer teeth are cut less deeply into an ellipse of the same size, so the greatest number decides.
+    """
+    teeth = MOST_TEETH
+    while params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
+        teeth -= 1
+
+    def works(thousandths: int) -> bool:
+        finest = params.model_copy(update={"teeth": teeth, "eccentricity": thousandths / 1000})
+        return rack_of(finest).dedendum < teeth_of(finest).ellipse.least_radius and not is_undercut(finest)
+
+    good, bad = 0, math.ceil(params.eccentricity * 1000)
+    if not works(good):
+        return None
+    while bad - good > 1:
+        middle = (good + bad) // 2
+        good, bad = (middle, bad) if works(middle) else (good, middle)
+    return good / 1000
 
 
 def is_undercut(params: EllipticGearParams) -> bool:

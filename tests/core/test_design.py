@@ -118,7 +118,7 @@ MISTAKES = {
     "library is no file name": (PREFIX + '[cam]\ntool_library = "a\\u0000"\n', "is no file: embedded null"),
     "work offset": (
         PREFIX + "[cam]\nwork_offset = 'G53'\n",
-        "cam.work_offset: 'G53' should be 'G54', 'G55', 'G56'",
+        "cam.work_offset: 'G53' should be G54 to G59",
     ),
     "no list": (PREFIX + "[cam]\ntools = 'mill-6'\n", "cam.tools: 'mill-6' should be a list"),
     "format is true": ("format = true\n" + PREFIX, "format: True is not known"),

@@ -9,13 +9,16 @@ from mechwright.testing.imports import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 
+ON_DEMAND = ("mechwright.testing", "mechwright.algebra")
+"""Packages that only those import who use them, with what they need."""
+
 
 def core_modules():
     found = pkgutil.walk_packages(mechwright.__path__, "mechwright.")
     return [
         item.name
         for item in found
-        if not item.name.startswith("mechwright.testing") and not item.name.endswith("__main__")
+        if not item.name.startswith(ON_DEMAND) and not item.name.endswith("__main__")
     ]
 
 

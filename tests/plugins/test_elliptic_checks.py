@@ -10,8 +10,8 @@ from pydantic import ValidationError
 
 from mechwright.errors import DesignError
 from mechwright.findings import Severity, errors
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore
 from mechwright_elliptic_gears.family import EllipticGears
-from mechwright_elliptic_gears.keyway import KEYS, Opening, key_for_bore
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params

@@ -12,9 +12,9 @@ PAGE = (ROOT / "docs" / "elliptic-gears.md").read_text(encoding="utf-8")
 def test_every_finding_is_on_the_page_and_no_other() -> None:
     sources = (ROOT / "plugins" / "mechwright_elliptic_gears").glob("*.py")
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
-    said = set(re.findall(r'"((?:gear|bore)\.[a-z-]+)"', code))
+    said = set(re.findall(r'"((?:gear|bore|point|train|synthesis)\.[a-z-]+)"', code))
     assert said
-    assert set(re.findall(r"`((?:gear|bore)\.[a-z-]+)`", PAGE)) == said
+    assert set(re.findall(r"`((?:gear|bore|point|train|synthesis)\.[a-z-]+)`", PAGE)) == said
 
 
 def test_every_parameter_is_on_the_page_with_its_default() -> None:

@@ -137,32 +137,59 @@ PERTURBED = {
     "keyway_depth": 3.1,
     "keyway_relief": 2.0,
     "speed": 61.0,
+    "point_along": 0.4,
+    "point_across": 3.0,
+    "band": 7.0,
 }
+
+TRAIN = {"stages": 2, "teeth": 25, "bore": 12.0}
+TRAIN_PERTURBED = {
+    "phase": 91.0,
+    "gap": 3.0,
+    "pin_diameter": 8.0,
+    "coupler_thickness": 5.0,
+    "tracer_diameter": 4.0,
+    "base_thickness": 12.0,
+    "dowel_diameter": 3.0,
+    "dowel_circle": 26.0,
+}
+
+
+def results(params):
+    motion = FAMILY.solve(params, 5)
+    return (
+        [
+            (part.name, part.outline, part.thickness, part.material, part.instances)
+            for part in FAMILY.parts(params)
+        ],
+        [part.build().Volume() for part in FAMILY.parts(params) if part.build],
+        motion.scalars,
+        [channel.values.tolist() for channel in motion.channels.values()],
+    )
 
 
 @pytest.mark.parametrize("name", [*PERTURBED, "module"])
 def test_every_parameter_changes_a_result(name):
-    base = Params(**KEYED)
-    table = KEYED | ({"module": 3.0} if name == "module" else {name: PERTURBED[name]})
-    other = Params(**table)
+    base = results(Params(**KEYED))
+    other = KEYED | ({"module": 3.0} if name == "module" else {name: PERTURBED[name]})
+    assert base != results(Params(**other))
+    assert base == results(Params(**KEYED))
 
-    def results(params):
-        (part,) = FAMILY.parts(params)
-        motion = FAMILY.solve(params, 5)
-        return (
-            part.outline,
-            part.thickness,
-            part.material,
-            motion.scalars,
-            [channel.values.tolist() for channel in motion.channels.values()],
-        )
 
-    assert results(base) != results(other)
-    assert results(base) == results(Params(**KEYED))
+@pytest.mark.parametrize("name", TRAIN_PERTURBED)
+def test_every_parameter_of_a_train_changes_a_result(name):
+    base = results(Params(**TRAIN))
+    assert base != results(Params(**TRAIN | {name: TRAIN_PERTURBED[name]}))
+    with pytest.raises(ValidationError, match=f"{name} belongs to a train"):
+        Params(**{name: TRAIN_PERTURBED[name]})
+
+
+def test_a_train_is_no_pair():
+    assert results(Params(**TRAIN)) != results(Params(**TRAIN | {"stages": 1}))
 
 
 def test_all_fields_are_perturbed():
-    assert {*PERTURBED, "module"} == set(Params.model_fields)
+    assert {*PERTURBED, *TRAIN_PERTURBED, "module", "stages"} == set(Params.model_fields)
 
 
 def cut(params, radius):

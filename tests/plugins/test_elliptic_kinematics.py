@@ -12,13 +12,13 @@ from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
-    coupler_midpoint,
     driven,
     pitch_radii,
     shaft_pressure_angle,
     steepest_shaft_pressure_angle,
 )
-from mechwright_elliptic_gears.motion import peak
+from mechwright_elliptic_gears.peak import peak
+from mechwright_elliptic_gears.point import point_of_coupler
 from mechwright_elliptic_gears.window import near_constant
 
 Params = EllipticGears.Params
@@ -77,7 +77,7 @@ def test_derivatives_agree_with_differences_for_any_input_motion(e, theta, omega
 def test_the_midpoint_moves_as_its_velocity_says(e, theta):
     def q(t):
         gear2 = Turning.of(theta + 2.0 * t, 2.0)
-        return coupler_midpoint(gear2, driven(gear2, e), 10.0, e)
+        return point_of_coupler(gear2, driven(gear2, e), 10.0, e)
 
     here = q(np.array(0.0))
     limit = 1e-6 / (1 - e) ** 6
@@ -147,10 +147,10 @@ def test_motion_channels_are_the_equations():
     assert value["theta3"] == pytest.approx(value["theta2"] + value["theta4"])
     assert value["omega3"] == pytest.approx(value["omega2"] + value["omega4"])
     assert value["ratio"] == pytest.approx(-value["s2"] / value["s4"])
-    assert np.hypot(value["vxQ"], value["vyQ"]) == pytest.approx(value["vQ"])
+    assert np.hypot(value["Q.velocity.x"], value["Q.velocity.y"]) == pytest.approx(value["Q.speed"])
     # vQ of a pair equals that of a train with phase π, whose extremes are known in closed form.
-    assert motion.scalars["vQ_max"].value == pytest.approx(907.114735222146)
-    assert motion.scalars["aQ_max"].value == pytest.approx(51000.0)
+    assert motion.scalars["Q.speed.max"].value == pytest.approx(907.114735222146)
+    assert motion.scalars["Q.acceleration.max"].value == pytest.approx(51000.0)
     assert motion.scalars["omega4_max"].value == pytest.approx(40.0)
 
 
@@ -178,4 +178,4 @@ def test_too_few_samples_are_refused():
 
 
 def test_peak_of_a_narrow_hill():
-    assert peak(lambda t: 1 / (1.001 - np.cos(t - 2.34567))) == pytest.approx(1000.0, rel=1e-9)
+    assert peak(lambda t: 1 / (1.001 - np.cos(t - 2.34567))).value == pytest.approx(1000.0, rel=1e-9)

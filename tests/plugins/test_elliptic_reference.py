@@ -10,17 +10,20 @@ import shapely
 
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
-    coupler_midpoint,
     driven,
+    phase_offset,
     pitch_radii,
     steepest_shaft_pressure_angle,
+    train,
 )
-from mechwright_elliptic_gears.motion import peak
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.peak import peak
+from mechwright_elliptic_gears.point import point_of_coupler
 from mechwright_elliptic_gears.teeth import SIDES
 from mechwright_elliptic_gears.window import near_constant
 
@@ -32,8 +35,56 @@ TEETH = teeth_of(REFERENCE)
 CENTRE = np.array([TEETH.ellipse.focal_distance, 0.0])
 
 
+ANGLES = {"0": 0.0, "pi/4": math.pi / 4, "pi/2": math.pi / 2, "3pi/4": 3 * math.pi / 4, "pi": math.pi}
+
+
 def angle(value):
-    return math.pi if value == "pi" else float(value)
+    return ANGLES[value] if isinstance(value, str) else float(value)
+
+
+def gears(inputs):
+    return train(Turning.of(inputs["theta2"], inputs["omega2"]), inputs["e"], angle(inputs["gamma"]))
+
+
+def q_of_train(inputs):
+    return point_of_coupler(*gears(inputs)[1:], inputs["a"], inputs["e"])
+
+
+def xy(number):
+    return [float(number.real), float(number.imag)]
+
+
+def design(inputs):
+    return EllipticGearParams(
+        stages=2,
+        phase=math.degrees(angle(inputs["gamma"])),
+        eccentricity=inputs["e"],
+        semi_major=inputs["a"],
+        speed=inputs["omega2"] * 60 / math.tau,
+        band=inputs.get("band"),
+        bore=12,
+    )
+
+
+def window(inputs):
+    return point_window(design(inputs))
+
+
+def middle(inputs, theta):
+    """The middle's path about its centre, which does not depend on the phase."""
+    return point_of_coupler(*train(Turning.of(theta, 1.0), inputs["e"], 1.0)[1:], inputs["a"], inputs["e"])
+
+
+def farthest(inputs, of):
+    return peak(lambda theta: np.abs(of(middle(inputs, theta).position - inputs["a"]))).value
+
+
+def lobes(inputs):
+    """Area of both lobes, which are run round in opposite ways: ∮ |x dy - y dx| / 2."""
+    theta = np.linspace(0, math.tau, 20000, endpoint=False)
+    path = middle(inputs, theta)
+    swept = np.conj(path.position - inputs["a"]) * path.velocity
+    return float(np.abs(swept.imag).mean() * math.pi)
 
 
 def pair(inputs):
@@ -44,7 +95,7 @@ def pair(inputs):
 def speed_of_q(inputs):
     def speed(theta2):
         gear2 = Turning.of(theta2, inputs["omega2"])
-        return coupler_midpoint(gear2, driven(gear2, inputs["e"]), inputs["a"], inputs["e"]).speed
+        return point_of_coupler(gear2, driven(gear2, inputs["e"]), inputs["a"], inputs["e"]).speed
 
     return speed
 
@@ -136,8 +187,26 @@ CASES = {
     "pair.s4": lambda i: float(pitch_radii(Turning.of(i["theta2"], 0), i["a"], i["e"])[1]),
     "pair.coupler_angle_mod_2pi": lambda i: float(coupler(*pair(i)).theta) % math.tau,
     "pair.omega3_coupler": lambda i: float(coupler(*pair(i)).omega),
+    "train.phi_mod_2pi": lambda i: phase_offset(angle(i["gamma"]), i["e"]) % math.tau,
+    "train.theta4": lambda i: float(gears(i)[1].theta) % math.tau,
+    "train.theta5": lambda i: float(gears(i)[2].theta) % math.tau,
+    "train.omega4": lambda i: float(gears(i)[1].omega),
+    "train.omega5": lambda i: float(gears(i)[2].omega),
+    "train.alpha4": lambda i: float(gears(i)[1].alpha),
+    "train.alpha5": lambda i: float(gears(i)[2].alpha),
+    "train.Q_xy": lambda i: xy(q_of_train(i).position),
+    "train.vQ_xy": lambda i: xy(q_of_train(i).velocity),
+    "train.aQ_xy": lambda i: xy(q_of_train(i).acceleration),
+    "trace.half_length_x": lambda i: farthest(i, np.real),
+    "trace.half_height_y": lambda i: farthest(i, np.imag),
+    "trace.area_both_lobes": lobes,
+    "table3.vQ_max": lambda i: point_peaks(design(i))["speed"].value,
+    "table3.aQ_max": lambda i: point_peaks(design(i))["acceleration"].value / 1000,
+    "table2.window_length": lambda i: window(i).length,
+    "table2.window_start_end": lambda i: [window(i).start, window(i).start + window(i).length],
+    "table2.window_vmin": lambda i: window(i).low,
     "single.window_length": lambda i: near_constant(speed_of_q(i), i["band"]).length,
-    "single.vQ_max": lambda i: peak(speed_of_q(i)),
+    "single.vQ_max": lambda i: peak(speed_of_q(i)).value,
     "gear.a": lambda i: TEETH.ellipse.semi_major,
     "gear.b": lambda i: TEETH.ellipse.semi_minor,
     "gear.c": lambda i: TEETH.ellipse.focal_distance,
@@ -175,7 +244,7 @@ def test_fact(fact):
 
 def test_every_fact_is_looked_at():
     assert {fact["name"] for fact in FACTS} == set(CASES)
-    assert len(FACTS) == 61
+    assert len(FACTS) == 158
 
 
 def test_gear_teeth():

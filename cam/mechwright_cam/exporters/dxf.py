@@ -1,12 +1,13 @@
 """DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
 
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
-``OPENING`` all others, ``CENTRE`` the axes of the part and its bores, ``TEXT`` a line that says what it is.
+``OPENING`` all others, ``POCKET`` the edges of recesses as far as they lie on the plate, ``CENTRE`` the axes
+of the part and its bores, ``TEXT`` lines that say what it is.
 """
 
 import io
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -15,8 +16,10 @@ from ezdxf._options import options
 from ezdxf.filemanagement import new
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
-from mechwright.part import Part
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
+from mechwright.geometry.trim import stretches
+from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.exporters.curves import cubic, vertices
 from mechwright_cam.exporters.formats import Curves
@@ -29,6 +32,7 @@ LAYERS = {
     "OUTLINE": (7, "CONTINUOUS", 35),
     "BORE": (5, "CONTINUOUS", 35),
     "OPENING": (4, "CONTINUOUS", 35),
+    "POCKET": (3, "CONTINUOUS", 25),
     "CENTRE": (1, "CENTER", 18),
     "TEXT": (8, "CONTINUOUS", 18),
 }
@@ -54,11 +58,21 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
-    return drawing(part.outline, f"{part.name}, {part.material}, {part.thickness:g} mm", curves)
+    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part))]
+    return drawing(part.outline, "\n".join(text), curves, blind(part))
 
 
-def drawing(outline: Outline, text: str = "", curves: Curves = "spline") -> bytes:
-    """The drawing of an outline, with a line of text below it."""
+def _note(feature: Feature) -> str:
+    """What the plan view cannot show of a recess."""
+    if feature.top > 0:
+        return f"{feature.name}: from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
+    return f"{feature.name}: {feature.depth:g} mm deep"
+
+
+def drawing(
+    outline: Outline, text: str = "", curves: Curves = "spline", recesses: Sequence[Feature] = ()
+) -> bytes:
+    """The drawing of an outline and of the recesses in it, with lines of text below."""
     with _fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
@@ -69,16 +83,45 @@ def drawing(outline: Outline, text: str = "", curves: Curves = "spline") -> byte
         _loop(space, outline.outer, "OUTLINE", curves)
         for loop in outline.inner:
             _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
-        _centres(space, outline)
+        for feature in recesses:
+            _recess(space, feature, outline, curves)
+        _centres(space, outline, [f for f in recesses if isinstance(f, Bore)])
         _frame(document, outline)
         x0, y0, _, _ = outline.bounds
-        if text:
-            place = (x0, y0 - 2 * TEXT_HEIGHT)
-            space.add_text(text, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
+        for row, line in enumerate(text.splitlines()):
+            place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
+            space.add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
         _order_classes(document)
         stream = io.StringIO()
         document.write(stream)
     return stream.getvalue().encode(document.output_encoding)
+
+
+def _recess(space: "Modelspace", feature: Feature, outline: Outline, curves: Curves) -> None:
+    """The edges of a recess, cut off where it is open."""
+    match feature:
+        case Bore():
+            loops: tuple[Loop, ...] = (Loop((circle(feature.centre, feature.diameter / 2),)),)
+        case Profile():
+            loops = (feature.loop,)
+        case Pocket():
+            loops = (feature.boundary, *feature.islands)
+    attributes = {"layer": "POCKET"}
+    for loop in loops:
+        edges = stretches(loop, outline.polygon())
+        if edges == list(loop.segments):
+            _loop(space, loop, "POCKET", curves)
+            continue
+        for edge in edges:
+            if curves in ("spline", "spline3"):
+                _segment(space, edge, attributes, simple=curves == "spline3")
+                continue
+            if curves == "polyline":
+                rows = [(x, y, 0.0) for x, y in edge.flatten(TOLERANCES.outline).tolist()]
+            else:
+                rows = [(corner.x, corner.y, corner.bulge) for corner in vertices(edge, TOLERANCES.arc_fit)]
+                rows.append((*edge.end, 0.0))
+            space.add_lwpolyline(rows, format="xyb", dxfattribs=attributes)
 
 
 def _loop(space: "Modelspace", loop: Loop, layer: str, curves: Curves) -> None:
@@ -116,9 +159,10 @@ def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], 
             )
 
 
-def _centres(space: "Modelspace", outline: Outline) -> None:
+def _centres(space: "Modelspace", outline: Outline, blind_bores: Sequence[Bore]) -> None:
     bores = [loop.segments[0] for loop in outline.inner if loop.is_circle]
     crosses = {arc.centre: arc.radius for arc in bores if isinstance(arc, Arc)}
+    crosses |= {bore.centre: bore.diameter / 2 for bore in blind_bores if bore.centre not in crosses}
     crosses.setdefault((0.0, 0.0), OVERHANG)
     for (x, y), radius in crosses.items():
         arm = radius + OVERHANG

@@ -17,19 +17,22 @@ from mechwright_cam.interpreter.groups import G_GROUP, M_GROUP, spell
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _WORD = re.compile(rf"([A-Z])({NUMBER})")
-_LETTERS = frozenset("DFGHIJLMNPQRSTXYZ")
+_LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
+_LENGTHS = frozenset("IJKQRXYZ")
+_PROGRAM = re.compile(r"[O:]\d{1,5}")
 _OTHER_AXES = frozenset("ABCUVW")
 
 
 @dataclass(slots=True)
 class Block:
-    """One line: its codes, its other words by letter, and its comments."""
+    """One line: its codes, its other words by letter, its comments, and the letters without a point."""
 
     line: int
     g: list[int] = field(default_factory=list)
     m: list[int] = field(default_factory=list)
     words: dict[str, float] = field(default_factory=dict)
     comments: list[str] = field(default_factory=list)
+    bare: set[str] = field(default_factory=set)
     deleted: bool = False
 
 
@@ -63,10 +66,17 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
     ([10], {'X': -0.5, 'F': 200.0}, ['to the edge'])
     """
     block = Block(line)
-    if len(text) > dialect.line_length:
-        raise fail(line, f"{len(text)} characters; {dialect.name} reads at most {dialect.line_length}")
+    for character in dialect.forbidden:
+        if character in text:
+            raise fail(line, f"{dialect.name} obeys {character!r} wherever it stands; take it out")
+    if not dialect.counts_code:
+        _check_length(line, text, dialect)
     code = _strip_comments(block, text, dialect) if "(" in text or ";" in text or ")" in text else text
     code = "".join(code.split()).upper()
+    if dialect.counts_code:
+        _check_length(line, code, dialect)
+    if dialect.program_numbers and _PROGRAM.fullmatch(code):
+        return block
     if code.startswith("/"):
         block.deleted = True
         code = code[1:]
@@ -77,7 +87,26 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
             raise fail(line, _explain(code[position:]))
         _add(block, match[1], match[2], first=position == 0)
         position = match.end()
+    if dialect.point_needed and block.bare & _LENGTHS:
+        _check_points(block, dialect)
     return block
+
+
+def _check_length(line: int, text: str, dialect: Dialect) -> None:
+    if len(text) > dialect.line_length:
+        raise fail(line, f"{len(text)} characters; {dialect.name} reads at most {dialect.line_length}")
+
+
+def _check_points(block: Block, dialect: Dialect) -> None:
+    """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case."""
+    for letter in sorted(block.bare & _LENGTHS):
+        value = block.words[letter]
+        if value and not (letter in "RXYZ" and 100 in block.g) and not (letter == "X" and 40 in block.g):
+            raise fail(
+                block.line,
+                f"{letter}{value:g} has no decimal point, and {dialect.name} may read thousandths; "
+                f"write {letter}{value:g}.",
+            )
 
 
 def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
@@ -139,6 +168,8 @@ def _add(block: Block, letter: str, number: str, *, first: bool) -> None:
         raise fail(block.line, f"two {letter} words")
     else:
         block.words[letter] = value
+        if "." not in number:
+            block.bare.add(letter)
 
 
 def _add_code(

@@ -1,5 +1,6 @@
 """How controls differ in reading the same text."""
 
+import math
 from dataclasses import dataclass
 
 PECK_CLEARANCE = 0.254
@@ -18,8 +19,15 @@ class Dialect:
         Codes that are interpreted, G codes in tenths (``591`` is G59.1).
     unsupported
         G codes in tenths that the control knows and this interpreter refuses, each with what to do instead.
+    inert
+        G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
+        letters that belong to it.
+    inert_m
+        M codes that change nothing the proof asks about.
     dwell_unit
         Seconds per unit of P in G4.
+    bare_dwell_unit
+        The same for a P without a decimal point; None if the point makes no difference.
     absolute_centres
         Whether I and J are absolute coordinates at the start of a program.
     semicolon_comments
@@ -35,13 +43,34 @@ class Dialect:
         Whether M6 stops the spindle.
     percent_ends
         Whether a second ``%`` line ends the program as M2 does.
+    percent
+        Whether a line may be a ``%`` at all.
+    arc_most
+        The control refuses any arc whose radii differ by more, mm.
+    counts_code
+        Whether blanks and comments count for the length of a line.
+    decimals
+        Decimals of a coordinate, mm, that the control keeps.
+    point_needed
+        Whether a length or feed without a decimal point would mean thousandths; it is refused then.
+    program_numbers
+        Whether a line may be a program number, O1234.
+    tool_by_t
+        Whether a tool counts as changed at its T word, by hand, because there is no M6.
+    length_table
+        Whether the control has a table of tool lengths for G43 H.
+    forbidden
+        Characters that the control obeys out of the stream, wherever they stand.
     """
 
     name: str
     g_codes: frozenset[int]
     m_codes: frozenset[int]
     unsupported: tuple[tuple[int, str], ...] = ()
+    inert: tuple[tuple[int, str], ...] = ()
+    inert_m: frozenset[int] = frozenset()
     dwell_unit: float = 1.0
+    bare_dwell_unit: float | None = None
     absolute_centres: bool = False
     semicolon_comments: bool = True
     peck_clearance: float = PECK_CLEARANCE
@@ -50,11 +79,20 @@ class Dialect:
     line_length: int = 255
     change_stops_spindle: bool = True
     percent_ends: bool = True
+    percent: bool = True
+    arc_most: float = math.inf
+    counts_code: bool = False
+    decimals: int = 4
+    point_needed: bool = False
+    program_numbers: bool = False
+    tool_by_t: bool = False
+    length_table: bool = True
+    forbidden: str = ""
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
 _PLANE_UNITS = {170, 200, 210}
-_OFFSETS = {400, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
+_OFFSETS = {100, 400, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
 _MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
 
 LINUXCNC = Dialect(
@@ -62,7 +100,6 @@ LINUXCNC = Dialect(
     g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
     m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
     unsupported=(
-        (100, "write offsets at the control, not in the program"),
         (180, "only the XY plane (G17) is read"),
         (190, "only the XY plane (G17) is read"),
         (300, "retract with G53 G0 Z0 or G28"),

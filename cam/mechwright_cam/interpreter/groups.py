@@ -10,9 +10,9 @@ GROUPS: dict[str, frozenset[int]] = {
     "cutter compensation": frozenset({400, 410, 420}),
     "length offset": frozenset({430, 431, 490}),
     "return": frozenset({980, 990}),
-    "work offset": frozenset({540, 550, 560, 570, 580, 590, 591, 592, 593}),
+    "work offset": frozenset({540, 541, 550, 560, 570, 580, 590, 591, 592, 593, 1540}),
     "path": frozenset({610, 611, 640}),
-    "non-modal": frozenset({40, 280, 530}),
+    "non-modal": frozenset({40, 100, 280, 300, 530}),
 }
 """G groups, codes in tenths."""
 
@@ -38,3 +38,7 @@ def spell(code: int) -> str:
     """
     whole, tenth = divmod(code, 10)
     return f"G{whole}.{tenth}" if tenth else f"G{whole}"
+
+
+EXTENDED = frozenset({541, 1540})
+"""Work offsets that have a number, P."""

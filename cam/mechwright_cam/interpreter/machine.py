@@ -19,14 +19,19 @@ MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
 _AXES = "XYZ"
 # A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
-_PLAIN = re.compile(
-    r"(?:G0?([0-3]) ?)?"
-    + "".join(rf"(?:{letter}({NUMBER}) ?)?" for letter in "XYZIJ")
-    + rf"(?:F({NUMBER}) ?)?"
+_PLAIN, _POINTED = (
+    re.compile(
+        r"(?:N\d+ ?)?(?:G0?([0-3]) ?)?"
+        + "".join(rf"(?:{letter}({number}) ?)?" for letter in "XYZIJ")
+        + rf"(?:F({NUMBER}) ?)?"
+    )
+    for number in (NUMBER, r"[+-]?(?:\d+\.\d*|\.\d+)")
 )
 
 
-def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = False) -> Run:
+def interpret(
+    text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = False, upper_end: float = 0.0
+) -> Run:
     r"""Run a program.
 
     Parameters
@@ -37,6 +42,8 @@ def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = Fa
         The control that would read it.
     block_delete
         Whether lines that start with ``/`` are skipped.
+    upper_end
+        Machine Z of a full retract, mm: G53 to there or higher is at the machine's upper end.
 
     Returns
     -------
@@ -54,16 +61,16 @@ def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = Fa
     >>> run.end[-2].tolist(), run.ended
     ([10.0, 0.0, -1.0], True)
     """
-    machine = _Machine(dialect)
-    plain = _PLAIN.fullmatch
+    machine = _Machine(dialect, upper_end)
+    plain = (_POINTED if dialect.point_needed else _PLAIN).fullmatch
     lines = text.replace("\r\n", "\n").split("\n")
     percents = 0
     for number, raw in enumerate(lines, start=1):
-        match = plain(raw)
+        match = plain(raw) if len(raw) <= dialect.line_length else None
         if match is not None:
             if not raw or machine.run_plain(number, match.groups()):
                 continue
-        elif raw.strip() == "%":
+        elif raw.strip() == "%" and dialect.percent:
             percents += 1
             if percents == 2:
                 machine.ended = machine.ended or dialect.percent_ends
@@ -81,8 +88,9 @@ def interpret(text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = Fa
 class _Machine(Modal):
     """The machine while a program runs; lengths in mm."""
 
-    def __init__(self, dialect: Dialect) -> None:
+    def __init__(self, dialect: Dialect, upper_end: float) -> None:
         super().__init__(dialect)
+        self.upper_end = upper_end
         self.motion: int | None = None
         self.sticky: dict[str, float] = {}
         self.initial = math.nan
@@ -131,35 +139,49 @@ class _Machine(Modal):
         self._tool(block, words)
         self._spindle_and_coolant(block)
         if 40 in block.g:
-            seconds = self._take(block, "P", "G4 needs a time, P") * self.dialect.dwell_unit
+            seconds = self._waiting(block, words)
             if seconds < 0:
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
         self._modes(block, words)
         self._length_offset(block, words)
-        self._work_offset(block)
+        self._work_offset(block, words)
+        self._tables(block, words)
         self._keep_state()
-        if 280 in block.g:
+        if 280 in block.g or 300 in block.g:
             self._home(block, words)
         self._move(block, words)
         if words:
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
 
+    def _waiting(self, block: Block, words: dict[str, float]) -> float:
+        """The time of G4, s."""
+        bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
+        if bare is not None and "X" in words:
+            return words.pop("X") * (bare if "X" in block.bare else unit)
+        seconds = self._take(block, "P", "G4 needs a time, P")
+        return seconds * (bare if bare is not None and "P" in block.bare else unit)
+
     def _check_codes(self, block: Block) -> None:
         for code in block.g:
             if code in self.dialect.g_codes:
+                continue
+            letters = dict(self.dialect.inert).get(code)
+            if letters is not None:
+                for letter in letters:
+                    block.words.pop(letter, None)
                 continue
             for refused, remedy in self.dialect.unsupported:
                 if code == refused:
                     raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
             raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
         for code in block.m:
-            if code not in self.dialect.m_codes:
+            if code not in self.dialect.m_codes | self.dialect.inert_m:
                 raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
 
     def _home(self, block: Block, words: dict[str, float]) -> None:
-        """G28: by way of a point in work coordinates to the machine's home; without axes all go."""
+        """G28 and G30: by way of a point in work coordinates to the machine's home; without axes all go."""
         axes = [axis for axis in _AXES if axis in words] or list(_AXES)
         if words.keys() & set(_AXES):
             via = self._target(block, words)
@@ -220,7 +242,7 @@ class _Machine(Modal):
             raise fail(block.line, f"{spell(named or 0)} without an axis")
 
     def _machine_move(self, block: Block, words: dict[str, float]) -> None:
-        """G53: machine coordinates, whose place in the work the text does not know; Z0 is the upper end."""
+        """G53: machine coordinates, whose place in the work the text does not know."""
         if self.motion not in {0, 10}:
             raise fail(block.line, "G53 needs G0 or G1")
         axes = {axis: words.pop(axis) for axis in _AXES if axis in words}
@@ -230,7 +252,7 @@ class _Machine(Modal):
         y = math.nan if "Y" in axes else self.y
         z = self.z
         if "Z" in axes:
-            z = math.inf if axes["Z"] >= 0 else math.nan
+            z = math.inf if axes["Z"] * self.scale >= self.upper_end else math.nan
         self._row(Kind.HOME, block.line, x, y, z)
 
     def _arc(self, block: Block, words: dict[str, float]) -> None:
@@ -263,8 +285,9 @@ class _Machine(Modal):
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
         for letter in "ZRQP":
             if letter in words:
-                value = words.pop(letter)
-                self.sticky[letter] = value if letter == "P" else value * self.scale
+                bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
+                time = bare if bare is not None and letter in block.bare else unit
+                self.sticky[letter] = words.pop(letter) * (time if letter == "P" else self.scale)
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
         x, y = here.get("X", self.x), here.get("Y", self.y)
         for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
@@ -285,7 +308,7 @@ class _Machine(Modal):
         up = max(self.initial, plane) if self.to_initial else plane
         self._drill(line, code, bottom, plane, step)
         if code in {820, 890}:
-            seconds = self.sticky["P"] * self.dialect.dwell_unit
+            seconds = self.sticky["P"]
             self._row(Kind.DWELL, line, x, y, self.z, seconds=seconds)
         if code in {850, 890}:
             # LinuxCNC feeds out to the R plane after G85, and all the way up after G89.
@@ -295,7 +318,11 @@ class _Machine(Modal):
     def _stop(self, block: Block) -> None:
         for code in block.m:
             if code in {0, 1}:
+                by_hand = self.dialect.tool_by_t and self.rows and self.rows[-1][0] == Kind.TOOL
                 self._row(Kind.STOP, block.line, self.x, self.y, self.z)
+                if by_hand:  # whoever has touched the tool off has left it somewhere
+                    self._lose_place()
+                    self.z = math.nan
             elif code in {2, 30}:
                 self._row(Kind.END, block.line, self.x, self.y, self.z)
                 self.ended = True

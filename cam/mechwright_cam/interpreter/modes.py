@@ -6,7 +6,7 @@ from typing import Any
 
 from mechwright_cam.interpreter.blocks import Block, fail
 from mechwright_cam.interpreter.dialect import Dialect
-from mechwright_cam.interpreter.groups import GROUPS, M_GROUPS, spell
+from mechwright_cam.interpreter.groups import EXTENDED, GROUPS, M_GROUPS, spell
 from mechwright_cam.interpreter.recorder import Recorder
 from mechwright_cam.interpreter.run import Coolant, Kind, State
 
@@ -73,6 +73,10 @@ class Modal(Recorder):
     def _tool(self, block: Block, words: dict[str, float]) -> None:
         if "T" in words:
             self.selected = self._whole(block, "T", words.pop("T"))
+            if self.dialect.tool_by_t and self.selected != self.state.tool:
+                self._set(tool=self.selected, length_offset=None, length=None)
+                self._keep_state()
+                self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
         if 6 in block.m:
             if self.selected is None:
                 raise fail(block.line, "M6 without a tool; write T before it")
@@ -111,23 +115,46 @@ class Modal(Recorder):
                 words.pop("Q", None)
 
     def _length_offset(self, block: Block, words: dict[str, float]) -> None:
-        offset = self.state.length_offset
+        offset, length = self.state.length_offset, None
         if 430 in block.g:
             offset = self._whole(block, "H", words.pop("H", self.state.tool))
         elif 431 in block.g:
-            self._take(block, "Z", "G43.1 needs the length, Z")
+            length = self._take(block, "Z", "G43.1 needs the length, Z") * self.scale
             offset = -1
         elif 490 in block.g:
             offset = 0
-        if offset != self.state.length_offset:
-            self._set(length_offset=offset)
+        else:
+            return
+        if (offset, length) != (self.state.length_offset, self.state.length):
+            self._set(length_offset=offset, length=length)
             if math.isfinite(self.z):
                 self.z = math.nan
 
-    def _work_offset(self, block: Block) -> None:
+    def _work_offset(self, block: Block, words: dict[str, float]) -> None:
         for code in block.g:
-            if code in GROUPS["work offset"] and spell(code) != self.state.work_offset:
-                self._set(work_offset=spell(code))
-                self.x = self.y = math.nan
-                if math.isfinite(self.z):
-                    self.z = math.nan
+            if code not in GROUPS["work offset"]:
+                continue
+            name = spell(code)
+            if code in EXTENDED or (self.dialect.program_numbers and code == 540 and "P" in words):
+                number = self._whole(block, "P", self._take(block, "P", f"{name} needs its number, P"))
+                name = f"{'G54.1' if code == 540 else name} P{number}"
+            if name != self.state.work_offset:
+                self._set(work_offset=name)
+                self._lose_place()
+
+    def _lose_place(self) -> None:
+        """Offsets have changed: where the tool is, the text no longer says."""
+        self.x = self.y = math.nan
+        if math.isfinite(self.z):
+            self.z = math.nan
+
+    def _tables(self, block: Block, words: dict[str, float]) -> None:
+        """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
+        if 100 not in block.g:
+            return
+        if self._take(block, "L", "G10 needs L") not in {1, 2, 10, 11, 12, 13, 20}:
+            raise fail(block.line, "G10 is read with L1, L2, L10 to L13 and L20")
+        self._take(block, "P", "G10 needs P")
+        for letter in "XYZRIJQ":
+            words.pop(letter, None)
+        self._lose_place()

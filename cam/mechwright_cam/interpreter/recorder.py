@@ -67,7 +67,8 @@ class Recorder:
         error = abs(first - math.hypot(x - cx, y - cy))
         if first == 0:
             raise fail(line, "an arc of radius 0")
-        if error > self.dialect.arc_absolute and error > self.dialect.arc_relative * first:
+        limits = self.dialect
+        if error > limits.arc_most or (error > limits.arc_absolute and error > limits.arc_relative * first):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "

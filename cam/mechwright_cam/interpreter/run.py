@@ -3,12 +3,15 @@
 from dataclasses import dataclass, field
 from enum import IntEnum
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 Ints = NDArray[np.int64]
 Coolant = Literal["off", "mist", "flood", "both"]
@@ -40,8 +43,10 @@ class State:
         T number in the spindle, 0 for none.
     length_offset
         Active H number; 0 after G49, -1 after G43.1, None if the program never said.
+    length
+        The length that G43.1 gave, mm; None without one.
     work_offset
-        ``"G54"`` to ``"G59.3"``, None if the program never said.
+        ``"G54"`` to ``"G59.3"``, ``"G54.1 P7"``, ``"G154 P7"``; None if the program never said.
     spindle
         1 clockwise, -1 counter-clockwise, 0 stopped.
     rpm
@@ -55,6 +60,7 @@ class State:
 
     tool: int = 0
     length_offset: int | None = None
+    length: float | None = None
     work_offset: str | None = None
     spindle: int = 0
     rpm: float = 0.0
@@ -106,6 +112,10 @@ class Run:
         Whether the program says that it ends.
     lines
         Number of lines read.
+    files
+        Names of the files that were run one after the other; empty if it was one text.
+    file
+        (n,) int, index into ``files``.
     """
 
     kind: Ints
@@ -122,6 +132,8 @@ class Run:
     remarks: tuple[Remark, ...] = field(default=())
     ended: bool = False
     lines: int = 0
+    files: tuple[str, ...] = ()
+    file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     def __len__(self) -> int:
         return int(self.kind.size)
@@ -152,3 +164,33 @@ class Run:
         flat = np.where(self.kind == Kind.ARC, np.abs(self.sweep) * self.radius, np.hypot(*move[:, :2].T))
         length: Array = np.hypot(flat, move[:, 2])
         return length
+
+
+def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
+    """Several files, run one after the other; between two of them the machine is where it happens to be."""
+    states: list[State] = []
+    remarks: list[Remark] = []
+    first: list[int] = []
+    step = 0
+    for run in runs:
+        first.append(len(states))
+        states += run.states
+        remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
+        step += len(run)
+
+    def column(name: str) -> Any:
+        return np.concatenate([getattr(run, name) for run in runs])
+
+    return Run(
+        **{name: column(name) for name in _COLUMNS},
+        state=np.concatenate([run.state + at for run, at in zip(runs, first, strict=True)]),
+        states=tuple(states),
+        remarks=tuple(remarks),
+        ended=all(run.ended for run in runs),
+        lines=runs[-1].lines,
+        files=names,
+        file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
+    )
+
+
+_COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "feed", "seconds", "arc_error")

@@ -48,19 +48,24 @@ def path_radius(mill: Tool) -> float:
     return mill.radius + BIAS
 
 
-def finishing_choice(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
-    """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one."""
-    return mills[_largest_as_good(keep, tuple(path_radius(mill) for mill in mills))]
+def finishing_choice(
+    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+) -> Tool:
+    """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one.
+
+    Only the walls ``near`` a shape count, if one is given.
+    """
+    return mills[_largest_as_good(keep, tuple(path_radius(mill) for mill in mills), near)]
 
 
 @lru_cache(maxsize=64)
-def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...]) -> int:
+def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: shapely.Geometry | None) -> int:
     """Index of the largest radius that leaves no more on the walls of ``keep`` than the last one."""
     reference = closing(keep, radii[-1] - BIAS)
     low, high = 0, len(radii) - 1
     while low < high:  # what is left only grows with the radius
         middle = (low + high) // 2
-        if leaves_at_most(reference, radii[middle], SAME_REACH):
+        if leaves_at_most(reference, radii[middle], SAME_REACH, near):
             high = middle
         else:
             low = middle + 1

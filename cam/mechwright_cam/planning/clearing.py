@@ -12,6 +12,7 @@ import shapely
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import SLACK, Zone
@@ -33,6 +34,8 @@ from mechwright_cam.toolpath.path import Path
 
 SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
+FLOOR_SLIVER = TOLERANCES.leftover / 4
+"""The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
 COARSE_FIT = 2 * ROUGH
@@ -59,11 +62,15 @@ class Run:
         The start is clear of stock, so the cutter may be sunk there.
     linked
         The cutter may go straight from the end of the run before to the start of this one at depth.
+    beside
+        Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
+        centre may be plunged through that, slowly, which is shorter than a ramp.
     """
 
     path: Path
     open: bool
     linked: bool
+    beside: bool = False
 
 
 @dataclass(frozen=True)
@@ -102,7 +109,7 @@ class Roughing:
         climb: bool,
         only: shapely.Geometry | None = None,
     ) -> None:
-        self.zone, self.tool, self.climb = zone, tool, climb
+        self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
@@ -114,9 +121,10 @@ class Roughing:
         self.free = shapely.difference(self.room, self.blocked)
         self.reach = grow(self.free, tool.radius, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.take = opened(take, SLIVER)  # first, for it leaves far fewer corners
+        self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
+        self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
         if not shapely.is_empty(zone.waste):
-            self.take = opened(shapely.difference(self.take, zone.waste), SLIVER)
+            self.take = opened(shapely.difference(self.take, zone.waste), self.sliver)
 
     @property
     def share(self) -> float:
@@ -165,8 +173,13 @@ class Roughing:
         swept: shapely.Geometry = shapely.Polygon()
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
-        runs = [Run(paths[0], bool(is_open[0]), False)]
-        for last, path, clear in zip(paths, paths[1:], is_open[1:].tolist(), strict=False):
+        beside = np.zeros(len(paths), dtype=bool)
+        if self.only is not None and self.tool.centre_cutting:
+            thick = grow(self.only, radius - CLEAR, ROUGH)
+            beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
+        runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
+        entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
+        for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
             linked = _inside(free, last.end, path.start, radius)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
@@ -175,7 +188,7 @@ class Roughing:
                 way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
-            runs.append(Run(path, clear, linked))
+            runs.append(Run(path, clear, linked, thin))
         return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start, radius))
 
     def _pieces(self) -> list[Piece]:
@@ -189,11 +202,11 @@ class Roughing:
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), SLIVER)
+                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), self.sliver)
                 if not polygons(take):
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, radius - SLIVER, ROUGH)
+            wanted = grow(take, radius - self.sliver, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
@@ -270,6 +283,9 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
                     pen.above(run.path.start)
                 if run.open:
                     pen.sink(z)
+                elif run.beside:
+                    pen.sink(above)
+                    pen.sink(z, pen.rates.plunge)
                 else:
                     pen.sink(above)
                     pen.ramp(run.path, z)

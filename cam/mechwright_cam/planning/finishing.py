@@ -29,7 +29,7 @@ class Finishing:
         self.zone, self.settings, self.tool = zone, settings, zone.finisher
         radius = self.tool.radius
         self.blocked = grow(zone.keep, radius + BIAS)
-        self.room = zone.room(radius)
+        self.room = zone.room(radius, finishing=True)
         if zone.tabs is not None:
             # Along a tab only as far as the finishing of the wall needs it.
             near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)

@@ -8,7 +8,7 @@ import shapely
 
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.findings import Finding, Severity
-from mechwright.part import Bore, Part, Profile
+from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
@@ -24,6 +24,7 @@ from mechwright_cam.planning.choice import (
 )
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.zone import (
     Zone,
     bores,
@@ -34,7 +35,7 @@ from mechwright_cam.planning.zone import (
     roughing_mills,
     through,
 )
-from mechwright_cam.reach import leaves_at_most, opening_keep, remainder
+from mechwright_cam.reach import closed_area, leaves_at_most, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
@@ -100,23 +101,30 @@ def _mills(every: Job) -> list[Tool]:
     chosen: list[Tool] = []
     openings = []
     for feature in every.features:
-        if not isinstance(feature, Profile):
-            continue
-        shape = shapely.Polygon(feature.loop.flatten())
-        if feature.side == "outside":
+        if isinstance(feature, Pocket) or (isinstance(feature, Profile) and feature.side == "inside"):
+            openings.append(feature)
+        elif isinstance(feature, Profile):
+            shape = shapely.Polygon(feature.loop.flatten())
             roughing = _roughing(every, sensible, shape)
             finest = _finest_needed(roughing, shape)
             chosen += [roughing[0], *_between(every, roughing, finest, shape), finest]
-        else:
-            openings.append((feature, shape))
-    for feature, shape in openings:
-        able = usable_mills(every, -bottom_of(every, feature.top, feature.depth))
-        able = roomy_mills(able, shape)
-        chosen.append(_finest_needed(able, opening_keep(shape, 2 * able[0].diameter)))
+    for feature in openings:
+        chosen += _inside(every, feature)
     # From the smallest on: what bores a small hole may bore the larger ones as well.
     for bore in sorted(bores(every), key=lambda bore: bore.diameter):
         chosen += _boring(every, bore, chosen)
     return chosen or fit[:1]
+
+
+def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
+    """The mill for an opening or a recess; none if the feature takes nothing, which planning will say."""
+    bottom = bottom_of(every, feature.top, feature.depth)
+    able = usable_mills(every, -bottom)
+    shapes = recess(every, feature, able[0].diameter, bottom)
+    if shapely.is_empty(shapes.must):
+        return []
+    able = roomy_mills(able, shapes.must)
+    return [_finest_needed(able, shapes.keep, shapes.must if shapes.open else None)]
 
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
@@ -131,7 +139,7 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
 
     def left(mill: Tool) -> float:
         reach = mill.radius + every.settings.stock_to_leave
-        return float(grow(grow(thin, reach, ROUGH), -reach, ROUGH).area - part.area)
+        return closed_area(grow(thin, reach, ROUGH), reach) - float(part.area)
 
     thin = thinned(part)
     middle = [mill for mill in mills[1:] if mill.diameter >= PAYS * finest.diameter]
@@ -144,16 +152,18 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
     return []
 
 
-def _finest_needed(mills: Sequence[Tool], keep: shapely.Geometry) -> Tool:
+def _finest_needed(
+    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+) -> Tool:
     """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest."""
     low, high = 0, len(mills)
     while low < high:
         middle = (low + high) // 2
-        if leaves_at_most(keep, path_radius(mills[middle]), SAME_REACH):
+        if leaves_at_most(keep, path_radius(mills[middle]), SAME_REACH, near):
             high = middle
         else:
             low = middle + 1
-    return mills[low] if low < len(mills) else finishing_choice(mills, keep)
+    return mills[low] if low < len(mills) else finishing_choice(mills, keep, near)
 
 
 def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
@@ -277,7 +287,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     for zone in zones:
         if zone.tabs is not None:
             continue
-        depth = remainder(zone.wall, zone.finisher.radius)
+        depth = remainder(zone.wall, zone.finisher.radius, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
                 Finding(

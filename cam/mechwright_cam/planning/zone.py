@@ -24,8 +24,8 @@ from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
-from mechwright_cam.reach import opening_keep
-from mechwright_cam.toolpath.offsets import BIAS, ROUGH, filled, grow, polygons, thinned
+from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
 
 SLACK = 0.02
@@ -53,6 +53,10 @@ class Zone:
     finisher: Tool
     """The mill that finishes the wall."""
     kind: Literal["outside", "inside", "pocket"]
+    through: bool
+    """Whether nothing of the plate stays below."""
+    must: shapely.Geometry | None = None
+    """The feature itself, where ``clear`` runs out beyond its open stretches."""
     channel: shapely.Geometry | None = None
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
     tabs: shapely.Geometry | None = None
@@ -84,12 +88,15 @@ class Zone:
         """Height of the layer, mm."""
         return self.top - self.bottom
 
-    def room(self, radius: float, slack: float = 0.0) -> shapely.Geometry:
+    def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
         if self.kind == "outside":
             if self.channel is None:
                 return grow(self.clear, radius, ROUGH)
             return grow(self.channel, slack - radius, ROUGH)
+        if self.must is not None and finishing:
+            # Past the end of a wall and around its corner, but not on along the outside.
+            return shapely.intersection(self.clear, grow(self.must, radius + BIAS + 2 * CHORD))
         return self.clear
 
     def rough_keep(self, allowance: float) -> shapely.Geometry:
@@ -123,39 +130,49 @@ def bottom_of(job: Job, top: float, depth: float) -> float:
     return job.floor if through(job, top + depth) else -(top + depth)
 
 
+LEAST_SHARE = 0.02
+"""A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
+
+
 def inner_zones(job: Job) -> list[Zone]:
     """Openings that are not round, and pockets."""
     zones = []
     for feature in job.features:
-        if isinstance(feature, Profile) and feature.side == "inside":
-            shape = shapely.Polygon(feature.loop.flatten())
-        elif isinstance(feature, Pocket):
-            shape = shapely.Polygon(
-                feature.boundary.flatten(), [island.flatten() for island in feature.islands]
-            )
-        else:
+        if not isinstance(feature, Pocket) and not (
+            isinstance(feature, Profile) and feature.side == "inside"
+        ):
             continue
         bottom = bottom_of(job, feature.top, feature.depth)
         mills = usable_mills(job, -bottom)
-        keep = opening_keep(shape, 2 * mills[0].diameter)
-        if shapely.is_empty(grow(shape, -mills[-1].radius - BIAS, ROUGH)):
+        shapes = recess(job, feature, mills[0].diameter, bottom)
+        if shapely.is_empty(shapes.must):
+            raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
+        if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
             raise ToolError(
                 f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
                 f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
             )
-        mills = roomy_mills(mills, shape)
-        zones.append(
-            Zone(
-                feature.name,
-                keep,
-                shape,
-                -feature.top,
-                bottom,
-                mills,
-                finishing_choice(mills, keep),
-                "pocket" if isinstance(feature, Pocket) else "inside",
-            )
+        mills = roomy_mills(mills, shapes.must)
+        near = shapes.must if shapes.open else None
+        finisher = finishing_choice(mills, shapes.keep, near)
+        if shapes.open:  # once more, to run out no further than the finishing cutter needs
+            run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
+            shapes = recess(job, feature, run_out, bottom)
+        zone = Zone(
+            feature.name,
+            shapes.keep,
+            shapes.around,
+            -feature.top,
+            bottom,
+            mills,
+            finisher,
+            "pocket" if isinstance(feature, Pocket) else "inside",
+            bottom == job.floor,
+            shapes.must if shapes.open else None,
         )
+        if shapes.open:
+            zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
+        zones.append(zone)
     return zones
 
 
@@ -182,6 +199,7 @@ def outer_zones(job: Job) -> list[Zone]:
             mills=mills,
             finisher=finisher,
             kind="outside",
+            through=True,
             channel=channel,
         )
         top = -feature.top
@@ -224,7 +242,7 @@ FRAME = 1.0
 
 def channel_width(job: Job, mill: Tool) -> float:
     """Width of the channel that a mill opens around the part in one pass, mm."""
-    return mill.diameter + job.settings.stock_to_leave
+    return mill.diameter + max(job.settings.stock_to_leave, SLACK)
 
 
 def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:

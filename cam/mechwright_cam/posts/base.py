@@ -1,4 +1,4 @@
-"""What all posts share: modal words, rounding, and the walk through a program.
+"""What all posts share: the frame of a program and the walk through it.
 
 A control is a subclass that says how it spells a retract, a tool change, a length offset and the end.
 
@@ -8,12 +8,17 @@ modal word
     A word that stays in force until it is changed, and is not written again before.
 clearance
     The height at which the tool may travel anywhere, but for a clamp.
+restart point
+    A place in the text from which the program can be started: everything that is modal is stated there.
 """
 
 import math
 from abc import abstractmethod
+from collections.abc import Sequence
+from typing import ClassVar
 
 from mechwright.errors import ProgramError
+from mechwright.findings import Finding, Severity
 from mechwright.output import Post
 from mechwright.program import (
     OPERATION_COMMENT,
@@ -21,83 +26,44 @@ from mechwright.program import (
     Feed,
     FeedArc,
     Move,
+    Operation,
     Pause,
     Program,
     Rapid,
     ToolSection,
 )
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.posts.text import comment_lines, number, rounded
+from mechwright.tooling import CamSettings, Tool
+from mechwright_cam.posts.offsets import OFFSETS, has_offset
+from mechwright_cam.posts.text import DECIMALS, comment_lines, number
+from mechwright_cam.posts.writer import Writer, with_numbers
 
 COOLANT = {"flood": "M8", "mist": "M7", "off": ""}
 PECK_GAP = 0.25
 """Height above the last depth at which a peck that is written out starts to feed, mm: out of the chips."""
 
 
-class Writer:
-    """Program text under way, with what the control remembers.
-
-    Positions are exact as planned (``x``, ``y``, ``z``) and, in the text, rounded; a centre is written from
-    the rounded start, so that rounding never adds up. NaN stands for a position the text has not stated.
-    """
-
-    def __init__(self, program: Program) -> None:
-        self.program = program
-        self.lines: list[str] = []
-        self.x = self.y = self.z = math.nan
-        self.motion = ""
-        self.feed = ""
-        self.cycle: tuple[str, ...] = ()
-
-    def line(self, *words: str) -> None:
-        """Write a line of these words; empty ones are left out."""
-        text = " ".join(word for word in words if word)
-        if text:
-            self.lines.append(text)
-
-    def motion_word(self, word: str) -> str:
-        """The motion code if it is not in force already."""
-        if self.motion == word:
-            return ""
-        self.motion = word
-        return word
-
-    def feed_word(self, feed: float) -> str:
-        """The feed if it is not in force already."""
-        word = "F" + number(feed, 1)
-        if self.feed == word:
-            return ""
-        self.feed = word
-        return word
-
-    def axis_words(self, x: float | None, y: float | None, z: float | None) -> list[str]:
-        """The coordinates that change in the text, and keep them all in mind."""
-        # A position that the text does not state is NaN: its number equals none that is written.
-        words = []
-        if x is not None:
-            if (text := number(x)) != number(self.x):
-                words.append("X" + text)
-            self.x = x
-        if y is not None:
-            if (text := number(y)) != number(self.y):
-                words.append("Y" + text)
-            self.y = y
-        if z is not None:
-            if (text := number(z)) != number(self.z):
-                words.append("Z" + text)
-            self.z = z
-        return words
-
-    def lost_height(self) -> None:
-        """The tool stands at the machine's upper end, whose z the text does not know."""
-        self.z = math.nan
-
-
 class GcodePost(Post):
     """A control that reads RS274 words."""
 
-    active_comments: tuple[str, ...] = ()
+    decimals: ClassVar[int] = DECIMALS
+    """Of coordinates, mm."""
+    point: ClassVar[bool] = False
+    """Whether a number without a decimal point means thousandths."""
+    capitals: ClassVar[bool] = False
+    """Whether comments are of capitals."""
+    active_comments: ClassVar[tuple[str, ...]] = ()
     """Words that the control would obey at the start of a comment."""
+    forbidden: ClassVar[str] = ""
+    """Characters that the control would obey even in a comment."""
+    work_offsets: ClassVar[tuple[str, ...]] = ("G54 to G59",)
+    """The work offsets it has: keys of :data:`mechwright_cam.posts.offsets.OFFSETS`."""
+    highest_tool: ClassVar[int] = 9999
+    """The largest T number that it takes."""
+    milliseconds: ClassVar[bool] = False
+    """Whether P counts thousandths of a second."""
+    modes: ClassVar[tuple[str, ...]] = ("G17", "G21", "G40", "G49", "G80", "G90", "G94")
+    """The safe start: every mode that the program relies on."""
 
     def write(self, program: Program) -> str:
         """The program text, lines ended by a line feed.
@@ -105,23 +71,40 @@ class GcodePost(Post):
         Raises
         ------
         ProgramError
-            The program has no moves, or a section that does not start with a Rapid to x and y.
+            The program has no moves, or a section that does not start with a Rapid to x and y; the offsets
+            that it should set have not been measured.
         """
         self._check(program)
-        out = Writer(program)
+        out = Writer(program, self.decimals, self.point)
+        self.frame(out)
         self.head(out)
         self.safe_start(out)
+        if program.posting.offsets:
+            self.set_offsets(out)
         self.retract(out)
-        for section in program.sections:
+        for place, section in enumerate(program.sections):
+            if place and program.posting.optional_stops and out.lines[-1] != "M0":
+                out.line("M1")
             self._section(out, section)
+        self.go_home(out)
         self.end(out)
-        return "\n".join(out.lines) + "\n"
+        step = program.posting.line_numbers
+        lines = with_numbers(out.lines, step) if step else out.lines
+        return "\n".join(lines) + "\n"
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """What the control cannot do of what a design file asks for: work offset."""
+        if has_offset(self.work_offsets, settings.work_offset):
+            return ()
+        known = ", ".join(self.work_offsets)
+        message = f"{self.title} has no work offset {settings.work_offset}"
+        remedy = f"use one of: {known}"
+        return (Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy),)
 
     # -- what a control spells its own way ----------------------------------------------------------------
 
-    @abstractmethod
-    def safe_start(self, out: Writer) -> None:
-        """Set every mode that the program relies on."""
+    def frame(self, out: Writer) -> None:
+        """Write what stands before everything else."""
 
     @abstractmethod
     def retract(self, out: Writer) -> None:
@@ -129,33 +112,44 @@ class GcodePost(Post):
 
     @abstractmethod
     def tool_change(self, out: Writer, section: ToolSection) -> None:
-        """Change the tool, select the work offset, start the spindle."""
+        """Change the tool, which stands at the machine's upper end."""
 
-    @abstractmethod
     def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:
         """Turn on the tool's length offset, with the first move to z."""
+        out.line("G43", f"H{section.tool.number}", *out.axis_words(None, None, z, rapid=True))
 
     @abstractmethod
     def drill(self, out: Writer, hole: Drill) -> None:
         """Drill one hole."""
 
-    @abstractmethod
     def end_drilling(self, out: Writer) -> None:
         """Leave the drilling cycle, if one is in force."""
+        if out.cycle:
+            out.line("G80")
+            out.cycle = ()
+            out.motion = ""
 
-    @abstractmethod
     def end(self, out: Writer) -> None:
-        """End the program."""
+        """Coolant, spindle and height are safe already; end."""
+        out.line("M30")
 
     def message(self, out: Writer, text: str) -> None:
         """Tell the operator something at a stop."""
         self.comment(out, text)
 
+    def blending(self, exact: bool) -> list[str]:
+        """The words that choose how corners are taken."""
+        return ["G61" if exact else "G64"]
+
+    def tool_words(self, tool: Tool) -> list[str]:
+        """The lines that set a tool's measured length."""
+        return [f"G10 L1 P{tool.number} Z{number(tool.length or 0.0, self.decimals, self.point)}"]
+
     # -- what is the same for all -------------------------------------------------------------------------
 
     def comment(self, out: Writer, text: str) -> None:
         """Write a comment, as many lines as it takes."""
-        for line in comment_lines(text, self.active_comments):
+        for line in comment_lines(text, self.active_comments, self.forbidden, self.capitals):
             out.line(f"({line})")
 
     def head(self, out: Writer) -> None:
@@ -166,19 +160,50 @@ class GcodePost(Post):
             self.comment(out, note)
         self.comment(out, f"origin {program.work_offset}, Z0 on top of the stock, units mm and mm/min")
         for tool in program.tools:
-            kind = str(tool.kind).replace("-", " ")
-            self.comment(
-                out, f"T{tool.number} H{tool.number} D {number(tool.diameter)} mm: {tool.name}, {kind}"
+            self.comment(out, self.tool_note(tool))
+
+    def tool_note(self, tool: Tool) -> str:
+        """A tool in the head: its numbers, diameter, name and kind."""
+        kind = str(tool.kind).replace("-", " ")
+        return f"T{tool.number} H{tool.number} D {number(tool.diameter)} mm: {tool.name}, {kind}"
+
+    def safe_start(self, out: Writer) -> None:
+        """Set every mode that the program relies on."""
+        out.line(*self.modes)
+        out.line(*self.blending(out.program.posting.exact_stop))
+
+    def set_offsets(self, out: Writer) -> None:
+        """Write the measured work offset and tool lengths into the control's tables."""
+        program, places = out.program, out.program.measured
+        missing = [f"cam.measured.{axis}" for axis in "xyz" if getattr(places, axis) is None]
+        missing += [f"cam.measured.lengths.{tool.name}" for tool in program.tools if tool.length is None]
+        if missing:
+            raise ProgramError(
+                f"cam.post.offsets: program {program.name} is to set its offsets, and {missing[0]} is not "
+                "given; measure it, or leave the offsets to the operator"
             )
+        axes = [a.upper() + out.length(getattr(places, a)) for a in "xyz"]
+        family = next(name for name in self.work_offsets if has_offset((name,), program.work_offset))
+        self.comment(out, "measured offsets")
+        out.line(OFFSETS[family].setting(program.work_offset), *axes)
+        for tool in program.tools:
+            for line in self.tool_words(tool):
+                out.line(line)
 
     def _check(self, program: Program) -> None:
         if not any(operation.moves for section in program.sections for operation in section.operations):
             raise ProgramError(f"program {program.name} has no moves; nothing is written")
         for section in program.sections:
+            tool = section.tool
+            if tool.number > self.highest_tool:
+                raise ProgramError(
+                    f"tool {tool.name} has number {tool.number}; {self.title} takes up to "
+                    f"T{self.highest_tool}; give it a lower one in the tool library"
+                )
             moves = [move for operation in section.operations for move in operation.moves]
             if not moves or not (isinstance(moves[0], Rapid) and None not in (moves[0].x, moves[0].y)):
                 raise ProgramError(
-                    f"program {program.name}: the section of T{section.tool.number} does not start "
+                    f"program {program.name}: the section of T{tool.number} does not start "
                     "with a rapid to x and y"
                 )
 
@@ -188,15 +213,20 @@ class GcodePost(Post):
         for operation in section.operations:
             self.comment(out, OPERATION_COMMENT + operation.name)
             moves = operation.moves
-            if not named and moves:
+            if moves and not named:
+                self._to_place_of_change(out)
                 self.tool_change(out, section)
-                first = moves[0]
-                assert isinstance(first, Rapid)  # noqa: S101 - _check has seen to it
-                out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
-                self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
-                out.line(COOLANT[section.coolant])
+                out.lost_place()
+                self._begin(out, section, moves[0])
                 moves = moves[1:]
                 named = True
+            elif out.program.posting.restart and self._can_restart(out, operation):
+                self.comment(out, f"restart point: T{section.tool.number} in the spindle")
+                self.restate(out)
+                out.lost_place()
+                out.lost_height()
+                self._begin(out, section, moves[0])
+                moves = moves[1:]
             for move in moves:
                 if move is last and isinstance(move, Pause):
                     # The next section starts the spindle: here it would turn beside the operator's hands.
@@ -207,6 +237,48 @@ class GcodePost(Post):
         out.line("M9")
         out.line("M5")
         self.retract(out)
+
+    def restate(self, out: Writer) -> None:
+        """State the modes once more, at a restart point."""
+        self.end_drilling(out)
+        out.line(*self.modes)
+        out.line(*self.blending(out.program.posting.exact_stop))
+        self.retract(out)
+
+    def _can_restart(self, out: Writer, operation: Operation) -> bool:
+        """Whether an operation starts above everything, at a stated place."""
+        if not operation.moves or math.isnan(out.z) or out.z < out.program.clearance:
+            return False
+        first = operation.moves[0]
+        return isinstance(first, Rapid) and None not in (first.x, first.y)
+
+    def _begin(self, out: Writer, section: ToolSection, first: Move) -> None:
+        """Spindle, place, length offset and coolant, in that order."""
+        assert isinstance(first, Rapid)  # noqa: S101 - the caller has seen to it
+        offset = out.program.work_offset
+        if " " in offset:  # its P must not be taken for another word's
+            out.line(offset)
+            offset = ""
+        self._start_spindle(out, section, offset)
+        out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
+        self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
+        out.line(COOLANT[section.coolant])
+
+    def _to_place_of_change(self, out: Writer) -> None:
+        machine = out.program.machine
+        self._machine_place(out, machine.change_x, machine.change_y)
+
+    def go_home(self, out: Writer) -> None:
+        """Bring the table where the machine file wants it at the end."""
+        machine = out.program.machine
+        self._machine_place(out, machine.home_x, machine.home_y)
+
+    def _machine_place(self, out: Writer, x: float | None, y: float | None) -> None:
+        words = [f"{axis}{out.length(value)}" for axis, value in (("X", x), ("Y", y)) if value is not None]
+        if words:
+            out.line("G53", "G0", *words)
+            out.motion = "G0"
+            out.x = out.y = math.nan
 
     def _move(self, out: Writer, section: ToolSection, move: Move) -> None:
         if not isinstance(move, Drill):
@@ -223,7 +295,10 @@ class GcodePost(Post):
             case Drill():
                 if math.isnan(out.z):
                     self._rapid(out, Rapid(z=out.program.clearance))
-                self.drill(out, move)
+                if out.program.posting.cycles:
+                    self.drill(out, move)
+                else:
+                    self.drill_in_moves(out, move)
             case Pause():
                 self._pause(out, section, move)
 
@@ -232,14 +307,14 @@ class GcodePost(Post):
         upward = move.z is not None and not math.isnan(out.z) and move.z > out.z
         flat, upright = (move.x, move.y, None), (None, None, move.z)
         for axes in (upright, flat) if upward else (flat, upright):
-            words = out.axis_words(*axes)
+            words = out.axis_words(*axes, rapid=True)
             if words:
                 out.line(out.motion_word("G0"), *words)
 
     def _arc(self, out: Writer, move: FeedArc) -> None:
         x0, y0 = out.x, out.y
         whole = math.hypot(move.x - x0, move.y - y0) <= TOLERANCES.closure
-        start, end = (rounded(x0), rounded(y0)), (rounded(move.x), rounded(move.y))
+        start, end = (out.rounded(x0), out.rounded(y0)), (out.rounded(move.x), out.rounded(move.y))
         if not whole and start == end:
             # Shorter than the last decimal: written as an arc it would be a full circle.
             words = out.axis_words(move.x, move.y, move.z)
@@ -248,12 +323,14 @@ class GcodePost(Post):
             return
         if whole:
             end = start
-        centre = (number(x0 + move.i - start[0]), number(y0 + move.j - start[1]))
+        i, j = out.centre(
+            x0 + move.i - start[0], y0 + move.j - start[1], (end[0] - start[0], end[1] - start[1])
+        )
         out.x = out.y = math.nan  # an arc states its end in full: some controls want both axes
         axes = out.axis_words(end[0], end[1], None) + out.axis_words(None, None, move.z)
         out.x, out.y = (x0, y0) if whole else (move.x, move.y)
         word = out.motion_word("G3" if move.ccw else "G2")
-        out.line(word, *axes, "I" + centre[0], "J" + centre[1], out.feed_word(move.feed))
+        out.line(word, *axes, "I" + out.length(i), "J" + out.length(j), out.feed_word(move.feed))
 
     def _stop(self, out: Writer, move: Pause) -> None:
         self.end_drilling(out)
@@ -266,12 +343,44 @@ class GcodePost(Post):
     def _pause(self, out: Writer, section: ToolSection, move: Pause) -> None:
         self._stop(out, move)
         out.motion = out.feed = ""  # whoever goes on from here finds both stated
-        self.spindle(out, section)
+        self._start_spindle(out, section)
         out.line(COOLANT[section.coolant])
 
-    def spindle(self, out: Writer, section: ToolSection) -> None:
-        """Start the spindle clockwise."""
-        out.line("S" + number(section.spindle, 0), "M3")
+    def _start_spindle(self, out: Writer, section: ToolSection, *words: str) -> None:
+        out.line(*words, "S" + number(section.spindle, 0), "M3")
+        if out.program.machine.spindle_delay > 0:
+            self.dwell(out, out.program.machine.spindle_delay)
+
+    def cycle(self, out: Writer, hole: Drill, *, every_word: bool = False) -> None:
+        """Drill with G81, G82 (dwell) or G83 (pecks); holes that agree share the cycle.
+
+        With ``every_word`` each hole states the whole cycle.
+        """
+        if hole.peck is not None and hole.dwell > 0:
+            self.end_drilling(out)  # no cycle does both on all controls
+            self.drill_in_moves(out, hole)
+            return
+        code = "G83" if hole.peck is not None else "G82" if hole.dwell > 0 else "G81"
+        words = [code, "Z" + out.height(hole.bottom), "R" + out.height(hole.retract, up=True)]
+        if hole.peck is not None:
+            words.append("Q" + out.length(hole.peck))
+        elif hole.dwell > 0:
+            words.append("P" + self.waiting(hole.dwell))
+        # The cycle itself returns to the height it started from, so z stays what it is.
+        feed = "F" + number(hole.feed, 1, self.point)
+        again = out.cycle == (*words, feed)
+        if again and not every_word:
+            place = out.axis_words(hole.x, hole.y, None)
+            out.line(*(place or ["X" + out.length(hole.x)]))
+            return
+        if not again:
+            self.end_drilling(out)
+        out.x = out.y = math.nan  # the first line of a cycle states both
+        place = out.axis_words(hole.x, hole.y, None)
+        stated = out.feed_word(hole.feed) or (feed if every_word else "")
+        out.line("G98", code, *place, *words[1:], stated)
+        out.cycle = (*words, feed)
+        out.motion = ""
 
     def drill_in_moves(self, out: Writer, hole: Drill) -> None:
         """Drill with plain moves, for controls and holes that no cycle serves."""
@@ -291,4 +400,8 @@ class GcodePost(Post):
 
     def dwell(self, out: Writer, seconds: float) -> None:
         """Wait."""
-        out.line("G4", "P" + number(seconds, 3))
+        out.line("G4", "P" + self.waiting(seconds))
+
+    def waiting(self, seconds: float) -> str:
+        """A time as P counts it."""
+        return number(1000 * seconds, 0) if self.milliseconds else number(seconds, 3)

@@ -1,5 +1,6 @@
 """Numbers and comments as controls read them."""
 
+import math
 import textwrap
 import unicodedata
 from functools import lru_cache
@@ -10,6 +11,9 @@ DECIMALS = 4
 COMMENT_WIDTH = 70
 """Longest comment text: Grbl's line buffer of 80 characters is the shortest of the common controls."""
 
+NOISE = 1e-6
+"""Share of a last decimal that is the noise of floating point."""
+
 _SPELLED = str.maketrans(
     {"(": "[", ")": "]", "×": "x", "·": ".", "°": " deg", "ø": "D", "Ø": "D", "⌀": "D", "µ": "u", "μ": "u"}
     | {"–": "-", "—": "-", "−": "-", "±": "+-", "≤": "<=", "≥": ">=", "²": "2", "³": "3", "ß": "ss"}
@@ -17,24 +21,39 @@ _SPELLED = str.maketrans(
 
 
 @lru_cache(maxsize=65536)
-def number(value: float, decimals: int = DECIMALS) -> str:
+def number(value: float, decimals: int = DECIMALS, point: bool = False) -> str:
     """Write a number without needless zeros; passes at many depths ask for the same ones.
 
-    >>> number(12.30000), number(-0.00001), number(5.0)
-    ('12.3', '0', '5')
+    With ``point`` it has a decimal point in any case: Fanuc and Haas read X10 as ten thousandths.
+
+    >>> number(12.30000), number(-0.00001), number(5.0), number(5.0, point=True)
+    ('12.3', '0', '5', '5.')
     """
     text = f"{value:.{decimals}f}"
     if "." in text:
         text = text.rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    text = "0" if text == "-0" else text
+    return text + "." if point and "." not in text else text
 
 
-def rounded(value: float) -> float:
+def rounded(value: float, decimals: int = DECIMALS) -> float:
     """The value that the control will read."""
-    return round(value, DECIMALS)
+    return round(value, decimals)
 
 
-def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
+def floored(value: float, decimals: int) -> float:
+    """The next value at or below, of so many decimals: what is to be cut through is cut through.
+
+    >>> floored(-6.33333, 3), floored(-6.3, 3), floored(2.0004, 3)
+    (-6.334, -6.3, 2.0)
+    """
+    scale = 10.0**decimals
+    return math.floor(value * scale + NOISE) / scale
+
+
+def comment_lines(
+    text: str, active: tuple[str, ...] = (), forbidden: str = "", upper: bool = False
+) -> list[str]:
     r"""Make text safe inside parentheses: ASCII, no parentheses of its own, short lines.
 
     Parameters
@@ -44,6 +63,10 @@ def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
     active
         Words that the control obeys at the start of a comment (LinuxCNC's ``LOGOPEN`` opens a file). A
         line that starts with one is quoted.
+    forbidden
+        Characters that the control would obey or choke on even in a comment; each becomes a space.
+    upper
+        Whether the control shows capitals only.
 
     Examples
     --------
@@ -55,6 +78,7 @@ def comment_lines(text: str, active: tuple[str, ...] = ()) -> list[str]:
     # Once more after the decomposition: it makes plain parentheses of full-width ones.
     plain = unicodedata.normalize("NFKD", text.translate(_SPELLED)).translate(_SPELLED)
     ascii_text = "".join(c for c in plain if not unicodedata.combining(c)).encode("ascii", "replace").decode()
-    printable = "".join(c if c.isprintable() else " " for c in ascii_text)
+    printable = "".join(c if c.isprintable() and c not in forbidden else " " for c in ascii_text)
+    printable = printable.upper() if upper else printable
     lines = textwrap.wrap(" ".join(printable.split()), COMMENT_WIDTH - 1)
     return [f"'{line}" if line.upper().startswith(active) else line for line in lines] if active else lines

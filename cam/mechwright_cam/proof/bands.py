@@ -43,6 +43,14 @@ def inside_of(feature: Feature) -> Shape:
             return pocket
 
 
+def floor_of(feature: Feature, job: Job) -> Shape:
+    """The part of :func:`inside_of` that lies on the plate: a recess may be drawn beyond its edge."""
+    view = inside_of(feature)
+    if isinstance(feature, Pocket):
+        view = shapely.intersection(view, shapely.Polygon(job.target.exterior))
+    return view
+
+
 def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
     """The layers from the top of the part to its underside.
 
@@ -77,4 +85,4 @@ def stock_shape(job: Job) -> shapely.Polygon:
     return shapely.box(*job.stock)
 
 
-__all__ = ["Band", "bands", "grow", "inside_of", "stock_shape"]
+__all__ = ["Band", "bands", "floor_of", "grow", "inside_of", "stock_shape"]

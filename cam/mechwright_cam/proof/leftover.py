@@ -11,6 +11,7 @@ What is between the part and its closing no cutter of the program can remove: it
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import Band, bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
 from mechwright_cam.proof.wall import Wall
@@ -33,6 +34,8 @@ VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
+PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
+"""A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -64,23 +67,22 @@ class Remains:
     """x, y, z, depth, area of each unreachable place, mm, deepest first."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Sweep:
     """Paths that reach a height, of one effective radius: chains for areas, chords for distances."""
 
     radius: float
     chains: Any
 
-    def chords(self) -> Any:
+    @cached_property
+    def tree(self) -> shapely.STRtree:
         """The straight pieces of all chains, and their points: short ones make a tree quick to ask."""
         points, owner = shapely.get_coordinates(self.chains, return_index=True)
         same = owner[:-1] == owner[1:]
         chords = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
-        return np.concatenate((chords, self.chains[shapely.get_dimensions(self.chains) == 0]))
-
-
-Cutter = tuple[shapely.STRtree, float]
-"""The chords of a sweep as a tree, and its radius."""
+        return shapely.STRtree(
+            np.concatenate((chords, self.chains[shapely.get_dimensions(self.chains) == 0]))
+        )
 
 
 def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
@@ -101,7 +103,7 @@ def remains(paths: Paths, job: Job) -> Remains:
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
     if not mills:
         return Remains(0.0, None, ())
-    smallest, widest = min(t.radius for t in mills), max(t.diameter for t in mills)
+    smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
     closings: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
@@ -143,33 +145,33 @@ def _on_walls(
         return 0.0, None
     if aside is not None:
         shapely.prepare(aside)
-    cutters = [(shapely.STRtree(group.chords()), group.radius) for group in groups]
     stations = wall.stations(spacing)
-    _, thick, stations = _measured(wall, stations, aside, job, cutters)
+    _, thick, stations = _measured(wall, stations, aside, job, groups)
     if thick.size == 0:
         return 0.0, None
     worst = stations[np.argsort(thick)[-REFINED:]]
     finer = (worst[:, None] + np.linspace(-spacing, spacing, REFINE)).ravel()
-    points, thick, _ = _measured(wall, np.clip(finer, 0.0, wall.length), aside, job, cutters)
+    points, thick, _ = _measured(wall, np.clip(finer, 0.0, wall.length), aside, job, groups)
     best = int(np.argmax(thick))
     return float(max(thick[best], 0.0)), (float(points[best, 0]), float(points[best, 1]))
 
 
 def _measured(
-    wall: Wall, stations: Array, aside: Shape | None, job: Job, cutters: list[Cutter]
+    wall: Wall, stations: Array, aside: Shape | None, job: Job, groups: list[Sweep]
 ) -> tuple[Array, Array, Array]:
     """Points (k, 2), thickness (k,) and stations (k,) where the wall is to be cut at all."""
     points, outward = wall.at(stations)
     x0, y0, x1, y1 = job.stock
     x, y = points.T
-    # Where the part's edge is the stock's edge there is nothing to cut.
-    asked = (x > x0 + NEAR) & (x < x1 - NEAR) & (y > y0 + NEAR) & (y < y1 - NEAR)
+    # Where the part's edge is the stock's edge there is nothing to cut, nothing above the limit at least.
+    edge = TOLERANCES.leftover
+    asked = (x > x0 + edge) & (x < x1 - edge) & (y > y0 + edge) & (y < y1 - edge)
     if aside is not None:
         asked &= ~shapely.contains_xy(aside, x, y)
-    return points[asked], _thickness(points[asked], outward[asked], cutters), stations[asked]
+    return points[asked], _thickness(points[asked], outward[asked], groups), stations[asked]
 
 
-def _thickness(points: Array, outward: Array, cutters: list[Cutter]) -> Array:
+def _thickness(points: Array, outward: Array, groups: list[Sweep]) -> Array:
     """Distance (k,) from each point to the nearest swept disc, mm; inf where there is none.
 
     A path that finishes a wall runs one radius off it, so the nearest piece of path is looked for there
@@ -177,24 +179,24 @@ def _thickness(points: Array, outward: Array, cutters: list[Cutter]) -> Array:
     """
     spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
-    for tree, radius in cutters:
+    for group in groups:
         # A point that one cutter has cleared needs no other, which could only have left less; the smallest,
         # which comes first, clears most.
         open_ = np.flatnonzero(thick > CLEAN)
         if open_.size == 0:
             break
-        beside = shapely.points(points[open_] + radius * outward[open_])
-        found, chord = tree.query_nearest(beside, max_distance=BESIDE, all_matches=False)
+        beside = shapely.points(points[open_] + group.radius * outward[open_])
+        found, chord = group.tree.query_nearest(beside, max_distance=BESIDE, all_matches=False)
         at = open_[found]
-        distance = shapely.distance(spots[at], tree.geometries[chord]) - radius
+        distance = shapely.distance(spots[at], group.tree.geometries[chord]) - group.radius
         thick[at] = np.minimum(thick[at], distance)
-    for tree, radius in cutters:
+    for group in groups:
         open_ = np.flatnonzero(thick > TOLERANCES.leftover)
         if open_.size == 0:
             break
-        (found, _), distance = tree.query_nearest(spots[open_], return_distance=True, all_matches=False)
+        (found, _), distance = group.tree.query_nearest(spots[open_], return_distance=True, all_matches=False)
         at = open_[found]
-        thick[at] = np.minimum(thick[at], distance - radius)
+        thick[at] = np.minimum(thick[at], distance - group.radius)
     return thick
 
 
@@ -204,7 +206,7 @@ def _on_floors(
     """Greatest distance from the reachable wall to stock that stands on a floor, and the place."""
     # A floor has to be cleared all over; the waste of a through opening drops out.
     floors = [
-        inside_of(feature)
+        floor_of(feature, job)
         for feature in job.features
         if feature.top + feature.depth < job.thickness - NEAR
         and not (isinstance(feature, Profile) and feature.side == "outside")

@@ -1,6 +1,9 @@
 """Rules about the state of the machine: each looks at one thing, and gives one check."""
 
+from itertools import pairwise
+
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import Kind
@@ -10,6 +13,8 @@ from mechwright_cam.proof.scene import Scene, first, in_work, moving
 
 MAX_DWELL = 10.0
 """Longest dwell that makes sense, s: beyond it, a control that counts milliseconds was meant."""
+LENGTH = 1e-3
+"""A length in the program is the measured one if it differs by its last decimal at most, mm."""
 SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
 
 
@@ -55,8 +60,10 @@ def tools_known(scene: Scene) -> Check:
 def length_offset(scene: Scene) -> Check:
     """The active length offset is the tool's own before Z is moved to a height above the work."""
     run = scene.run
-    offset = scene.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
     stated = moving(run) & np.isfinite(run.end[:, 2]) & (run.tool > 0)
+    if not scene.dialect.length_table:
+        return _length_by_hand(scene, stated)
+    offset = scene.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
     step = first(stated & (offset != run.tool))
     if step is not None:
         tool, active = int(run.tool[step]), int(offset[step])
@@ -70,6 +77,42 @@ def length_offset(scene: Scene) -> Check:
             "length-offset", step, f"{found} while T{tool} is in the spindle; write G43 H{tool}", active, tool
         )
     return Check("length-offset", True, "every tool moves Z under its own G43 H")
+
+
+def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
+    """Without a table: each tool has its length from G43.1, or is touched off at a stop or between files."""
+    run = scene.run
+    given = scene.of_states(lambda state: np.nan if state.length is None else state.length)
+    known = {number: tool.length for number, tool in scene.tools.items()}
+    measured = np.array([np.nan if (n := known.get(t)) is None else n for t in run.tool.tolist()])
+    step = first(stated & np.isfinite(given) & np.isfinite(measured) & (np.abs(given - measured) > LENGTH))
+    if step is not None:
+        return scene.bad(
+            "length-offset",
+            step,
+            f"G43.1 Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm",
+            float(given[step]),
+            float(measured[step]),
+            "mm",
+        )
+    # Where the operator could touch off: at a stop, or before a file starts.
+    chances = np.flatnonzero(run.kind == Kind.STOP)
+    changes = np.flatnonzero(run.kind == Kind.TOOL)
+    begun = np.zeros(len(run), dtype=np.int64) if run.file.size == 0 else run.file
+    for before, change in pairwise(changes.tolist()):
+        used = np.flatnonzero(stated[change:] & np.isnan(given[change:]))
+        if used.size == 0:
+            continue
+        at = change + int(used[0])
+        fresh = begun[at] != begun[before] or ((chances > change) & (chances < at)).any()
+        if not fresh:
+            return scene.bad(
+                "length-offset",
+                at,
+                f"Z is moved with T{run.tool[at]} as if it were as long as the tool before; "
+                "stop (M0) to touch it off, or write G43.1 with its length",
+            )
+    return Check("length-offset", True, "every tool is touched off, or has its length from G43.1")
 
 
 def work_offset(scene: Scene) -> Check:

@@ -1,9 +1,12 @@
 """Rules about where the tool goes: each looks at one thing, and gives one check."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
 
-from mechwright.tooling import ToolKind
+from mechwright.motion import Array
+from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.bands import stock_shape
@@ -11,12 +14,9 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 
-LAST_DECIMAL = 1e-4
-"""A ramp may end this much lower than its angle allows, mm: both its ends are rounded in the text."""
-
 
 def travel(scene: Scene) -> Check:
-    """The moves fit into the machine, wherever the stock is clamped."""
+    """The moves fit into the machine: where the stock is clamped if that is known, else wherever it is."""
     paths, machine = scene.paths, scene.job.settings.machine
     if paths.steps.size == 0:
         return Check("travel", True, "no moves")
@@ -44,7 +44,37 @@ def travel(scene: Scene) -> Check:
                 limit,
                 "mm",
             )
+        beyond = _beyond(scene, axis, lower, upper, limit)
+        if beyond is not None:
+            return beyond
     return Check("travel", True, "all moves are within the machine's travel")
+
+
+def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -> Check | None:
+    """The move that leaves the travel furthest, where offsets and the ends of travel are known."""
+    cam, steps = scene.job.settings, scene.paths.steps
+    low: float | None = getattr(cam.machine, f"low_{axis.lower()}")
+    place: float | None = getattr(cam.measured, axis.lower())
+    if low is None or place is None:
+        return None
+    length = np.zeros(steps.size)
+    if axis == "Z":
+        known = {n: tool.length for n, tool in scene.tools.items() if tool.length is not None}
+        length = np.array([known.get(number, np.nan) for number in scene.run.tool[steps].tolist()])
+    over = np.fmax(low - (lower + place + length), upper + place + length - (low + limit))
+    if np.isnan(over).all() or np.nanmax(over) <= NEAR:
+        return None
+    worst = int(np.nanargmax(over))
+    found = float(over[worst])
+    return scene.bad(
+        "travel",
+        int(steps[worst]),
+        f"the move leaves the travel of {axis} by {found:.1f} mm (machine {axis} {low:g} to {low + limit:g}, "
+        f"work offset at {place:g}); clamp the stock elsewhere",
+        found,
+        0.0,
+        "mm",
+    )
 
 
 def flutes(scene: Scene) -> Check:
@@ -132,7 +162,8 @@ def entries(scene: Scene) -> Check:
     plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
-    steep = drop > flat * np.tan(np.radians(limit)) + LAST_DECIMAL
+    # A ramp may end lower than its angle allows by the last decimal: both its ends are rounded in the text.
+    steep = drop > flat * np.tan(np.radians(limit)) + 10.0**-scene.dialect.decimals
     suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
@@ -160,8 +191,50 @@ def entries(scene: Scene) -> Check:
     )
 
 
+def holder(scene: Scene) -> Check:
+    """Shank and holder stay out of the stock and of finished walls, where the tool library knows them."""
+    paths, run = scene.paths, scene.run
+    for body in _bodies(scene):
+        low = np.minimum(paths.start[:, 2], paths.end[:, 2]) + body.lift
+        steps = paths.steps[(run.tool[paths.steps] == body.tool.number) & (low[paths.steps] < -NEAR)]
+        # The deepest first: if they pass where material may still be, the others nearly always do.
+        for step in steps[np.argsort(low[steps], kind="stable")].tolist():
+            if scene.stock.meets(step, lift=body.lift, radius=body.radius):
+                return scene.bad(
+                    "holder",
+                    step,
+                    f"the {body.name} of T{body.tool.number} ({body.tool.name}), {2 * body.radius:g} mm wide "
+                    f"from {body.lift:g} mm above the tip, goes {-low[step]:.2f} mm deep into material; "
+                    "let the tool stick out further",
+                    float(-low[step]),
+                    0.0,
+                    "mm",
+                )
+    return Check("holder", True, "shank and holder stay out of stock and walls")
+
+
+@dataclass(frozen=True)
+class _Body:
+    """What is above a tool's flutes: a cylinder from ``lift`` above the tip."""
+
+    tool: Tool
+    name: str
+    lift: float
+    radius: float
+
+
+def _bodies(scene: Scene) -> list[_Body]:
+    bodies = []
+    for tool in scene.tools.values():
+        if tool.shank_diameter is not None and tool.shank_diameter > tool.diameter:
+            bodies.append(_Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
+        if tool.stick_out is not None:
+            bodies.append(_Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
+    return bodies
+
+
 def clamp(scene: Scene) -> Check:
-    """The cutter stays clear of the clamp, from the stop on at which the operator sets it."""
+    """Cutter, shank and holder stay clear of the clamp, from the stop on at which the operator sets it."""
     run, held, paths = scene.run, scene.job.clamp, scene.paths
     if held is None:
         return Check("clamp", True, "there is no clamp in the way")
@@ -181,6 +254,25 @@ def clamp(scene: Scene) -> Check:
                 int(pieces.step[worst]),
                 f"the cutter goes {-room[worst]:.2f} mm into the clamp (diameter {held.diameter:g} mm, "
                 f"up to Z{held.top:g})",
+                float(room[worst]),
+                0.0,
+                "mm",
+            )
+    after = paths.steps[paths.steps > (stops[0] if stops.size else -1)]
+    for body in _bodies(scene):
+        own = after[run.tool[after] == body.tool.number]
+        pieces = paths.below(held.top - body.lift - NEAR, steps=own)
+        if len(pieces) == 0:
+            continue
+        room = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
+        room = room - body.radius - held.diameter / 2
+        worst = int(np.argmin(room))
+        if room[worst] < 0:
+            return scene.bad(
+                "clamp",
+                int(pieces.step[worst]),
+                f"the {body.name} of T{body.tool.number} goes {-room[worst]:.2f} mm into the clamp (diameter "
+                f"{held.diameter:g} mm, up to Z{held.top:g}); let the tool stick out further",
                 float(room[worst]),
                 0.0,
                 "mm",

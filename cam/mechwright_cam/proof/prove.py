@@ -1,36 +1,42 @@
 """From program text to proof."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import shapely
 
+from mechwright.errors import ProgramError
 from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret
+from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
-from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
+from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
-from mechwright_cam.proof.plane import Shape
+from mechwright_cam.proof.plane import Shape, swept
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.timing import step_times
 
+SWEPT = 0.01
+"""Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
 
-def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
+
+def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     """Simulate a program against the part it should make.
 
     Parameters
     ----------
     text
-        The program as the control would get it, from this project's posts or from anywhere.
+        The program as the control would get it, from this project's posts or from anywhere; several files,
+        name to text, if they are run one after the other.
     job
         The part, its stock, its holding and the tools on the machine.
     dialect
@@ -46,23 +52,22 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
     ProgramError
         The text cannot be read; the message names the line.
     """
-    run = interpret(text, dialect)
+    run = _run(text, job, dialect)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
-    scene = Scene(run, job, tools, paths, Stock(paths, job))
-    checks = [rule(scene) for rule in RULES]
-    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
-    checks.append(_gouge_check(scene, gouge))
-    in_tab = _deepest(
-        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
-        for top in sorted({tab.top for tab in job.tabs})
-    )
-    checks.append(_tab_check(scene, in_tab))
-    checks.append(_depth_check(scene))
-    left = remains(paths, job)
-    checks.append(_leftover_check(left))
-    held, loose = holding(paths, job)
-    checks.append(held)
+    scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
+    with ThreadPoolExecutor() as pool:  # none of the three depends on another
+        cuts, stays = pool.submit(_cuts, scene), pool.submit(_stays, scene)
+        checks = [rule(scene) for rule in RULES]
+    gouge, in_tab = cuts.result()
+    left, held, loose = stays.result()
+    checks += [
+        _gouge_check(scene, gouge),
+        _tab_check(scene, in_tab),
+        _depth_check(scene),
+        _leftover_check(left),
+        held,
+    ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
     return Proof(
@@ -79,6 +84,46 @@ def prove(text: str, job: Job, dialect: Dialect = LINUXCNC) -> Proof:
         operations=_operations(run, seconds),
         notes=(*_notes(left), *loose),
     )
+
+
+def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
+    """The deepest cut into the part, and into a tab."""
+    paths, job = scene.paths, scene.job
+    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    in_tab = _deepest(
+        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
+        for top in sorted({tab.top for tab in job.tabs})
+    )
+    return gouge, in_tab
+
+
+def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
+    """What is left, and what holds the part."""
+    left = remains(scene.paths, scene.job)
+    held, loose = holding(scene.paths, scene.job)
+    return left, held, loose
+
+
+def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+    upper_end = job.settings.machine.retract_z
+    if isinstance(text, str):
+        return interpret(text, dialect, upper_end=upper_end)
+    runs = []
+    for name, one in text.items():
+        try:
+            runs.append(interpret(one, dialect, upper_end=upper_end))
+        except ProgramError as error:
+            raise ProgramError(f"{name}: {error}") from error
+    return joined(tuple(text), runs)
+
+
+def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
+    """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
+    paths = Paths(_run(text, job, dialect), {tool.number: tool for tool in job.tools})
+    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
+    gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
+    rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)
+    return rest
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
@@ -110,7 +155,7 @@ def _tab_check(scene: Scene, cut: Gouge | None) -> Check:
 def _blame(scene: Scene, name: str, cut: Gouge, limit: float, message: str) -> Check:
     x, y, z = cut.at
     line = scene.line(cut.step)
-    text = f"line {line}: {message.format(cut.depth, limit)}, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
+    text = f"{scene.spot(cut.step)}: {message.format(cut.depth, limit)}, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
     return Check(name, False, text, line, cut.depth, limit, "mm", cut.at)
 
 
@@ -120,7 +165,7 @@ def _depth_check(scene: Scene) -> Check:
     cutting = paths.steps[np.isin(scene.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
-        shape = inside_of(feature)
+        shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             shape = shapely.difference(stock_shape(job), shape)
         if shape.is_empty or shape.area <= NEAR:
@@ -178,9 +223,9 @@ def _leftover_check(left: Remains) -> Check:
 def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
     """Times by operation: from one operation comment to the next; by tool where there are none."""
     named = [
-        (remark.step, remark.text[len(OPERATION_COMMENT) :])
+        (remark.step, _as_planned(remark.text[len(OPERATION_COMMENT) :]))
         for remark in run.remarks
-        if remark.text.startswith(OPERATION_COMMENT)
+        if remark.text.lower().startswith(OPERATION_COMMENT)
     ]
     if not named:
         named = [(int(step), f"T{run.tool[step]}") for step in np.flatnonzero(run.kind == Kind.TOOL)]
@@ -193,9 +238,20 @@ def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
         if last > first:
             tool = int(run.tool[last - 1])
             out.append(
-                OperationTime(name, tool, float(seconds[first:last].sum()), float(path[first:last].sum()))
+                OperationTime(
+                    name,
+                    tool,
+                    float(seconds[first:last].sum()),
+                    float(path[first:last].sum()),
+                    float(seconds[first:last][run.cutting[first:last]].sum()),
+                )
             )
     return tuple(out)
+
+
+def _as_planned(name: str) -> str:
+    """The name of an operation; a control that shows capitals only has changed it."""
+    return name.lower() if name.isupper() else name
 
 
 def _notes(left: Remains) -> tuple[str, ...]:

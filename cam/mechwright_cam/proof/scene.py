@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.tooling import Tool
-from mechwright_cam.interpreter import Kind, Run, State
+from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, State
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
@@ -24,6 +24,7 @@ class Scene:
     tools: dict[int, Tool]
     paths: Paths
     stock: Stock
+    dialect: Dialect = LINUXCNC
 
     def where(self, step: int) -> tuple[float, float, float]:
         """End of a step."""
@@ -31,8 +32,14 @@ class Scene:
         return x, y, z
 
     def line(self, step: int) -> int:
-        """Line of a step."""
+        """Line of a step, in its file."""
         return int(self.run.line[step])
+
+    def spot(self, step: int) -> str:
+        """File and line of a step, in words; there is no file's name where there is one file."""
+        names = self.run.files
+        name = f"{names[int(self.run.file[step])]}: " if len(names) > 1 else ""
+        return f"{name}line {self.line(step)}"
 
     def state(self, step: int) -> State:
         """Machine state in a step."""
@@ -54,7 +61,7 @@ class Scene:
         """A failed check that blames one step."""
         at = self.where(step)
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
-        text = f"line {self.line(step)}: {message}" + (f", at {place}" if place else "")
+        text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
         return Check(name, False, text, self.line(step), value, limit, unit, at)
 
 

@@ -11,12 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright_cam.job import Job
+from mechwright_cam.posts.offsets import setting_words
 from mechwright_cam.svg import signed
 
 CHECK_HEIGHT = 50.0
 """Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
-
-_OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 
 
 @dataclass(frozen=True)
@@ -42,9 +41,10 @@ def steps(job: Job, tools: Sequence[int], *, file_name: str, deepest: float) -> 
         Lowest z that any tool reaches, mm.
     """
     offset = job.settings.work_offset
+    over = job.side == "underside"
     return [
-        _stock(job, deepest),
-        _plane(job, offset),
+        _turn(job) if over else _stock(job, deepest),
+        _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
         _lengths(offset, tools),
         _check(offset, tools),
@@ -87,6 +87,45 @@ def _stock(job: Job, deepest: float) -> Step:
     return Step("Clamp the stock", tuple(lines))
 
 
+def _turn(job: Job) -> Step:
+    side = job.settings.second_side
+    edges = "front edge goes to the rear" if side.flip == "x" else "left edge goes to the right"
+    lines = [
+        f"Turn the plate over about the {side.flip.upper()} axis: its {edges}. The tabs are on top "
+        "now; leave the frame on.",
+        "Support the part from below: it hangs by the tabs only. Clamp the frame.",
+    ]
+    if side.locate == "dowels":
+        lines.append(
+            f"Put it on two dowels of {side.dowel_diameter:g} mm, which stand in the table where the first "
+            "side's holes were."
+        )
+    return Step("Turn the plate over", tuple(lines))
+
+
+def _second_plane(job: Job, offset: str) -> Step:
+    x0, y0, _, _ = job.stock
+    side, first = job.settings.second_side, "the first side's"
+    match side.locate:
+        case "dowels":
+            same, other = ("X", "Y") if side.flip == "x" else ("Y", "X")
+            how = (
+                f"With the origin on the part's axis {offset} X and Y are {first}: the dowels stand on the "
+                f"{same} axis. With another origin indicate the dowels for {other}."
+            )
+        case "bore":
+            x, y = job.pick_up or (0.0, 0.0)
+            how = (
+                f"Indicate the largest bore to 0.01 mm. Its axis is X {signed(x)}, Y {signed(y)} in {offset}."
+            )
+        case "edges":
+            how = (
+                f"The left edge is X {signed(x0)}, the front edge is Y {signed(y0)}. With an edge finder of "
+                f"radius r: on the left edge X reads {signed(x0)} − r, on the front edge Y {signed(y0)} − r."
+            )
+    return Step(f"Set {offset} X and Y", (how,))
+
+
 def _plane(job: Job, offset: str) -> Step:
     x0, y0, _, _ = job.stock
     lines = [f"X0 Y0 is {origin_words(job)}."]
@@ -105,13 +144,12 @@ def _plane(job: Job, offset: str) -> Step:
 
 
 def _height(offset: str) -> Step:
-    number = _OFFSETS.index(offset) + 1
     return Step(
         f"Set {offset} Z once, with the Z setter",
         (
             "No length offset active: G49. Stand the setter (height h) on the clean top of the stock.",
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
-            f"Enter {offset} Z = N − h on the offset page, or G10 L2 P{number} Z[N − h]. "
+            f"Enter {offset} Z = N − h on the offset page, or {setting_words(offset)} Z[N − h]. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
             "If the nose cannot reach, use the longest tool in its place, for N and as H0 below; "
             "the others then have negative H.",

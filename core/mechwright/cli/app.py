@@ -138,6 +138,9 @@ def verify(
     ],
     design: Annotated[Path, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)],
     part: Annotated[str, typer.Option(metavar="NAME", help="The part it cuts.", show_default=False)],
+    control: Annotated[
+        str, typer.Option(metavar="NAME", help="The control it is for; by default the design's.")
+    ] = "",
     as_json: AsJson = False,
 ) -> None:
     """Prove that a program from anywhere cuts the part.
@@ -146,7 +149,7 @@ def verify(
     """
     from mechwright.cli import work
 
-    work.verify(program, design, part, as_json)
+    work.verify(program, design, part, as_json, control)
 
 
 @app.command()

@@ -9,7 +9,7 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
-from mechwright.design import SIZE_LIMIT, Design, load, read_text
+from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
@@ -145,23 +145,29 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     inputs = {design.path.name: design.digest}
     if design.tool_library is not None:
         inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
+    machine = machine_file(design.path, design.cam)
+    if machine is not None:
+        inputs[design.cam.machine.model] = read_text(machine)[1]
     return facts(design.name, design.family, inputs, found)
 
 
-def verify(program: Path, path: Path, part_name: str, as_json: bool) -> None:
+def verify(program: Path, path: Path, part_name: str, as_json: bool, control: str = "") -> None:
     """Prove a program that came from anywhere."""
     from mechwright_cam import pipeline
 
-    design, _ = _open(path)
+    design, found = _open(path)
     text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
     findings = list(design.family.check(design.params))
     if errors(findings):
         _refuse(findings, path)
     parts = {part.name: part for part in design.family.parts(design.params)}
-    if part_name not in parts:
+    from mechwright_cam.setups import UNDERSIDE
+
+    name = part_name if part_name in parts else part_name.removesuffix(UNDERSIDE)
+    if name not in parts:
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
     try:
-        proof = pipeline.verify(design, parts[part_name], text)
+        proof = pipeline.verify(design, parts[name], text, found, control, underside=name != part_name)
     except ProgramError as error:
         raise ProgramError(f"{program}: {error}") from error
     if as_json:

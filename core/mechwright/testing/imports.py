@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-HEAVY = ("cadquery", "ezdxf", "jinja2", "OCP", "scipy", "shapely")
+HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
 """Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
 
 

@@ -10,7 +10,7 @@ relief
     A semicircle through a floor corner, its centre on the corner's bisector, that lets a round cutter leave
     the corner free.
 
-The keyway points along +x, towards the far vertex, where the gear has most material.
+The keyway points along +x.
 """
 
 import math
@@ -165,14 +165,24 @@ class Opening:
     def _relief(self, centre: Point, start: float) -> Arc:
         return Arc(centre, self.relief / 2, start, -math.pi, "relief")
 
-    def key_section(self) -> list[Point]:
-        """Corners, mm, of the part of the key in the hub, its edges with the standard's least chamfer."""
+    @property
+    def key_top(self) -> float:
+        """X of the upper side of the key, mm."""
         key = key_of_width(self.width)
         if key:
-            chamfer, top = key.chamfer, self.bore / 2 + key.height - key.shaft_depth
-        else:
-            chamfer = min(LEAST_CHAMFER, self.width / 4)
-            top = self.floor - min(TOP_CLEARANCE, self.depth / 2)
+            return self.bore / 2 + key.height - key.shaft_depth
+        return self.floor - min(TOP_CLEARANCE, self.depth / 2)
+
+    @property
+    def seat_depth(self) -> float:
+        """Depth t1 of the seat in the shaft, mm; that of the hub where the key is of no standard width."""
+        key = key_of_width(self.width)
+        return key.shaft_depth if key else self.depth
+
+    def key_section(self) -> list[Point]:
+        """Corners, mm, of the part of the key in the hub, its edges with the standard's least chamfer."""
+        key, top = key_of_width(self.width), self.key_top
+        chamfer = key.chamfer if key else min(LEAST_CHAMFER, self.width / 4)
         half = self.width / 2
         return [
             (self.mouth, -half),

@@ -1,0 +1,112 @@
+"""Recesses and openings as the cutter sees them: what must go, what stays, and where it may run out.
+
+Glossary
+--------
+must
+    The plan view of the feature on the part.
+open
+    No wall stands along a stretch of the boundary: the feature reaches over the part's edge, or into another
+    feature that is at least as deep.
+around
+    Where the cutter's edge may be: ``must``, and beyond its open stretches a strip to run out into.
+"""
+
+from dataclasses import dataclass
+
+import shapely
+
+from mechwright.part import Bore, Feature, Pocket, Profile
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.job import Job
+from mechwright_cam.reach import opening_keep
+from mechwright_cam.toolpath.offsets import ROUGH, corners, filled, grow, opened, polygons
+
+LEVEL = 1e-6
+"""Heights nearer than this are one, mm: far below the last decimal of a program."""
+SKIN = 2 * TOLERANCES.flatten
+"""A boundary within this of the part's edge is on it, mm: what the chords of both may be off together."""
+FILM = 1e-6
+"""Area over circumference of what only rounding of numbers can leave, mm."""
+LONG = 2.0
+"""Circumference from which on something as thin is a skin, mm."""
+
+
+@dataclass(frozen=True)
+class Recess:
+    """The shapes of one feature, work coordinates, mm."""
+
+    must: shapely.Geometry
+    keep: shapely.Geometry
+    around: shapely.Geometry
+    open: bool
+
+
+def plan_view(feature: Feature) -> shapely.Geometry:
+    """What an inside feature takes, seen from above, as it is drawn."""
+    match feature:
+        case Bore():
+            radius = feature.diameter / 2
+            return shapely.Point(feature.centre).buffer(radius, quad_segs=corners(radius, ROUGH / 20))
+        case Profile():
+            return shapely.Polygon(feature.loop.flatten())
+        case Pocket():
+            islands = [shapely.Polygon(island.flatten()) for island in feature.islands]
+            return shapely.Polygon(feature.boundary.flatten()).difference(shapely.union_all(islands))
+
+
+def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -> Recess:
+    """Look at a feature that is cut down to ``bottom``, z in mm.
+
+    Parameters
+    ----------
+    run_out
+        How far beyond an open stretch the cutter's edge goes, mm.
+    """
+    shape = plan_view(feature)
+    others = _at_least_as_deep(job, feature)
+    inside = filled(job.target)
+    edge = grow(inside, -SKIN, ROUGH)
+    shapely.prepare(edge)
+    near = [other for other in others if shapely.dwithin(shape, other, SKIN)]
+    if shapely.contains_properly(edge, shape) and not near:
+        return Recess(shape, opening_keep(shape, 2 * run_out), shape, False)
+    x0, y0, x1, y1 = shape.bounds
+    far = 4 * run_out
+    window = shapely.box(x0 - far, y0 - far, x1 + far, y1 + far)
+    must = shapely.union_all(polygons(shapely.intersection(shape, inside)))
+    gone = shapely.union_all([shapely.difference(window, inside), *near])
+    keep = shapely.difference(shapely.intersection(job.target, window), shapely.union_all([must, gone]))
+    keep = shapely.difference(keep, _skin(keep))
+    tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
+    keep = shapely.union_all([*polygons(keep), *tabs])
+    free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
+    around = shapely.union_all([part for part in free if shapely.intersects(part, must)])
+    return Recess(must, keep, around, True)
+
+
+def reached_share(shapes: Recess, radius: float) -> float:
+    """The part of a feature's area that a cutter of ``radius`` can reach."""
+    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
+    return float(shapely.intersection(reach, shapes.must).area / shapes.must.area)
+
+
+def _skin(keep: shapely.Geometry) -> shapely.Geometry:
+    """What rounding leaves standing where a feature ends at the edge: long and thin, no wall of the drawing.
+
+    The tip of a sharp wedge is as thin, but short.
+    """
+    thin = polygons(shapely.difference(keep, opened(keep, SKIN / 2)))
+    return shapely.union_all([p for p in thin if p.length > LONG or p.area < FILM * p.length])
+
+
+def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:
+    """The other features that take everything from this one's top to its bottom."""
+    top, bottom = feature.top, feature.top + feature.depth
+    return [
+        plan_view(other)
+        for other in job.features
+        if other is not feature
+        and not (isinstance(other, Profile) and other.side == "outside")
+        and other.top <= top + LEVEL
+        and other.top + other.depth >= bottom - LEVEL
+    ]

@@ -1,0 +1,142 @@
+"""The gears as parts: which of them are alike, where their keyways stand, and which holes they have."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from mechwright.geometry import Loop, Outline, circle
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore, Colour, Feature, Instance, Part, Profile
+from mechwright_elliptic_gears.gear import opening_of, outline_of
+from mechwright_elliptic_gears.kinematics import phase_offset
+from mechwright_elliptic_gears.layout import DOWELS, Layout
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+COLOURS: dict[str, Colour] = {
+    "gear-2": (0.45, 0.58, 0.70),
+    "gear-3": (0.62, 0.74, 0.60),
+    "gear-4": (0.80, 0.68, 0.42),
+    "gear-5": (0.66, 0.56, 0.72),
+}
+"""Body of each gear to its colour."""
+
+_CACHED = 16
+"""Designs whose gears are kept."""
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A round hole beside the bore: name, centre in the part frame, diameter, mm."""
+
+    name: str
+    centre: Point
+    diameter: float
+
+
+@dataclass(frozen=True)
+class Gear:
+    """One gear part.
+
+    Parameters
+    ----------
+    name
+        Of the part.
+    bodies
+        Each copy's body in the motion, and the height of its underside, mm.
+    key
+        Direction of the keyway from the far vertex, counter-clockwise seen from above, rad; None without one.
+    holes
+        Holes beside the bore.
+    """
+
+    name: str
+    bodies: tuple[tuple[str, float], ...]
+    key: float | None = None
+    holes: tuple[Hole, ...] = ()
+
+
+@lru_cache(_CACHED)
+def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
+    """The gear parts of a design.
+
+    A single pair has one part twice. In a train gears 2 and 3 are alike if a key holds them, gear 4 has its
+    keyway -φ from its far vertex, so that it comes to θ3 + φ on the key of gear 3, and gear 5 idles on its
+    shaft. Without a key three dowels join gear 3 to gear 4, whose holes are turned by -φ in the same way.
+    """
+    key = 0.0 if params.keyway_width > 0 else None
+    phase = params.phase_angle
+    if phase is None:
+        return (Gear("gear", (("gear-2", 0.0), ("gear-4", 0.0)), key),)
+    layout = Layout.of(params)
+    low, high = layout.lower, layout.upper
+    back = -phase_offset(phase, params.eccentricity) % math.tau
+    joint = Hole("joint", (layout.focus, 0.0), layout.pin)
+    last = Gear("gear-5", (("gear-5", high),), None, (joint,))
+    if key is not None:
+        return (
+            Gear("gear", (("gear-2", low), ("gear-3", low)), key),
+            Gear("gear-4", (("gear-4", high),), back, (joint,)),
+            last,
+        )
+    return (
+        Gear("gear-2", (("gear-2", low),)),
+        Gear("gear-3", (("gear-3", low),), None, _dowel_holes(layout, 0.0)),
+        Gear("gear-4", (("gear-4", high),), None, (joint, *_dowel_holes(layout, back))),
+        last,
+    )
+
+
+def _dowel_holes(layout: Layout, turn: float) -> tuple[Hole, ...]:
+    radius = layout.dowel_circle / 2
+    return tuple(
+        Hole(name, (radius * math.cos(angle + turn), radius * math.sin(angle + turn)), layout.dowel)
+        for name, angle in DOWELS.items()
+    )
+
+
+def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
+    """The gear's shaft opening, clockwise, in its part frame; None without a bore."""
+    opening = opening_of(params)
+    if opening is None:
+        return None
+    if gear.key is None:
+        return Loop((circle((0.0, 0.0), opening.bore / 2, clockwise=True, tag="bore"),))
+    return opening.loop().moved(0.0, 0.0, gear.key)
+
+
+def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
+    """The gear with its features: bore, keyway, holes, then the outside, which tabs may hold at the tips."""
+    whole, depth = outline_of(params), params.thickness
+    inner: list[Loop] = []
+    features: list[Feature] = []
+    opening = gear_opening(params, gear)
+    if opening is not None:
+        inner.append(opening)
+        features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
+        if gear.key is not None:
+            features.append(Profile("keyway", opening, "inside", 0, depth))
+    for hole in gear.holes:
+        inner.append(Loop((circle(hole.centre, hole.diameter / 2, clockwise=True, tag=hole.name),)))
+        features.append(Bore(hole.name, hole.centre, hole.diameter, 0, depth))
+    features.append(Profile("outside", whole.outer, "outside", 0, depth, _tab_sites(whole.outer)))
+    return Part(
+        gear.name,
+        Outline(whole.outer, tuple(inner), whole.deviation),
+        depth,
+        params.material,
+        instances=tuple(Instance(body, z, COLOURS[body]) for body, z in gear.bodies),
+        machined=tuple(features),
+    )
+
+
+def _tab_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
+    """The middle of every tip, where a tab's mark touches no flank, and the tip's chord as its limit."""
+    sites = []
+    for segment in loop.segments:
+        if segment.tag == "tip":
+            x, y = segment.at(0.5)[0].tolist()
+            width = float(np.hypot(segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]))
+            sites.append(((x, y), width))
+    return tuple(sites)

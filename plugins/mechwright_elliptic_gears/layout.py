@@ -1,0 +1,135 @@
+"""How the parts of a train stand over each other, and the sizes that a design leaves open.
+
+From below: base plate, spacers, gears 2 and 3, spacer, gears 4 and 5, joint spacers, coupler, heads of the
+pins. Height 0 is the upper side of the base plate. Shafts and dowels end flush with the gears they carry:
+the next gear or the coupler sweeps over them.
+"""
+
+import math
+from dataclasses import dataclass
+
+from mechwright_elliptic_gears.gear import ellipse_of
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+GAP = 2.0
+"""Height of spacers, mm: chips and a little wobble of a plate on its shaft have room."""
+
+COUPLER, BASE = 6.0, 10.0
+"""Thickness of coupler and base plate, mm: stock sizes."""
+
+SPACER = 1.5
+"""Outside of spacers over their shaft: a wall of a quarter of the shaft."""
+
+HEAD, HEAD_HEIGHT = 1.5, 0.4
+"""Head of a joint pin over its shank, as flat heads of clevis pins (ISO 2341) have it."""
+
+EYE = 2.0
+"""Outside of the coupler's eyes over the pin: the usual edge distance, a diameter from the hole's middle."""
+
+RUNNING = 0.02
+"""By how much, mm, a shaft or pin is thinner where it turns: the middle of fit f7 at 6 to 18 mm."""
+
+AXIAL_PLAY = 0.1
+"""Between coupler and the heads of its pins, mm, so that it turns freely."""
+
+STUB = 2.0
+"""How far the input shaft stands out below the base plate, in diameters: room for a shaft coupling."""
+
+MARGIN = 2.0
+"""Of the base plate around the shafts' axes, in bores: one and a half bores of wall."""
+
+FIXING = 0.55
+"""Holes that fix the base plate, in bores: 6.6 mm, M6, at a shaft of 12 mm."""
+
+DOWELS = {"dowel-1": 0.0, "dowel-2": math.pi / 2, "dowel-3": 7 * math.pi / 6}
+"""Bodies of the dowels and their directions on gear 3, rad. All three steps differ, so that gears 3 and 4 go
+together in one way only, and not turned over."""
+
+DOWEL_GAP = 0.5
+"""Between dowels and spacer, mm."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Sizes and heights of a train, mm.
+
+    Parameters
+    ----------
+    semi_major, eccentricity
+        Of the pitch ellipses.
+    thickness
+        Of the gears.
+    bore, gap, pin, coupler, tracer, base, dowel, dowel_circle
+        As the design says, or their defaults.
+    """
+
+    semi_major: float
+    eccentricity: float
+    thickness: float
+    bore: float
+    gap: float
+    pin: float
+    coupler: float
+    tracer: float
+    base: float
+    dowel: float
+    dowel_circle: float
+
+    @classmethod
+    def of(cls, params: EllipticGearParams) -> "Layout":
+        """The layout of a train."""
+        bore = params.bore
+        pin = _or(params.pin_diameter, _stock_size(bore / 2))
+        dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
+        return cls(
+            ellipse_of(params).semi_major,
+            params.eccentricity,
+            params.thickness,
+            bore,
+            _or(params.gap, GAP),
+            pin,
+            _or(params.coupler_thickness, COUPLER),
+            _or(params.tracer_diameter, pin),
+            _or(params.base_thickness, BASE),
+            dowel,
+            _or(params.dowel_circle, math.ceil(SPACER * bore + dowel + 2 * DOWEL_GAP)),
+        )
+
+    @property
+    def lower(self) -> float:
+        """Underside of gears 2 and 3."""
+        return self.gap
+
+    @property
+    def upper(self) -> float:
+        """Underside of gears 4 and 5."""
+        return self.lower + self.thickness + self.gap
+
+    @property
+    def link(self) -> float:
+        """Underside of the coupler."""
+        return self.upper + self.thickness + self.gap
+
+    @property
+    def spacer(self) -> float:
+        """Outer diameter of the spacers on the shafts."""
+        return SPACER * self.bore
+
+    @property
+    def eye(self) -> float:
+        """Radius of the coupler's ends."""
+        return EYE * self.pin / 2
+
+    @property
+    def focus(self) -> float:
+        """From a gear's axis to its joint: 2 a e."""
+        return 2 * self.semi_major * self.eccentricity
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def _stock_size(diameter: float) -> float:
+    """Rounded to half a millimetre, at least that."""
+    return max(0.5, round(2 * diameter) / 2)

@@ -1,0 +1,1 @@
+"""The family ``geneva``: Geneva mechanisms with straight or curved slots."""

@@ -1,0 +1,92 @@
+"""What an engineer would object to in a design, and the figures worth knowing.
+
+Each group needs what the groups before it have found to be sound, so the first group with an error ends the
+list.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+
+from mechwright.findings import Finding, Severity, errors
+from mechwright_geneva.body_checks import body_findings
+from mechwright_geneva.feasible import feasibility
+from mechwright_geneva.load_checks import load_findings
+from mechwright_geneva.locking import cover, free_play
+from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.motion import peaks_of
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.slot_checks import REGIMES, slot_findings
+
+_CACHED = 32
+"""Designs whose findings are kept: parts ask for them again."""
+
+
+@lru_cache(_CACHED)
+def findings(params: GenevaParams) -> tuple[Finding, ...]:
+    """Everything that is to be said about a design. No error among it means that the parts can be built."""
+    found = list(feasibility(params))
+    if errors(found):
+        return tuple(found)
+    m = mechanism_of(params)
+    groups: tuple[Callable[[Mechanism], Iterator[Finding]], ...] = (
+        slot_findings,
+        body_findings,
+        load_findings,
+        _figures,
+    )
+    for group in groups:
+        found += group(m)
+        if errors(found):
+            break
+    return tuple(found)
+
+
+def _figures(m: Mechanism) -> Iterator[Finding]:
+    yield Finding(
+        "geneva.size",
+        Severity.NOTE,
+        "",
+        f"centre distance {m.axes:.4f} mm, crank radius {m.crank:.4f} mm, slot bottom {m.bottom:.4f} "
+        f"mm from the wheel's axis, locking disc {m.lock:.3f} mm",
+        m.axes,
+        None,
+        "mm",
+    )
+    peaks = peaks_of(m)
+    yield Finding(
+        "geneva.motion",
+        Severity.NOTE,
+        "",
+        f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the "
+        f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
+        peaks.a,
+        None,
+        "",
+    )
+    play = math.degrees(free_play(m))
+    yield Finding(
+        "geneva.play",
+        Severity.NOTE,
+        "",
+        f"in the middle of the dwell the locked wheel can turn by {play:.4f} degrees either way; within "
+        f"{math.degrees(cover(m)):.1f} degrees of its ends the disc covers one horn only, and it is more",
+        play,
+        None,
+        "deg",
+    )
+    if m.straight:
+        return
+    found = m.measures
+    limit = float(found.island_limit[0])
+    yield Finding(
+        "geneva.slot",
+        Severity.NOTE,
+        "",
+        f"regime {REGIMES[m.side]}: critical roller radius {limit:.4f} mm, tip of the island "
+        f"{limit - m.groove:.3f} mm, neck {2 * float(found.neck[0]):.3f} mm, web "
+        f"{float(found.web[0]):.3f} mm; cutters up to {2 * m.groove:.3f} mm cut the groove",
+        limit,
+        None,
+        "mm",
+    )

@@ -1,0 +1,222 @@
+"""Forces between roller and slot: pressure angle, normal force, Hertz pressure, crank torque.
+
+With the roller's normal n, its centre C and its speed D over the wheel (equations of the facts, section 11):
+
+    lever of the wheel   a b |sin φ|/D,  cos δ = lever/|C|
+    N = T_w/lever,  T_w = J θw'' ω² + T_load,  crank torque T_w θw'
+    R = r (1 ∓ κ r),  p = sqrt(N E*/(π L R)),  1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2
+
+At mid stroke of a curved slot the normal lies on the line of centres, δ = 90 degrees: no force turns the
+wheel there. Inertia does not need one, since θw'' passes 0 as well and N stays finite; a constant torque
+does. In the blocked zone about it the wheel's own kinetic energy has to carry the load.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.materials import material
+from mechwright.motion import Array
+from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
+from mechwright_geneva.mechanism import Mechanism
+
+BLOCKED = math.radians(80)
+"""Pressure angle from which friction of 0.18 (steel on steel, hardly oiled) stops the wheel."""
+
+YIELD = 1.67
+"""Hertz pressure over yield strength at which a line contact begins to yield below its surface (K. L.
+Johnson, Contact Mechanics, section 6.1)."""
+
+_MIDDLE = 1e-6
+"""|sin φ| below which the limit at mid stroke is taken: the next term is smaller by its square."""
+
+_SHARPEST = 1e-3
+"""Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
+
+_SAMPLES = 501
+"""Samples of a stroke that find a peak, mid stroke among them; as many again within two of them refine it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The contact at each sample of a stroke, (k,) each.
+
+    Parameters
+    ----------
+    lever
+        Lever of the normal force about the wheel's axis, mm.
+    pressure_angle
+        δ, rad.
+    wall
+        LEFT or RIGHT: the wall that carries.
+    force
+        N. In the blocked zone that of the inertia alone.
+    pressure
+        Hertz pressure, MPa.
+    crank_torque
+        N·m, against the driver where positive.
+    blocked
+        Samples in the blocked zone.
+    """
+
+    lever: Array
+    pressure_angle: Array
+    wall: NDArray[np.int_]
+    force: Array
+    pressure: Array
+    crank_torque: Array
+    blocked: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What loads the contact: numbers, or columns (m, 1) for many designs.
+
+    Parameters
+    ----------
+    omega
+        Crank speed, rad/s.
+    inertia, torque
+        Of the load, kg·m² and N·m.
+    radius, length
+        Of the roller, mm.
+    stiffness
+        E*, MPa.
+    """
+
+    omega: float
+    inertia: float
+    torque: float
+    radius: "float | Array"
+    length: float
+    stiffness: float
+
+
+def contact(mechanism: Mechanism, run: Stroke) -> Contact:
+    """The contact over a stroke, at the driver's constant speed."""
+    m, params = mechanism, mechanism.params
+    drive = Drive(
+        params.speed * math.tau / 60,
+        params.load_inertia,
+        params.load_torque,
+        m.roller,
+        m.roller_length,
+        stiffness(params.material, params.roller_material),
+    )
+    return _straight(run, drive) if m.straight else curved(run, drive)
+
+
+def _straight(run: Stroke, drive: Drive) -> Contact:
+    """Along a radial wall: the whole radius is lever, the pressure angle 0, the wall flat."""
+    reach = np.abs(run.centre)
+    torque = drive.inertia * run.second * drive.omega**2 + drive.torque
+    # A push ahead is on the right of the way in and on the left of the way out.
+    ahead = np.where(run.phi >= 0, RIGHT, LEFT)
+    force = np.abs(torque) / reach * 1e3
+    none = np.zeros(reach.shape)
+    return Contact(
+        reach,
+        none,
+        np.where(torque >= 0, ahead, -ahead),
+        force,
+        np.sqrt(force * drive.stiffness / (math.pi * drive.length * drive.radius)),
+        torque * run.first,
+        none.astype(bool),
+    )
+
+
+def curved(run: Stroke, drive: Drive) -> Contact:
+    """In a curved slot; design axis first if there is one."""
+    signed = (np.conj(run.centre) * run.normal).imag
+    lever = np.abs(signed)
+    delta = np.arccos(np.clip(lever / np.abs(run.centre), 0, 1))
+    blocked = delta > BLOCKED
+    middle = np.abs(np.sin(run.phi)) < _MIDDLE
+    torque = drive.inertia * run.second * drive.omega**2 + np.where(blocked, 0.0, drive.torque)
+    # At mid stroke the ratio of θw'' and sin φ tends to that of their derivatives, and the lever to
+    # a b sin φ/D.
+    limit = (
+        drive.inertia * np.abs(run.third) * drive.omega**2 * run.speed / (run.frame.axes * run.frame.crank)
+    )
+    push = torque / np.where(middle, 1.0, signed)
+    push = np.where(middle, np.where(run.third < 0, RIGHT, LEFT) * limit, push) * 1e3
+    wall = np.where(push > 0, LEFT, RIGHT)
+    # An undercut wall has no contact there; feasible designs have none.
+    radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), _SHARPEST)
+    force = np.abs(push)
+    pressure = np.sqrt(force * drive.stiffness / (math.pi * drive.length * radius))
+    return Contact(lever, delta, wall, force, pressure, torque * run.first, blocked)
+
+
+def stiffness(wheel: str, roller: str) -> float:
+    """E* of two materials, MPa."""
+    return 1 / sum((1 - one.poisson**2) / one.modulus for one in (material(wheel), material(roller)))
+
+
+def strength(wheel: str, roller: str) -> float:
+    """Hertz pressure at which the softer of two materials begins to yield, MPa."""
+    return YIELD * min(material(wheel).strength, material(roller).strength)
+
+
+@dataclass(frozen=True, slots=True)
+class Loads:
+    """The peaks of a stroke.
+
+    Parameters
+    ----------
+    force, pressure, crank_torque
+        Largest: N, MPa, N·m.
+    force_at, pressure_at
+        Crank angle of the first two, rad.
+    island
+        Whether the island carries the greatest force.
+    steep
+        Crank angle over which the pressure angle is above 45 degrees, rad.
+    carried
+        Angle of the wheel in the blocked zone, rad.
+    """
+
+    force: float
+    force_at: float
+    pressure: float
+    pressure_at: float
+    crank_torque: float
+    island: bool
+    steep: float
+    carried: float
+
+
+@lru_cache(64)
+def loads(mechanism: Mechanism) -> Loads:
+    """The peaks of the contact over one stroke."""
+    u = np.linspace(0, 1, _SAMPLES)
+    run = mechanism.stroke(u)
+    found = contact(mechanism, run)
+    time = 2 * mechanism.crank_half
+    zone = np.flatnonzero(found.blocked)
+    force, force_at, island = _peak(mechanism, u, found, "force")
+    pressure, pressure_at, _ = _peak(mechanism, u, found, "pressure")
+    torque, _, _ = _peak(mechanism, u, found, "crank_torque")
+    return Loads(
+        force,
+        time * force_at,
+        pressure,
+        time * pressure_at,
+        torque,
+        island and not mechanism.straight,
+        time * float(np.mean(found.pressure_angle > math.pi / 4)),
+        float(run.theta[zone[-1]] - run.theta[zone[0]]) if zone.size else 0.0,
+    )
+
+
+def _peak(mechanism: Mechanism, u: Array, found: Contact, name: str) -> tuple[float, float, bool]:
+    """Largest magnitude of one quantity, its u, and whether the island carries there."""
+    most = int(np.argmax(np.abs(getattr(found, name))))
+    near = np.linspace(u[max(most - 1, 0)], u[min(most + 1, u.size - 1)], _SAMPLES)
+    fine = contact(mechanism, mechanism.stroke(near))
+    values = np.abs(getattr(fine, name))
+    best = int(np.argmax(values))
+    return float(values[best]), float(near[best]), bool(fine.wall[best] == mechanism.side)

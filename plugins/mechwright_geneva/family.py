@@ -1,0 +1,63 @@
+"""The family ``geneva``."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.errors import DesignError
+from mechwright.family import Family
+from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.requirement import IndexingRequirement
+
+if TYPE_CHECKING:
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
+
+
+class Geneva(Family[GenevaParams]):
+    """A driver with rollers that turns a slotted wheel from rest to rest."""
+
+    name = "geneva"
+    title = "Geneva mechanism"
+    summary = "An indexing wheel whose straight or curved slots give it a motion law, with its driver."
+    Params = GenevaParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {"indexing": IndexingRequirement}
+
+    def check(self, params: GenevaParams) -> Sequence[Finding]:
+        """Law, angles, slots, islands, locking, driver, motion against the straight slot, contact."""
+        from mechwright_geneva.checks import findings
+
+        return findings(params)
+
+    def solve(self, params: GenevaParams, samples: int) -> "Motion":
+        """One turn of the driver at constant speed."""
+        from mechwright_geneva.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def parts(self, params: GenevaParams) -> "Sequence[Part]":
+        """Wheel, driver and rollers.
+
+        Raises
+        ------
+        DesignError
+            ``check`` finds an error; the message is that of the first one.
+        """
+        from mechwright_geneva.checks import findings
+        from mechwright_geneva.parts import parts_of
+
+        for finding in errors(findings(params)):
+            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[GenevaParams]":
+        """Law, angles and roller for a number of stops, a time, a space and a load."""
+        from mechwright_geneva.synthesis import from_indexing
+
+        if not isinstance(requirement, IndexingRequirement):
+            return super().synthesise(kind, requirement, progress)
+        return from_indexing(requirement, progress)

@@ -1,0 +1,155 @@
+"""What must hold before anything of a design can be computed: the law and the angles."""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+from mechwright.findings import Finding, Severity, errors
+from mechwright.laws.faults import LawFault, polynomial_faults, table_faults
+from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.sound import LEAST_LOCKED
+
+LEAST_FLOOR = 0.5
+"""Least depth of a groove and length of a roller, mm."""
+
+ANGLE_SLACK = 1e-6
+"""Degrees by which the angles of a straight slot may be off: rounding of the design file."""
+
+FLATTEST = 1.0
+"""Degrees that W + θd0/2 stays below 90, and W above 0: beyond, the slot's bottom is on the wheel's axis, or
+the crank has no length."""
+
+
+@lru_cache(64)
+def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
+    """Errors that leave nothing to compute."""
+    found = list(_law(params))
+    if not errors(found):
+        found += _straight(params) if params.law == "straight" else _angles(params)
+        found += [*_rollers(params), *_floor(params)]
+    return tuple(found)
+
+
+def _law(params: GenevaParams) -> Iterator[Finding]:
+    faults: Iterator[LawFault] = iter(())
+    if params.law == "polynomial":
+        faults = polynomial_faults(params.polynomial or ())
+    elif params.law == "table":
+        faults = table_faults(params.table or ())
+    for fault in faults:
+        yield Finding(
+            "geneva.law",
+            Severity.ERROR,
+            params.law,
+            fault.message,
+            fault.value,
+            fault.limit,
+            "",
+            fault.remedy,
+        )
+
+
+def _straight(params: GenevaParams) -> Iterator[Finding]:
+    wanted = 90 - 180 / params.slots
+    if params.crank_half_angle is not None and abs(params.crank_half_angle - wanted) > ANGLE_SLACK:
+        yield Finding(
+            "geneva.straight",
+            Severity.ERROR,
+            "crank_half_angle",
+            f"a straight slot turns the crank by {wanted:g} degrees on either side",
+            params.crank_half_angle,
+            wanted,
+            "deg",
+            f"use crank_half_angle = {wanted:g}, leave it out, or choose another law",
+        )
+    if params.offset_angle is not None and params.offset_angle != 0:
+        yield Finding(
+            "geneva.straight",
+            Severity.ERROR,
+            "offset_angle",
+            "a straight slot has one mouth",
+            params.offset_angle,
+            0.0,
+            "deg",
+            "use offset_angle = 0, leave it out, or choose another law",
+        )
+
+
+def _angles(params: GenevaParams) -> Iterator[Finding]:
+    frame = frame_of(params)
+    entry, half = math.degrees(frame.entry_angle), math.degrees(frame.crank_half)
+    reach = entry + half / 2
+    limit = 90 - FLATTEST
+    if reach > limit:
+        wheel = math.degrees(frame.wheel_half)
+        most, offset = 2 * (limit - entry), limit - half / 2 - wheel
+        cures = []
+        if most >= 5:
+            cures.append(f"make crank_half_angle at most {math.floor(most * 100) / 100:g}")
+        cures.append(f"make offset_angle at most {math.floor(offset * 100) / 100:g}")
+        yield Finding(
+            "geneva.angles",
+            Severity.ERROR,
+            "crank_half_angle",
+            f"180/n + offset_angle + crank_half_angle/2 is {reach:.4g} degrees: the slot's bottom would be "
+            + ("on" if reach < 90 else "beyond")
+            + " the wheel's axis",
+            reach,
+            limit,
+            "deg",
+            ", or ".join(cures),
+        )
+    elif entry < FLATTEST:
+        yield Finding(
+            "geneva.angles",
+            Severity.ERROR,
+            "offset_angle",
+            f"180/n + offset_angle is {entry:.4g} degrees: nothing is left of the crank",
+            entry,
+            FLATTEST,
+            "deg",
+            f"make offset_angle at least {FLATTEST - 180 / params.slots:g}",
+        )
+
+
+def _rollers(params: GenevaParams) -> Iterator[Finding]:
+    half = math.degrees(frame_of(params).crank_half)
+    turn = 360 / params.rollers
+    locked = turn - 2 * half
+    least = math.degrees(LEAST_LOCKED)
+    if locked >= least - ANGLE_SLACK:
+        return
+    most = max(1, math.floor(360 / (2 * half + least)))
+    cure = f"make crank_half_angle at most {math.floor((turn - least) * 50) / 100:g}"
+    yield Finding(
+        "geneva.rollers",
+        Severity.ERROR,
+        "rollers",
+        f"{params.rollers} rollers, {turn:g} degrees apart, leave {locked:.4g} degrees of the crank's "
+        f"turn to lock the wheel between strokes of {2 * half:g} degrees",
+        locked,
+        least,
+        "deg",
+        cure if params.rollers == most else f"use at most {most} rollers, or {cure}",
+    )
+
+
+def _floor(params: GenevaParams) -> Iterator[Finding]:
+    construction = construction_of(params)
+    length = roller_length_of(params)
+    if construction != "through" and length < LEAST_FLOOR:
+        most = params.thickness - params.axial_gap - LEAST_FLOOR
+        yield Finding(
+            "geneva.floor",
+            Severity.ERROR,
+            "floor",
+            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
+            f"{length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",
+            params.floor,
+            most,
+            "mm",
+            f"make floor at most {math.floor(most * 100) / 100:g}"
+            if most >= 0.2
+            else "make thickness larger, or axial_gap smaller",
+        )

@@ -1,0 +1,206 @@
+"""Geometry, motion and contact points of the mechanism, for one design or many.
+
+Glossary
+--------
+half angles
+    θd0 of the crank and θw0 = π/n of the wheel: a stroke turns them by 2 θd0 and 2 θw0.
+offset angle θoff
+    Half the angle between the two mouths of a slot, seen from the wheel; its sign tells which side of the
+    roller's way the island is on.
+entry radius l
+    Distance of the roller's centre from the wheel's axis when the stroke begins and ends.
+a, b
+    Distance of the axes, and radius of the crank.
+φ
+    θd0 - θd, 0 at mid stroke.
+left, right
+    The walls as the roller sees them on its way. Left is the branch α of equation (3), right is α + π.
+
+The wheel turns counter-clockwise about 0, the crank clockwise about a on the real axis; points of the plane
+are complex numbers, mm. The wheel's frame is the fixed frame at θw = 0, when the roller enters slot 0, whose
+axis of symmetry then lies at -θw0. With W = θw0 + θoff:
+
+    b = l sin W / sin θd0,  a = l cos W + b cos θd0
+    C = a - b exp(iφ)                      the roller's centre, fixed frame
+    (2) wheel frame: (C ± r n) exp(-i θw)
+    (3) n = i V/|V|, V = dC/dθd - i θw' C: atan2 in complex numbers, whole plane, no branches to mix up
+    κ = Im(conj(V) A)/|V|³, A = C'' - 2i θw' C' - i θw'' C - θw'² C
+    A wall moves with |V| (1 - κ r) on the left and |V| (1 + κ r) on the right.
+
+Every array has the design axis first and the sample axis last.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechwright.laws import Law
+from mechwright.motion import Array
+
+Points = NDArray[np.complex128]
+"""Points of the plane, mm."""
+
+LEFT, RIGHT = 1, -1
+"""The walls, as signs of the roller's normal."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """The fixed geometry of one design, or of many as columns (m, 1); angles in rad, lengths in mm."""
+
+    wheel_half: Array
+    crank_half: Array
+    offset: Array
+    entry_radius: Array
+
+    @classmethod
+    def of(
+        cls, wheel_half: ArrayLike, crank_half: ArrayLike, offset: ArrayLike, entry_radius: ArrayLike
+    ) -> "Frame":
+        """Scalars stay scalars, arrays (m,) become columns (m, 1)."""
+        values = (np.asarray(v, dtype=float) for v in (wheel_half, crank_half, offset, entry_radius))
+        return cls(*(v[:, None] if v.ndim else v for v in values))
+
+    @property
+    def entry_angle(self) -> Array:
+        """W = θw0 + θoff."""
+        return self.wheel_half + self.offset
+
+    @property
+    def crank(self) -> Array:
+        """Crank radius b."""
+        value: Array = self.entry_radius * np.sin(self.entry_angle) / np.sin(self.crank_half)
+        return value
+
+    @property
+    def axes(self) -> Array:
+        """Distance of the axes a."""
+        value: Array = self.entry_radius * np.cos(self.entry_angle) + self.crank * np.cos(self.crank_half)
+        return value
+
+    @property
+    def bottom(self) -> Array:
+        """Distance a - b of the slot's bottom from the wheel's axis, in the form that does not cancel."""
+        half = self.crank_half / 2
+        value: Array = self.entry_radius * np.cos(self.entry_angle + half) / np.cos(half)
+        return value
+
+    @property
+    def turning_ratio(self) -> Array:
+        """b/(a - b): the θw' at mid stroke at which the roller's way has a cusp there."""
+        value: Array = self.crank / self.bottom
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """One stroke at the shares u of its crank angle.
+
+    Parameters
+    ----------
+    phi
+        φ.
+    theta, first, second, third
+        θw and its derivatives over θd.
+    centre
+        C in the fixed frame.
+    velocity
+        V, fixed axes: how the centre moves over the wheel per radian of the crank.
+    acceleration
+        A, fixed axes.
+    speed
+        |V|, mm per radian of the crank.
+    to_wheel
+        exp(-i θw): turns fixed points into the wheel's frame.
+    """
+
+    frame: Frame
+    phi: Array
+    theta: Array
+    first: Array
+    second: Array
+    third: Array
+    centre: Points
+    velocity: Points
+    acceleration: Points
+    speed: Array
+    to_wheel: Points
+
+    @property
+    def track(self) -> Points:
+        """The roller's centre in the wheel's frame."""
+        points: Points = self.centre * self.to_wheel
+        return points
+
+    @property
+    def normal(self) -> Points:
+        """The unit normal to the left of the roller's way, fixed axes; 0 where the roller turns back."""
+        speed = self.speed
+        normal: Points = 1j * self.velocity / np.where(speed > 0, speed, np.inf)
+        return normal
+
+    def wall(self, radius: ArrayLike, side: int) -> Points:
+        """The left or right wall of a slot for a roller of this radius, wheel frame."""
+        points: Points = (self.centre + side * np.asarray(radius) * self.normal) * self.to_wheel
+        return points
+
+    @property
+    def curvature(self) -> Array:
+        """κ of the roller's way, 1/mm, positive where it bends to the left."""
+        cross = self.velocity.real * self.acceleration.imag - self.velocity.imag * self.acceleration.real
+        with np.errstate(divide="ignore", invalid="ignore"):
+            value: Array = cross / (self.speed * self.speed * self.speed)
+        return value
+
+    def regularity(self, radius: ArrayLike, side: int) -> Array:
+        """1 - κ r on the left, 1 + κ r on the right: the wall turns back where this is below 0."""
+        value: Array = 1 - side * self.curvature * np.asarray(radius)
+        return value
+
+
+def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
+    """The stroke at u (k,) in [0, 1]."""
+    u = np.asarray(u, dtype=float)
+    rates = law.at(u)
+    time = 2 * frame.crank_half
+    way = 2 * frame.wheel_half
+    phi = frame.crank_half - time * u
+    first, second, third = way / time * rates.v, way / time**2 * rates.a, way / time**3 * rates.j
+    arm = frame.crank * np.exp(1j * phi)
+    centre = frame.axes - arm
+    theta = way * rates.s
+    # dC/dθd is i arm and d²C/dθd² is arm.
+    velocity = 1j * (arm - first * centre)
+    acceleration = (1 + 2 * first) * arm - (first * first + 1j * second) * centre
+    return Stroke(
+        frame,
+        phi,
+        theta,
+        first,
+        second,
+        third,
+        centre,
+        velocity,
+        acceleration,
+        np.sqrt(velocity.real**2 + velocity.imag**2),
+        np.exp(-1j * theta),
+    )
+
+
+def regime(frame: Frame, law: Law) -> NDArray[np.int_]:
+    """-1 (A): the island is on the right and wants θoff > 0; +1 (B): on the left, θoff < 0.
+
+    Decided by p = θw' at mid stroke against b/(a - b). 0 is the cusp between them.
+    """
+    p = frame.wheel_half / frame.crank_half * law.at(0.5).v
+    # (a - b) p - b keeps its sign where the slot's bottom passes the axis.
+    side: NDArray[np.int_] = np.sign(frame.bottom * p - frame.crank).astype(int)
+    return side
+
+
+def alpha(run: Stroke) -> Array:
+    """α of equation (3), rad in (-π, π]: from the line crank centre - roller to the left contact."""
+    a, b, p = run.frame.axes, run.frame.crank, run.first
+    angle: Array = np.arctan2(a * p * np.sin(run.phi), (1 + p) * b - a * p * np.cos(run.phi))
+    return angle

@@ -1,0 +1,109 @@
+"""Checks of motion and load: peaks against the straight slot, pressure, the middle position."""
+
+import math
+from collections.abc import Iterator
+
+from mechwright.findings import Finding, Severity
+from mechwright_geneva.contact import loads, strength
+from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.motion import peaks_of, straight_peaks
+
+
+def load_findings(m: Mechanism) -> Iterator[Finding]:
+    """Warnings about motion and load, then the figures."""
+    if not m.straight:
+        yield from _against_straight(m)
+        yield from _middle(m)
+    yield from _pressure(m)
+
+
+def _against_straight(m: Mechanism) -> Iterator[Finding]:
+    own, straight = peaks_of(m), straight_peaks(m.slots)
+    if own.a > straight.a:
+        half = m.crank_half * math.sqrt(own.a / straight.a)
+        yield Finding(
+            "geneva.acceleration",
+            Severity.WARNING,
+            "law",
+            f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against "
+            f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
+            own.a,
+            straight.a,
+            "",
+            f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
+            "with a lower peak, or accept it for the sake of the jerk",
+        )
+    if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
+        yield Finding(
+            "geneva.jump",
+            Severity.WARNING,
+            "law",
+            f"{m.law.name} starts or ends with a jump of the acceleration: an impact in every stroke",
+            max(abs(jump) for jump in m.law.jumps),
+            0.0,
+            "",
+            "choose a law whose acceleration is 0 at both ends",
+        )
+
+
+_JUMP = 1e-3
+"""End acceleration d²s/du² that is not the rounding of a table: below a thousandth of a usual peak."""
+
+
+def _middle(m: Mechanism) -> Iterator[Finding]:
+    params = m.params
+    if params.load_torque == 0:
+        return
+    omega = params.speed * math.tau / 60
+    work = params.load_torque * loads(m).carried
+    energy = params.load_inertia * (m.wheel_half / m.crank_half * float(m.law.at(0.5).v) * omega) ** 2 / 2
+    stalls = work >= energy
+    lost = 1.0 if stalls else 1 - math.sqrt(1 - work / energy)
+    least = params.speed * math.sqrt(work / energy) if energy > 0 else None
+    yield Finding(
+        "geneva.singular",
+        Severity.ERROR if stalls else Severity.WARNING,
+        "load_torque",
+        f"at mid stroke, {math.degrees(m.crank_half):g} degrees of the crank, the roller cannot turn "
+        f"the wheel: its own inertia carries {params.load_torque:g} N·m over "
+        f"{math.degrees(loads(m).carried):.2f} degrees and "
+        + ("stops there" if stalls else f"loses {100 * lost:.3g} % of its speed"),
+        work * 1e3,
+        energy * 1e3,
+        "mJ",
+        f"run above {math.ceil(least):g} rev/min, raise load_inertia, or use straight slots"
+        if stalls and least is not None
+        else "raise load_inertia, or use straight slots where a torque has to be held at every instant",
+    )
+
+
+def _pressure(m: Mechanism) -> Iterator[Finding]:
+    load, limit = loads(m), strength(m.params.material, m.params.roller_material)
+    if load.pressure > limit:
+        yield Finding(
+            "geneva.pressure",
+            Severity.WARNING,
+            "load_inertia",
+            f"the Hertz pressure reaches {load.pressure:.0f} MPa at "
+            f"{math.degrees(load.pressure_at):.1f} degrees of the crank; {m.params.material} on "
+            f"{m.params.roller_material} yields from {limit:.0f} MPa",
+            load.pressure,
+            limit,
+            "MPa",
+            "use a stronger material, a longer roller or a lower speed",
+        )
+    carrier = "the straight wall" if m.straight else ("the islands" if load.island else "the hub's side")
+    steep = (
+        "" if m.straight else f"; over {math.degrees(load.steep):.1f} degrees the pressure angle is above 45"
+    )
+    yield Finding(
+        "geneva.contact",
+        Severity.NOTE,
+        "",
+        f"greatest contact force {load.force:.4g} N at {math.degrees(load.force_at):.2f} degrees of "
+        f"the crank, on {carrier}; Hertz pressure {load.pressure:.4g} MPa, crank torque "
+        f"{load.crank_torque:.4g} N·m{steep}",
+        load.force,
+        None,
+        "N",
+    )

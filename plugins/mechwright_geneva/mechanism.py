@@ -1,0 +1,237 @@
+"""From the parameters to the geometry of one mechanism."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import Literal
+
+import numpy as np
+
+from mechwright.laws import LAWS, Law, Polynomial
+from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
+from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.straight import StraightSlot
+
+OFFSET = 5.0
+"""Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
+slots the crank then turns: both are those of the worked reference."""
+
+Construction = Literal["through", "blind", "backed"]
+
+_COARSE, _ZOOMS = 65, 4
+"""Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
+parabola about the bend is flat to rounding."""
+
+_CACHED = 64
+"""Mechanisms that are kept: motion, checks and parts ask for the same one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """One mechanism; lengths in mm, angles in rad.
+
+    Parameters
+    ----------
+    params
+        The design.
+    law
+        Of the wheel's motion.
+    frame
+        The fixed geometry, of scalars.
+    """
+
+    params: GenevaParams
+    law: Law
+    frame: Frame
+
+    @property
+    def straight(self) -> bool:
+        """Whether the slots are straight."""
+        return self.params.law == "straight"
+
+    @property
+    def slots(self) -> int:
+        """Number of slots n."""
+        return self.params.slots
+
+    @property
+    def axes(self) -> float:
+        """Distance of the axes a."""
+        return float(self.frame.axes)
+
+    @property
+    def crank(self) -> float:
+        """Crank radius b."""
+        return float(self.frame.crank)
+
+    @property
+    def bottom(self) -> float:
+        """A - b."""
+        return float(self.frame.bottom)
+
+    @property
+    def rim(self) -> float:
+        """Radius l of the wheel."""
+        return self.params.entry_radius
+
+    @property
+    def wheel_half(self) -> float:
+        """θw0."""
+        return float(self.frame.wheel_half)
+
+    @property
+    def crank_half(self) -> float:
+        """θd0."""
+        return float(self.frame.crank_half)
+
+    @property
+    def roller(self) -> float:
+        """Roller radius r."""
+        return self.params.roller_radius
+
+    @property
+    def groove(self) -> float:
+        """Half the width of a slot: roller and half the clearance."""
+        return self.params.roller_radius + self.params.groove_clearance / 2
+
+    @property
+    def pitch(self) -> float:
+        """Crank angle from one roller to the next."""
+        return math.tau / self.params.rollers
+
+    @cached_property
+    def side(self) -> int:
+        """-1: the island is on the right of the roller's way (regime A); +1: on the left (B)."""
+        return int(regime(self.frame, self.law))
+
+    @cached_property
+    def measures(self) -> Measures:
+        """The figures of the curved slot as it is cut, clearance included."""
+        return measure_at(self, self.groove)
+
+    @cached_property
+    def nearest(self) -> float:
+        """Least distance of the roller's way from the crank's axis, wheel at rest."""
+        return self.crank if self.straight else float(self.measures.nearest[0])
+
+    @property
+    def construction(self) -> Construction:
+        """How the slots are made."""
+        return construction_of(self.params)
+
+    @property
+    def groove_depth(self) -> float:
+        """Depth of the slots."""
+        return groove_depth_of(self.params)
+
+    @property
+    def roller_length(self) -> float:
+        """Length of the roller in the slot."""
+        return roller_length_of(self.params)
+
+    @property
+    def greatest_lock(self) -> float:
+        """Largest locking disc that leaves the least wall between its arcs and the slots."""
+        return self.nearest - self.groove - self.params.lock_clearance - self.params.least_wall
+
+    @property
+    def lock(self) -> float:
+        """Radius of the locking disc."""
+        return self.params.lock_radius or self.greatest_lock
+
+    @property
+    def arc(self) -> float:
+        """Radius of the wheel's concave arcs."""
+        return self.lock + self.params.lock_clearance
+
+    def stroke(self, u: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Stroke:
+        """The stroke at shares u (k,)."""
+        return stroke(self.frame, self.law, u)
+
+
+def measure_at(mechanism: Mechanism, radius: float, samples: int = FINE_SAMPLES) -> Measures:
+    """The figures of a curved slot for a roller of another radius, its critical radii to rounding."""
+    one = Frame(*(np.array([[float(v)]]) for v in _values(mechanism.frame)))
+    found = measure(one, mechanism.law, np.array([[radius]]), samples)
+    side = mechanism.side
+    return replace(
+        found,
+        island_limit=np.array([_critical(mechanism, side, float(found.island_limit[0]))]),
+        hub_limit=np.array([_critical(mechanism, -side, float(found.hub_limit[0]))]),
+    )
+
+
+def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
+    """The critical radius on one side, from ever finer samples about the sharpest bend."""
+    if math.isinf(sampled):
+        return sampled
+    u = samples_of(mechanism.law, _COARSE)
+    best = 0.0
+    for _ in range(_ZOOMS):
+        bend = side * stroke(mechanism.frame, mechanism.law, u).curvature
+        top = int(np.argmax(bend))
+        best = max(best, float(bend[top]))
+        u = np.linspace(u[max(top - 1, 0)], u[min(top + 1, u.size - 1)], _COARSE)
+    return 1 / best if best > 0 else math.inf
+
+
+def _values(frame: Frame) -> tuple[float, float, float, float]:
+    return (
+        float(frame.wheel_half),
+        float(frame.crank_half),
+        float(frame.offset),
+        float(frame.entry_radius),
+    )
+
+
+def construction_of(params: GenevaParams) -> Construction:
+    """How the slots are made."""
+    if params.construction != "auto":
+        return params.construction
+    return "through" if params.law == "straight" else "blind"
+
+
+def groove_depth_of(params: GenevaParams) -> float:
+    """Depth of the slots, mm."""
+    return params.thickness - (0.0 if construction_of(params) == "through" else params.floor)
+
+
+def roller_length_of(params: GenevaParams) -> float:
+    """Length of the roller in the slot, mm: over a floor it keeps the axial gap."""
+    return groove_depth_of(params) - (0.0 if construction_of(params) == "through" else params.axial_gap)
+
+
+@lru_cache(_CACHED)
+def mechanism_of(params: GenevaParams) -> Mechanism:
+    """The mechanism of a design that has no faulty law."""
+    return Mechanism(params, law_of(params), frame_of(params))
+
+
+def frame_of(params: GenevaParams) -> Frame:
+    """The fixed geometry."""
+    wheel = math.pi / params.slots
+    more = 0.0 if params.law == "straight" else OFFSET
+    crank, offset = params.crank_half_angle, params.offset_angle
+    return Frame.of(
+        wheel,
+        math.pi / 2 - wheel + math.radians(more) if crank is None else math.radians(crank),
+        math.radians(more if offset is None else offset),
+        params.entry_radius,
+    )
+
+
+@lru_cache(_CACHED)
+def law_of(params: GenevaParams) -> Law:
+    """The law; a table or polynomial has been found free of faults before."""
+    match params.law:
+        case "straight":
+            return StraightSlot(params.slots)
+        case "polynomial":
+            return Polynomial(params.polynomial or ())
+        case "table":
+            from mechwright.laws.table import Table
+
+            return Table(params.table or ())
+        case named:
+            return LAWS[named]()

@@ -1,0 +1,196 @@
+"""The parts of a design, and the heights at which they stand.
+
+From below: the hub plate under the wheel; the wheel, from z = 0, with its floor or backing plate at the
+bottom; beside it the locking disc; over both, one axial gap above the wheel, the crank plate; from the crank
+the rollers hang into the slots.
+"""
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from mechwright.geometry import Loop, Outline, circle
+from mechwright.geometry.keyway import Opening
+from mechwright.geometry.segments import Point
+from mechwright.part import Bore, Colour, Feature, Instance, Part, Pocket, Profile
+from mechwright_geneva.crank import crank_loop
+from mechwright_geneva.fixings import driver_dowels, hub_dowels, island_places, web_place
+from mechwright_geneva.mechanism import Mechanism, mechanism_of
+from mechwright_geneva.motion import DRIVER, WHEEL, island_body, roller_body
+from mechwright_geneva.openings import driver_opening, wheel_opening
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.relief import lock_loop
+from mechwright_geneva.wheel import Wheel
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
+
+
+@lru_cache(32)
+def parts_of(params: GenevaParams) -> tuple[Part, ...]:
+    """All parts of a design without error findings."""
+    m = mechanism_of(params)
+    return (*_wheel(m), *_driver(m), _roller(m))
+
+
+def _wheel(m: Mechanism) -> list[Part]:
+    params, wheel = m.params, Wheel(m)
+    opening = _turned(wheel_opening(params), keyway_angle(m))
+    dowels = [*hub_dowels(m)]
+    depth = params.thickness
+    made: list[Part] = []
+    if m.construction == "blind":
+        loop, deviation = wheel.slot.loop()
+        grooves = [
+            Pocket(f"groove-{k + 1}", loop.moved(0, 0, 2 * k * m.wheel_half), (), 0, m.groove_depth)
+            for k in range(m.slots)
+        ]
+        made.append(
+            _plate(m, "wheel", wheel.disc(), deviation, opening, dowels, depth, WHEEL, 0, BRONZE, grooves)
+        )
+    elif m.construction == "through":
+        loop, deviation = wheel.slotted()
+        made.append(_plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE))
+    else:
+        made += _backed(m, wheel, opening, dowels)
+    if params.hub_diameter > 0:
+        hub = Loop((circle((0, 0), params.hub_diameter / 2, tag="hub"),))
+        made.append(
+            _plate(m, "hub", hub, 0.0, opening, dowels, params.hub_height, WHEEL, -params.hub_height, GREY)
+        )
+    return made
+
+
+def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point]) -> list[Part]:
+    params, step = m.params, 2 * m.wheel_half
+    depth = m.groove_depth
+    webs: list[Point] = []
+    own: list[Point] = []
+    if params.fixing > 0:
+        place, _ = web_place(m)
+        webs = [_turn(place, k * step) for k in range(m.slots)]
+        own = island_places(m, params.fixing)
+    behind = [*dowels, *webs, *(_turn(place, k * step) for k in range(m.slots) for place in own)]
+    body, one = wheel.slotted()
+    island, two = wheel.island()
+    holes = tuple(_hole(place, params.fixing) for place in own)
+    return [
+        _plate(m, "wheel", body, one, opening, [*dowels, *webs], depth, WHEEL, params.floor, BRONZE),
+        _plate(m, "backing", wheel.disc(), 0.0, opening, behind, params.floor, WHEEL, 0, GREY),
+        Part(
+            "island",
+            Outline(island, holes, two),
+            depth,
+            params.material,
+            tuple(Instance(island_body(k), params.floor) for k in range(m.slots)),
+            BRONZE,
+        ),
+    ]
+
+
+def _driver(m: Mechanism) -> list[Part]:
+    params = m.params
+    away = math.pi if params.rollers == 1 else m.pitch / 2
+    opening = _turned(driver_opening(params), away)
+    dowels = driver_dowels(m)
+    loop, deviation = lock_loop(m)
+    top = params.thickness + params.axial_gap
+    disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL)
+    pins = [
+        Bore(
+            f"pin-{k + 1}",
+            (m.crank * math.cos(k * m.pitch), m.crank * math.sin(k * m.pitch)),
+            params.pin_diameter,
+            0,
+            params.crank_thickness,
+        )
+        for k in range(params.rollers)
+    ]
+    crank = _plate(
+        m, "crank", crank_loop(m), 0.0, opening, dowels, params.crank_thickness, DRIVER, top, BLUE, pins
+    )
+    return [disc, crank]
+
+
+def _roller(m: Mechanism) -> Part:
+    """The roller with its stud, a part to buy or to turn."""
+    params = m.params
+    foot = m.params.thickness - m.roller_length
+    stud = params.axial_gap + params.crank_thickness
+
+    def build() -> "cq.Solid":
+        import cadquery as cq
+
+        roller = cq.Solid.makeCylinder(m.roller, m.roller_length)
+        pin = cq.Solid.makeCylinder(params.pin_diameter / 2, stud, cq.Vector(0, 0, m.roller_length))
+        fused = roller.fuse(pin)
+        return fused if isinstance(fused, cq.Solid) else fused.Solids()[0]
+
+    instances = tuple(Instance(roller_body(k), foot) for k in range(params.rollers))
+    return Part("roller", None, 0, params.roller_material, instances, STEEL, build=build)
+
+
+def _plate(
+    m: Mechanism,
+    name: str,
+    outer: Loop,
+    deviation: float,
+    opening: Loop | None,
+    dowels: list[Point],
+    thickness: float,
+    body: str,
+    z: float,
+    colour: Colour,
+    more: "list[Pocket] | list[Bore] | None" = None,
+) -> Part:
+    """A plate with its opening, its dowel holes, and what else is cut into it, the outside last."""
+    features: list[Feature] = []
+    inner: list[Loop] = []
+    if opening is not None:
+        inner.append(opening)
+        round_bore = Bore(
+            "bore", (0.0, 0.0), m.params.bore if body == WHEEL else m.params.driver_bore, 0, thickness
+        )
+        features.append(
+            round_bore if opening.is_circle else Profile("keyway", opening, "inside", 0, thickness)
+        )
+    for number, place in enumerate(dowels, start=1):
+        inner.append(_hole(place, m.params.fixing))
+        features.append(Bore(f"dowel-{number}", place, m.params.fixing, 0, thickness))
+    for feature in more or []:
+        features.append(feature)
+        if isinstance(feature, Bore):
+            inner.append(_hole(feature.centre, feature.diameter))
+    features.append(Profile("outside", outer, "outside", 0, thickness))
+    return Part(
+        name,
+        Outline(outer, tuple(inner), deviation),
+        thickness,
+        m.params.material,
+        (Instance(body, z),),
+        colour,
+        tuple(features),
+    )
+
+
+def keyway_angle(m: Mechanism) -> float:
+    """Direction of the wheel's keyway: towards the more of material, a concave arc or a slot's bottom."""
+    return 0.0 if m.axes - m.arc > m.bottom - m.groove else -m.wheel_half
+
+
+def _turned(opening: Opening | None, angle: float) -> Loop | None:
+    if opening is None:
+        return None
+    loop = opening.loop()
+    return loop.moved(0, 0, angle) if opening.has_keyway else loop
+
+
+def _hole(place: Point, diameter: float) -> Loop:
+    return Loop((circle(place, diameter / 2, clockwise=True, tag="dowel"),))
+
+
+def _turn(place: Point, angle: float) -> Point:
+    z = complex(*place) * complex(math.cos(angle), math.sin(angle))
+    return z.real, z.imag

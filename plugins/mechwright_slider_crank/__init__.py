@@ -1,0 +1,1 @@
+"""Slider-cranks: a crank and a rod that move a slider."""

@@ -1,0 +1,281 @@
+"""What an engineer would object to in a slider-crank, and the figures worth knowing."""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from mechwright.errors import GeometryError, MechwrightError
+from mechwright.findings import Finding, Severity, errors
+from mechwright_slider_crank.figures import least_transmission_angle, limits
+from mechwright_slider_crank.forces import JointForces, balance, joint_forces
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
+from mechwright_slider_crank.sizes import sizes_of
+
+TURN_MARGIN = 5e-4
+"""The rod is longer than crank and offset by at least this part: then it stays 1.8° away from standing across
+the slide, where the least friction blocks it."""
+
+LEAST_TRANSMISSION = 40.0
+"""Degrees between rod and normal of the slide: the usual lower limit for machines that carry a load."""
+
+LEAST_WEB = 1.0
+"""mm between two bores, or a bore and the rim: thinner webs spread when a pin is pressed in."""
+
+MAX_PRESSURE = 20.0
+"""Pressure of a pin on the plate it turns in, MPa: usual for greased bronze at low speed."""
+
+MAX_BENDING = 250.0
+"""Bending stress of a pin, MPa: a quarter of a hardened dowel's strength, since the load alternates."""
+
+MOST_BEND = 0.5
+"""Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""
+
+_CACHED = 16
+
+
+@lru_cache(_CACHED)
+def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
+    """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
+    found = [*_turns(params)]
+    if not errors(found):
+        found += _webs(params)
+    if not errors(found):
+        found += _drawn(params)
+    if not errors(found):
+        found += _carried(params)
+        found += _figures(params)
+    return tuple(found)
+
+
+def _turns(params: SliderCrankParams) -> Iterator[Finding]:
+    reach = params.crank + abs(params.offset)
+    limit = reach * (1 + TURN_MARGIN)
+    if params.rod < limit:
+        crank = params.rod / (1 + TURN_MARGIN) - abs(params.offset)
+        offset = params.rod / (1 + TURN_MARGIN) - params.crank
+        others = [f"crank at most {crank:.6g} mm"] if crank > 0 else []
+        others += [f"offset at most {offset:.6g} mm"] if offset > 0 else []
+        yield Finding(
+            "slider-crank.crank-turn",
+            Severity.ERROR,
+            "rod",
+            f"the crank cannot turn fully: a rod of {params.rod:g} mm does not span crank and offset, "
+            f"{reach:.6g} mm",
+            params.rod,
+            limit,
+            "mm",
+            f"make rod at least {limit:.6g} mm" + (f", or {' or '.join(others)}" if others else ""),
+        )
+        return
+    angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
+    if angle < LEAST_TRANSMISSION:
+        wanted = reach / math.cos(math.radians(LEAST_TRANSMISSION))
+        yield Finding(
+            "slider-crank.transmission",
+            Severity.WARNING,
+            "rod",
+            f"the transmission angle falls to {angle:.4g}°, below {LEAST_TRANSMISSION:g}°: the rod pushes "
+            "the slider against its guide more than along it",
+            angle,
+            LEAST_TRANSMISSION,
+            "deg",
+            f"make rod {wanted:.5g} mm or longer, or crank or offset smaller",
+        )
+
+
+def _webs(params: SliderCrankParams) -> Iterator[Finding]:
+    """Room between bores, and around them where a width is the designer's own."""
+    sizes = sizes_of(params)
+    between = params.crank - (sizes.shaft + sizes.pin) / 2
+    yield from _web(
+        "slider-crank.crank-web",
+        "crank",
+        "between the bores of shaft and crank pin",
+        between,
+        f"make crank at least {params.crank + LEAST_WEB - between:.4g} mm, or pin or shaft thinner",
+    )
+    between = params.rod - sizes.rod_bore
+    yield from _web(
+        "slider-crank.rod-web",
+        "rod",
+        "between the bores of the rod",
+        between,
+        f"make rod at least {params.rod + LEAST_WEB - between:.4g} mm, or pin or bushing smaller",
+    )
+    if params.coupler_bore > 0:
+        point = params.coupler_point
+        nearest = min(abs(point), abs(point - params.rod))
+        between = nearest - (sizes.rod_bore + params.coupler_bore) / 2
+        yield from _web(
+            "slider-crank.coupler-web",
+            "coupler_bore",
+            "between the coupler point's bore and a joint's",
+            between,
+            "move the coupler point away from the joints, or make coupler_bore smaller",
+        )
+    for parameter, width in (("slider_width", sizes.slider_width), ("slider_length", sizes.slider_length)):
+        yield from _web(
+            "slider-crank.slider-web",
+            parameter,
+            "beside the slider's pin",
+            (width - sizes.pin) / 2,
+            f"make {parameter} at least {sizes.pin + 2 * LEAST_WEB:.4g} mm, or pin thinner",
+        )
+    yield from _web(
+        "slider-crank.rail-web",
+        "rail",
+        "beside the rail's dowels",
+        (sizes.rail - sizes.dowel) / 2,
+        f"make rail at least {sizes.dowel + 2 * LEAST_WEB:.4g} mm, or pin thinner",
+    )
+
+
+def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iterator[Finding]:
+    if web < LEAST_WEB:
+        message = f"{web:.3g} mm are left {where}, the limit is {LEAST_WEB:g} mm"
+        yield Finding(code, Severity.ERROR, parameter, message, web, LEAST_WEB, "mm", remedy)
+
+
+def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
+    """Whether the rod can be drawn, and all plates find their layers."""
+    most = MOST_BEND * params.rod
+    if abs(params.rod_bend) > most:
+        yield Finding(
+            "slider-crank.rod-bend",
+            Severity.ERROR,
+            "rod_bend",
+            f"the rod leaves the straight line by {abs(params.rod_bend):g} mm, half its length is {most:g}",
+            abs(params.rod_bend),
+            most,
+            "mm",
+            f"make rod_bend at most {most:g} mm either way",
+        )
+        return
+    try:
+        outline = rod_outline(params)
+        outline.polygon()
+    except GeometryError as error:
+        parameter = "rod_bend" if params.rod_bend else "rod_width"
+        yield Finding(
+            "slider-crank.rod-shape",
+            Severity.ERROR,
+            parameter,
+            f"the rod cannot be drawn: {error}",
+            remedy=f"change {parameter}, or make wall smaller",
+        )
+        return
+    try:
+        layout_of(params)
+    except MechwrightError as error:
+        remedy = (
+            "use crank_shape = 'arm', or a longer rod" if params.crank_shape == "disc" else "use a longer rod"
+        )
+        yield Finding(
+            "slider-crank.layers",
+            Severity.ERROR,
+            "crank_shape",
+            str(error),
+            remedy=f"{remedy}, a narrower rail, or thinner pins and walls",
+        )
+
+
+def _at_work(params: SliderCrankParams) -> JointForces:
+    bodies = params.linkage.bodies(np.linspace(0, math.tau, TURN_SAMPLES), params.omega)
+    return joint_forces(params.linkage, bodies, masses_of(params), params.load)
+
+
+def _carried(params: SliderCrankParams) -> Iterator[Finding]:
+    sizes, carried = sizes_of(params), _at_work(params)
+    force = float(max(np.abs(carried.crank_pin).max(), np.abs(carried.wrist_pin).max()))
+    pressure = force / (sizes.pin * params.thickness)
+    if pressure > MAX_PRESSURE:
+        yield Finding(
+            "slider-crank.pin-pressure",
+            Severity.WARNING,
+            "pin",
+            f"{force:.4g} N press on the rod's bores with {pressure:.4g} MPa, the limit is "
+            f"{MAX_PRESSURE:g} MPa",
+            pressure,
+            MAX_PRESSURE,
+            "MPa",
+            f"use pins of {force / (MAX_PRESSURE * params.thickness):.3g} mm, a thicker plate, or less load "
+            "or speed",
+        )
+    # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
+    lever = params.gap + params.thickness / 2
+    bending = 32 * force * lever / (math.pi * sizes.pin**3)
+    if bending > MAX_BENDING:
+        yield Finding(
+            "slider-crank.pin-bending",
+            Severity.WARNING,
+            "pin",
+            f"{force:.4g} N bend the pins with {bending:.4g} MPa, the limit is {MAX_BENDING:g} MPa",
+            bending,
+            MAX_BENDING,
+            "MPa",
+            f"use pins of {sizes.pin * (bending / MAX_BENDING) ** (1 / 3):.3g} mm, or less load or speed",
+        )
+
+
+def _figures(params: SliderCrankParams) -> Iterator[Finding]:
+    ends, layout, carried = limits(params.linkage), layout_of(params), _at_work(params)
+    sense = "away from the crank" if ends.slow_outward != params.clockwise else "towards the crank"
+    angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
+    yield Finding(
+        "slider-crank.stroke",
+        Severity.NOTE,
+        "",
+        f"stroke {ends.stroke:.6g} mm, time ratio {ends.time_ratio:.6g}"
+        + (f", slower {sense}" if ends.time_ratio > 1 + 1e-9 else "")
+        + f"; limits at crank angles {math.degrees(ends.far):.4f}° and {math.degrees(ends.near):.4f}°; least "
+        f"transmission angle {angle:.4f}°",
+        ends.stroke,
+        None,
+        "mm",
+    )
+    yield _layers(layout)
+    masses = masses_of(params)
+    weights = balance(params.crank, params.rod, masses)
+    yield Finding(
+        "slider-crank.forces",
+        Severity.NOTE,
+        "",
+        f"torque up to {np.abs(carried.torque).max() / 1e3:.4g} N m, crank pin "
+        f"{np.abs(carried.crank_pin).max():.4g} N, wrist pin {np.abs(carried.wrist_pin).max():.4g} N, guide "
+        f"{np.abs(carried.guide).max():.4g} N, shaking force {np.abs(carried.shaking).max():.4g} N",
+        float(np.abs(carried.torque).max()) / 1e3,
+        None,
+        "N*m",
+    )
+    yield Finding(
+        "slider-crank.balance",
+        Severity.NOTE,
+        "",
+        f"moving masses {masses['crank'].mass * 1e3:.4g} g crank, {masses['rod'].mass * 1e3:.4g} g rod, "
+        f"{masses['slider'].mass * 1e3:.4g} g slider; full force balance takes {abs(weights.rod):.4g} kg mm "
+        f"on the rod behind the crank pin and {abs(weights.crank):.4g} kg mm on the crank",
+        abs(weights.crank),
+        None,
+        "kg*mm",
+    )
+
+
+def _layers(layout: Layout) -> Finding:
+    names = sorted(layout.stack.layer, key=lambda name: (layout.stack.layer[name], name))
+    order = [
+        " and ".join(name for name in names if layout.stack.layer[name] == number and name != "rail-2")
+        for number in range(len(layout.stack.layers))
+    ]
+    words = ", ".join(order).replace("rail-1", "rails")
+    top = layout.stack.layers[-1]
+    return Finding(
+        "slider-crank.stack",
+        Severity.NOTE,
+        "",
+        f"layers from below: {words}; {top.bottom + top.thickness:.4g} mm high"
+        + ("" if layout.heads else "; the pins end flush, secure the rod with rings or adhesive"),
+        float(len(layout.stack.layers)),
+    )

@@ -1,0 +1,68 @@
+"""The family ``slider-crank``."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.errors import DesignError
+from mechwright.family import Family
+from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
+
+if TYPE_CHECKING:
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
+
+
+class SliderCrankFamily(Family[SliderCrankParams]):
+    """A turning crank moves a slider to and fro by a rod."""
+
+    name = "slider-crank"
+    title = "Slider-crank"
+    summary = "A crank and a rod move a slider on a straight guide, central or offset, with a quick return."
+    Params = SliderCrankParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {
+        "stroke": StrokeRequirement,
+        "poles": PolesRequirement,
+    }
+
+    def check(self, params: SliderCrankParams) -> Sequence[Finding]:
+        """Full turn, transmission angle, walls, widths, layers, pins, and the figures worth knowing."""
+        from mechwright_slider_crank.checks import findings
+
+        return findings(params)
+
+    def solve(self, params: SliderCrankParams, samples: int) -> "Motion":
+        """One turn of the crank at constant speed."""
+        from mechwright_slider_crank.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
+        """Base, rails, crank, rod, slider, and the turned parts that join them.
+
+        Raises
+        ------
+        DesignError
+            ``check`` finds an error; the message is that of the first one.
+        """
+        from mechwright_slider_crank.checks import findings
+        from mechwright_slider_crank.plates import parts_of
+
+        for finding in errors(findings(params)):
+            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[SliderCrankParams]":
+        """From stroke and time ratio, or from prescribed acceleration poles."""
+        from mechwright_slider_crank.synthesis import from_poles, from_stroke
+
+        if isinstance(requirement, StrokeRequirement):
+            return from_stroke(requirement)
+        if isinstance(requirement, PolesRequirement):
+            return from_poles(requirement, progress)
+        return super().synthesise(kind, requirement, progress)

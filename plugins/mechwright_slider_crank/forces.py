@@ -1,0 +1,120 @@
+"""Joint forces, input torque, shaking force and balance, with the masses of the real parts."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright.linkage import Mass
+from mechwright.motion import Array
+from mechwright.planar import Plane
+from mechwright.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
+from mechwright_slider_crank.kinematics import Bodies, SliderCrank
+
+MILLI = 1e-3
+"""kg mm/s² are mN and kg mm²/s² are mN mm: to N and N mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class JointForces:
+    """Forces (n,) in N as x + i y on the ground, moments in N mm.
+
+    Parameters
+    ----------
+    shaft
+        Of the base on the crank.
+    crank_pin
+        Of the crank on the rod.
+    wrist_pin
+        Of the rod on the slider.
+    guide
+        Of the rails on the slider, across the slide.
+    guide_moment
+        Of the rails on the slider; 0 where the load and the mass act through its pin.
+    torque
+        That the drive gives the crank.
+    shaking
+        Of the moving masses on the base.
+    """
+
+    shaft: Plane
+    crank_pin: Plane
+    wrist_pin: Plane
+    guide: Plane
+    guide_moment: Array
+    torque: Array
+    shaking: Plane
+
+
+def joint_forces(
+    linkage: SliderCrank, bodies: Bodies, masses: dict[str, Mass], load: float = 0.0
+) -> JointForces:
+    """Forces at the samples of a motion.
+
+    Parameters
+    ----------
+    linkage
+        The linkage.
+    bodies
+        Its motion (n,) in time.
+    masses
+        Of ``"crank"``, ``"rod"`` and ``"slider"``, kg and mm.
+    load
+        Force on the slider along the slide, N, through its pin.
+    """
+    along = complex(np.exp(1j * linkage.direction))
+    pin, end = bodies.rod.origin.position, bodies.slider.origin.position
+    moving = {"crank": bodies.crank, "rod": bodies.rod, "slider": bodies.slider}
+    links = [
+        Link(name, motion, masses[name].mass, masses[name].centre, masses[name].inertia)
+        for name, motion in moving.items()
+    ]
+    joints: list[Pin | Slide] = [
+        Pin("shaft", GROUND, "crank", np.zeros_like(pin)),
+        Pin("crank-pin", "crank", "rod", pin),
+        Pin("wrist-pin", "rod", "slider", end),
+        Slide("guide", GROUND, "slider", along, end),
+    ]
+    found = forces(links, joints, "crank", [Load("slider", load / MILLI * along, end)])
+    return JointForces(
+        found.joints["shaft"] * MILLI,
+        found.joints["crank-pin"] * MILLI,
+        found.joints["wrist-pin"] * MILLI,
+        found.joints["guide"] * MILLI,
+        found.moments["guide"] * MILLI,
+        found.drive * MILLI,
+        found.shaking * MILLI,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """What full force balance takes: mass times lever, kg mm, as x + i y in each body's coordinates.
+
+    Parameters
+    ----------
+    rod
+        To add to the rod, from A: then rod and slider together balance about A, m3 r3 = -m4 c.
+    crank
+        To add to the crank, from A0, once the rod is balanced: m2 r2 = -(m3 + m4) a. The rod's counterweight
+        is part of m3, and its mass is the less the longer its lever.
+    rod_weight
+        Mass of the rod's counterweight, kg, at a lever of a crank's length, which ``crank`` counts on.
+    """
+
+    rod: complex
+    crank: complex
+    rod_weight: float
+
+
+def balance(crank: float, rod: float, masses: dict[str, Mass]) -> Balance:
+    """Counterweights that make the shaking force vanish at every instant.
+
+    >>> found = balance(50.0, 150.0, {"crank": Mass(0.0), "rod": Mass(0.0), "slider": Mass(2.0)})
+    >>> found.rod, found.crank, found.rod_weight
+    ((-300-0j), (-400-0j), 6.0)
+    """
+    m2, m3, m4 = masses["crank"], masses["rod"], masses["slider"]
+    on_rod = -m4.mass * rod - m3.mass * m3.centre
+    weight = abs(on_rod) / crank
+    on_crank = -(m3.mass + weight + m4.mass) * crank - m2.mass * m2.centre
+    return Balance(on_rod, on_crank, weight)

@@ -1,0 +1,159 @@
+"""Motion of a slider-crank in closed form, both assemblies, from position to jerk.
+
+The slide frame has the crank's pivot A0 in its origin and the slide along x at the height e; with φ' = φ - θ
+the crank pin stands at A = a exp(i φ'), the slider's pin at B = s + i e. With t = e - a sin φ' and
+w = ±√(c² - t²), the two assemblies, per crank radian:
+
+* c exp(i σ') = w + i t, s = a cos φ' + w;
+* σ'  : ω = -a cos φ' / w, α = (a sin φ' + t ω²) / w, j = (a cos φ' + 3 t ω α + w ω³) / w;
+* s   : v = -a sin φ' - t ω, -a cos φ' - w ω² - t α, a sin φ' + t ω³ - 3 w ω α - t j.
+
+The formulas stand once, in :func:`slide` and :func:`jerks`: arrays go through them as they are, and
+:mod:`mechwright_slider_crank.compiled` compiles the same functions for single numbers.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mechwright.errors import KinematicsError
+from mechwright.motion import Array
+from mechwright.planar import BodyMotion, PointMotion, Turning
+
+
+def slide(cos: Any, sin: Any, w: Any, crank: Any, offset: Any) -> Any:
+    """Slide position and its first two rates, and the coupler's first two rates, per crank radian.
+
+    ``cos`` and ``sin`` are those of φ', ``w`` is the signed x of the coupler; numbers or arrays.
+    """
+    x, y = crank * cos, crank * sin
+    t = offset - y
+    turn = -x / w
+    turned = t * turn
+    bend = (y + turned * turn) / w
+    return x + w, -y - turned, -x - w * turn * turn - t * bend, turn, bend
+
+
+def jerks(cos: Any, sin: Any, w: Any, crank: Any, offset: Any, turn: Any, bend: Any) -> Any:
+    """Third rates of the slide position and of the coupler's angle, per crank radian."""
+    x, y = crank * cos, crank * sin
+    t = offset - y
+    third = (x + 3 * t * turn * bend + w * turn**3) / w
+    return y + t * turn**3 - 3 * w * turn * bend - t * third, third
+
+
+@dataclass(frozen=True, slots=True)
+class SliderCrank:
+    """A slider-crank.
+
+    Parameters
+    ----------
+    crank, rod
+        a and c, above 0, mm.
+    offset
+        e of the slide line, to the left of its direction, mm.
+    direction
+        θ, of the slide, rad.
+    branch
+        +1 if the slider is ahead of the crank pin along the slide, -1 if behind.
+
+    Examples
+    --------
+    >>> link = SliderCrank(50.0, 150.0, 20.0)
+    >>> round(float(link.positions(math.radians(60))), 6)
+    173.179117
+    """
+
+    crank: float
+    rod: float
+    offset: float
+    direction: float = 0.0
+    branch: int = 1
+
+    def _coupler_x(self, sin: Array) -> Array:
+        """The signed w; NaN where the linkage cannot be assembled."""
+        t = self.offset - self.crank * sin
+        with np.errstate(invalid="ignore"):
+            w: Array = self.branch * np.sqrt(self.rod * self.rod - t * t)
+        return w
+
+    def positions(self, phi: ArrayLike) -> Array:
+        """Slide positions s (...), mm, at crank angles (...), rad; NaN where there is none."""
+        angle = np.asarray(phi, dtype=float) - self.direction
+        s: Array = self.crank * np.cos(angle) + self._coupler_x(np.sin(angle))
+        return s
+
+    def rates(self, phi: ArrayLike) -> tuple[Array, Array, Array]:
+        """Position, velocity and acceleration of the slider (...) per crank radian: mm, mm/rad, mm/rad².
+
+        NaN where the linkage cannot be assembled.
+        """
+        angle = np.asarray(phi, dtype=float) - self.direction
+        cos, sin = np.cos(angle), np.sin(angle)
+        found = slide(cos, sin, self._coupler_x(sin), self.crank, self.offset)
+        return found[0], found[1], found[2]
+
+    def bodies(self, phi: ArrayLike, omega: float = 1.0) -> "Bodies":
+        """Motion of crank, coupler and slider at crank angles (n,), rad, at constant speed, rad/s.
+
+        Raises
+        ------
+        KinematicsError
+            The linkage cannot be assembled at some angle, or the coupler stands across the slide there.
+        """
+        phi = np.atleast_1d(np.asarray(phi, dtype=float))
+        angle = phi - self.direction
+        cos, sin = np.cos(angle), np.sin(angle)
+        w = self._coupler_x(sin)
+        wrong = ~(np.abs(w) > 0)
+        if wrong.any():
+            reach = float(np.abs(self.offset - self.crank * sin).max())
+            raise KinematicsError(
+                f"the linkage cannot move at a crank angle of {math.degrees(phi[np.argmax(wrong)]):.6g}°: "
+                f"the rod of {self.rod:g} mm has to be longer than {reach:.6g} mm"
+            )
+        s, v, acceleration, turn, bend = slide(cos, sin, w, self.crank, self.offset)
+        jerk, third = jerks(cos, sin, w, self.crank, self.offset, turn, bend)
+        # The coupler never turns past ±90° of the slide, or of its opposite: the angle has no jumps.
+        sigma = np.arctan((self.offset - self.crank * sin) / w) + (0.0 if self.branch > 0 else math.pi)
+        along = complex(math.cos(self.direction), math.sin(self.direction))
+        crank = BodyMotion.about(0j, Turning.of(phi, omega))
+        rod = BodyMotion(
+            crank.point(self.crank),
+            Turning.of(sigma + self.direction, omega * turn, omega**2 * bend, omega**3 * third),
+        )
+        pin = PointMotion(
+            (s + 1j * self.offset) * along,
+            omega * v * along,
+            omega**2 * acceleration * along,
+            omega**3 * jerk * along,
+        )
+        return Bodies(crank, rod, BodyMotion.sliding(pin, self.direction), s, w)
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies:
+    """The moving bodies at (n,) samples.
+
+    Parameters
+    ----------
+    crank
+        Origin in A0, x towards A.
+    rod
+        Origin in A, x towards B.
+    slider
+        Origin in B, x along the slide.
+    position
+        Slide position s (n,), mm.
+    coupler_x
+        w (n,), the rod's extent along the slide, mm, below 0 for the branch -1.
+    """
+
+    crank: BodyMotion
+    rod: BodyMotion
+    slider: BodyMotion
+    position: Array
+    coupler_x: Array

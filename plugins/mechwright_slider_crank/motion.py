@@ -1,0 +1,178 @@
+"""The motion of a design: channels, poses and figures over one turn of the crank."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from mechwright.errors import DesignError
+from mechwright.motion import Array, Channel, Motion, Scalar
+from mechwright.planar import Plane, acceleration_pole
+from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
+from mechwright_slider_crank.forces import JointForces, balance, joint_forces
+from mechwright_slider_crank.kinematics import Bodies, SliderCrank
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.plates import body_poses, masses_of
+
+_GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
+"""Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
+
+
+def motion_of(params: SliderCrankParams, samples: int) -> Motion:
+    """Sample one turn of the crank at constant speed, both ends included.
+
+    Raises
+    ------
+    DesignError
+        Fewer than two samples.
+    KinematicsError
+        The crank cannot turn.
+    """
+    if samples < 2:
+        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
+    linkage, omega = params.linkage, params.omega
+    phi = np.linspace(0, math.copysign(math.tau, omega), samples)
+    bodies = linkage.bodies(phi, omega)
+    masses = masses_of(params)
+    carried = joint_forces(linkage, bodies, masses, params.load)
+    channels = {
+        "time": Channel(phi / omega, "s"),
+        "phi": Channel(phi, "rad"),
+        "omega": Channel(np.full(samples, omega), "rad/s"),
+        **_slider(linkage, bodies),
+        **_turning(bodies),
+        "mu": Channel(transmission_angle(linkage, phi), "rad"),
+        **_coupler_point(params, bodies),
+        **_poles(linkage, phi, bodies),
+        **_forces(carried),
+    }
+    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega))
+
+
+def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
+    """Along the slide."""
+    back = np.exp(-1j * linkage.direction)
+    pin = bodies.slider.origin
+    return {
+        "s": Channel(bodies.position, "mm"),
+        "v": Channel((pin.velocity * back).real, "mm/s"),
+        "a": Channel((pin.acceleration * back).real, "mm/s^2"),
+        "jerk": Channel((pin.jerk * back).real, "mm/s^3"),
+    }
+
+
+def _turning(bodies: Bodies) -> dict[str, Channel]:
+    rod = bodies.rod.turning
+    return {
+        "sigma": Channel(rod.theta, "rad"),
+        "omega_rod": Channel(rod.omega, "rad/s"),
+        "alpha_rod": Channel(rod.alpha, "rad/s^2"),
+        "jerk_rod": Channel(rod.jerk, "rad/s^3"),
+    }
+
+
+def _coupler_point(params: SliderCrankParams, bodies: Bodies) -> dict[str, Channel]:
+    point = bodies.rod.point(params.coupler_point)
+    found = {}
+    for name, values, unit in (
+        ("{}P", point.position, "mm"),
+        ("v{}P", point.velocity, "mm/s"),
+        ("a{}P", point.acceleration, "mm/s^2"),
+        ("j{}P", point.jerk, "mm/s^3"),
+    ):
+        found[name.format("x")] = Channel(values.real.copy(), unit)
+        found[name.format("y")] = Channel(values.imag.copy(), unit)
+    return found
+
+
+def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channel]:
+    """The rod's acceleration pole on the ground (X, Y) and in the rod (x, y), for both assemblies."""
+    other = SliderCrank(linkage.crank, linkage.rod, linkage.offset, linkage.direction, -linkage.branch)
+    found = {}
+    for ending, rod in (("", bodies.rod), ("_other", other.bodies(phi).rod)):
+        pole = acceleration_pole(rod)
+        for name, values in (
+            ("XG", pole.fixed.real),
+            ("YG", pole.fixed.imag),
+            ("xG", pole.moving.real),
+            ("yG", pole.moving.imag),
+        ):
+            found[name + ending] = Channel(values.copy(), "mm")
+    return found
+
+
+def _forces(carried: JointForces) -> dict[str, Channel]:
+    named: dict[str, Plane] = {
+        "F_shaft": carried.shaft,
+        "F_crank_pin": carried.crank_pin,
+        "F_wrist_pin": carried.wrist_pin,
+        "F_guide": carried.guide,
+        "F_shaking": carried.shaking,
+    }
+    found = {name: Channel(np.abs(force), "N") for name, force in named.items()}
+    found["M_guide"] = Channel(carried.guide_moment, "N*mm")
+    found["torque"] = Channel(carried.torque, "N*mm")
+    return found
+
+
+def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
+    linkage, masses = params.linkage, masses_of(params)
+    ends = limits(linkage)
+    weights = balance(params.crank, params.rod, masses)
+
+    def sizes(phi: Array) -> dict[str, Array]:
+        bodies = linkage.bodies(phi, omega)
+        carried = joint_forces(linkage, bodies, masses, params.load)
+        slider = bodies.slider.origin
+        return {
+            "v_max": np.abs(slider.velocity),
+            "a_max": np.abs(slider.acceleration),
+            "torque_max": np.abs(carried.torque),
+            "F_shaft_max": np.abs(carried.shaft),
+            "F_crank_pin_max": np.abs(carried.crank_pin),
+            "F_wrist_pin_max": np.abs(carried.wrist_pin),
+            "F_guide_max": np.abs(carried.guide),
+            "F_shaking_max": np.abs(carried.shaking),
+        }
+
+    most = peaks(sizes)
+    units = {"v_max": "mm/s", "a_max": "mm/s^2", "torque_max": "N*mm"}
+    return {
+        "stroke": Scalar(ends.stroke, "mm"),
+        "time_ratio": Scalar(ends.time_ratio, ""),
+        "phi_far": Scalar(ends.far, "rad"),
+        "phi_near": Scalar(ends.near, "rad"),
+        "s_far": Scalar(ends.far_position, "mm"),
+        "s_near": Scalar(ends.near_position, "mm"),
+        "mu_min": Scalar(least_transmission_angle(params.crank, params.rod, params.offset), "rad"),
+        **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
+        "mass_crank": Scalar(masses["crank"].mass, "kg"),
+        "mass_rod": Scalar(masses["rod"].mass, "kg"),
+        "mass_slider": Scalar(masses["slider"].mass, "kg"),
+        "balance_rod": Scalar(weights.rod.real, "kg*mm"),
+        "balance_rod_across": Scalar(weights.rod.imag, "kg*mm"),
+        "balance_crank": Scalar(weights.crank.real, "kg*mm"),
+        "balance_crank_across": Scalar(weights.crank.imag, "kg*mm"),
+        "balance_rod_weight": Scalar(weights.rod_weight, "kg"),
+    }
+
+
+def peaks(functions: Callable[[Array], dict[str, Array]]) -> dict[str, float]:
+    """Greatest values of functions of period 2π, independent of any sampling of the motion.
+
+    >>> found = peaks(lambda t: {"sine": 3 + np.sin(t - 1), "cosine": np.cos(t)})
+    >>> round(found["sine"], 12), round(found["cosine"], 12)
+    (4.0, 1.0)
+    """
+    grid = np.linspace(0, math.tau, _GRID, endpoint=False)
+    found = {}
+    for name, values in functions(grid).items():
+        centre, half = float(grid[np.argmax(values)]), math.tau / _GRID
+        best = float(values.max())
+        for _ in range(_ROUNDS):
+            at = centre + half * _CLOSER
+            near = functions(at)[name]
+            best, centre = max(best, float(near.max())), float(at[np.argmax(near)])
+            half /= 8
+        found[name] = best
+    return found

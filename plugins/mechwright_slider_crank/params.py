@@ -1,0 +1,114 @@
+"""The design table of a slider-crank."""
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from mechwright.materials import MATERIALS, material
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
+from mechwright_slider_crank.kinematics import SliderCrank
+
+MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
+]
+
+LONGEST = 2000.0
+"""mm. Longer links are structures, not plates."""
+
+
+class SliderCrankParams(Parameters):
+    """A crank, a rod and a slider on a straight guide, all from plates.
+
+    Sizes of the plates that are left out follow from the crank; ``check`` says what cannot be built.
+
+    Examples
+    --------
+    >>> SliderCrankParams(crank=50, rod=150, offset=20).linkage.offset
+    20.0
+    """
+
+    crank: Millimetres = Field(30.0, ge=0.5, le=LONGEST, description="Length a of the crank, pivot to pin.")
+    rod: Millimetres = Field(100.0, ge=1, le=LONGEST, description="Length c of the rod, pin to pin.")
+    offset: Millimetres = Field(
+        10.0, ge=-LONGEST, le=LONGEST, description="Offset e of the slide line, to the left of its direction."
+    )
+    slide_direction: Degrees = Field(0.0, ge=-360, le=360, description="Direction of the slide.")
+    assembly: Literal["ahead", "behind"] = Field(
+        "ahead", description="Whether the slider stands ahead of the crank pin along the slide, or behind it."
+    )
+    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
+    clockwise: bool = Field(False, description="Whether the crank turns clockwise.")
+    load: Newtons = Field(
+        0.0,
+        ge=-1e6,
+        le=1e6,
+        description="Force on the slider along the slide; negative against its direction.",
+    )
+    coupler_x: Annotated[float, Field(ge=-LONGEST, le=LONGEST), Unit("mm")] | None = Field(
+        None, description="Coupler point along the rod from the crank pin; left out, the rod's middle."
+    )
+    coupler_y: Millimetres = Field(
+        0.0, ge=-LONGEST, le=LONGEST, description="Coupler point to the left of the rod."
+    )
+    coupler_bore: Millimetres = Field(
+        0.0,
+        ge=0,
+        le=100,
+        description="Bore in the coupler point, which the rod then reaches out to; 0: none.",
+    )
+    thickness: Millimetres = Field(6.0, ge=0.5, le=100, description="Thickness of all plates.")
+    material: MaterialName = Field("aluminium", description="Material of the plates.")
+    crank_shape: Literal["disc", "arm"] = Field("disc", description="Whether the crank is a disc or an arm.")
+    pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None, description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20."
+    )
+    shaft: Annotated[float, Field(ge=1, le=300), Unit("mm")] | None = Field(
+        None, description="Diameter of the crank's shaft; left out, one and a half pins."
+    )
+    bushing: Millimetres = Field(
+        1.0, ge=0, le=20, description="Wall of the bushings in rod and base; 0 for none."
+    )
+    wall: Annotated[float, Field(ge=0.5, le=200), Unit("mm")] | None = Field(
+        None, description="Material around the bores; left out, half a pin, at least 2."
+    )
+    rod_width: Annotated[float, Field(ge=0.5, le=400), Unit("mm")] | None = Field(
+        None, description="Width of the rod between its bosses; left out, as wide as they are."
+    )
+    rod_bend: Millimetres = Field(
+        0.0, ge=-LONGEST, le=LONGEST, description="How far a bent rod leaves the straight line, to its left."
+    )
+    slider_length: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
+        None, description="Length of the slider along the guide; left out, one and a half times its width."
+    )
+    slider_width: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
+        None, description="Width of the slider between the rails; left out, a pin and four walls."
+    )
+    rail: Annotated[float, Field(ge=1, le=400), Unit("mm")] | None = Field(
+        None, description="Width of the guide's rails; left out, a dowel of 0.6 pins and two walls."
+    )
+    play: Millimetres = Field(0.05, ge=0, le=2, description="Play of the slider on each side.")
+    gap: Millimetres = Field(0.3, ge=0, le=20, description="Air between plates of neighbouring layers.")
+    clearance: Millimetres = Field(
+        1.0, ge=0, le=100, description="Least distance of moving plates of one layer in plan."
+    )
+
+    @property
+    def linkage(self) -> SliderCrank:
+        """The linkage, angles in rad."""
+        branch = 1 if self.assembly == "ahead" else -1
+        return SliderCrank(self.crank, self.rod, self.offset, math.radians(self.slide_direction), branch)
+
+    @property
+    def omega(self) -> float:
+        """Speed of the crank, rad/s, counter-clockwise positive."""
+        return (-1 if self.clockwise else 1) * self.speed * math.tau / 60
+
+    @property
+    def coupler_point(self) -> complex:
+        """The coupler point in the rod's coordinates, mm."""
+        x = self.rod / 2 if self.coupler_x is None else self.coupler_x
+        return complex(x, self.coupler_y)

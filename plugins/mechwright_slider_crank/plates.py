@@ -1,0 +1,332 @@
+"""The plates of a slider-crank, the pins that join them, and the layers they stand in.
+
+Base and rails belong to the body ``base``, whose coordinates are the slide frame: origin in A0, x along the
+slide. The crank's pin and shaft are pressed into the crank, the slider's pin into the slider, the rails'
+dowels into rails and base. Rod and base carry bushings.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from mechwright.errors import GeometryError
+from mechwright.geometry import Outline
+from mechwright.linkage import (
+    Boss,
+    Mass,
+    Plate,
+    Spindle,
+    Stack,
+    bent_link,
+    bushing_part,
+    cylinder_mass,
+    disc,
+    hull_link,
+    pin_part,
+    plate_mass,
+    rectangle,
+    stack,
+    together,
+    web_link,
+)
+from mechwright.motion import Array, Poses
+from mechwright.part import Colour, Instance, Part
+from mechwright.planar import BodyMotion, Turning
+from mechwright_slider_crank.figures import Limits, limits
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
+
+PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
+
+TURN_SAMPLES = 361
+"""Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""
+
+FILLET_SHARE = 0.6
+"""Fillet between rod and boss over the boss's radius: a smooth flow of force, and room for a cutter."""
+
+BEND_SHARE = 2.0
+"""Radius of a bent rod's middle line over its width."""
+
+COLOURS: dict[str, Colour] = {
+    "base": (0.78, 0.80, 0.82),
+    "rail": (0.60, 0.66, 0.72),
+    "crank": (0.80, 0.45, 0.30),
+    "rod": (0.35, 0.52, 0.70),
+    "slider": (0.85, 0.70, 0.35),
+}
+
+TAIL_SHARE = 1.5
+"""How far the shaft sticks out under the base, over its diameter: room for a coupling or a crank handle."""
+
+_CACHED = 16
+"""Designs whose layout is kept: check, parts, motion and forces ask for the same one."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Everything that is made, and where it stands.
+
+    Parameters
+    ----------
+    sizes
+        All sizes.
+    outlines
+        Plate to its outline in its body's coordinates; both rails are one part.
+    rails
+        Where the rails' coordinates stand in the base's, mm.
+    dowels
+        The rails' dowels in the base's coordinates, mm.
+    stack
+        The layers.
+    heads
+        Whether the joint pins have heads.
+    """
+
+    sizes: Sizes
+    outlines: dict[str, Outline]
+    rails: tuple[complex, complex]
+    dowels: tuple[complex, ...]
+    stack: Stack
+    heads: bool
+
+
+def crank_outline(params: SliderCrankParams) -> Outline:
+    """A disc about the pivot, or an arm; the bores are for shaft and pin, both pressed in."""
+    sizes = sizes_of(params)
+    shaft = Boss(0j, sizes.shaft / 2 + sizes.wall, sizes.shaft, "shaft")
+    pin = Boss(complex(params.crank), sizes.pin_boss, sizes.pin, "crank-pin")
+    if params.crank_shape == "disc":
+        return disc(max(params.crank + pin.radius, shaft.radius), (shaft, pin))
+    return hull_link((shaft, pin))
+
+
+def rod_outline(params: SliderCrankParams) -> Outline:
+    """Straight, waisted, bent, or ternary where the coupler point has a bore.
+
+    Raises
+    ------
+    GeometryError
+        Width or bend do not fit the bosses; the message gives the limit.
+    """
+    sizes = sizes_of(params)
+    one = Boss(0j, sizes.rod_boss, sizes.rod_bore, "crank-pin")
+    two = Boss(complex(params.rod), sizes.rod_boss, sizes.rod_bore, "wrist-pin")
+    width = params.rod_width
+    if params.coupler_bore > 0:
+        point = Boss(
+            params.coupler_point, params.coupler_bore / 2 + sizes.wall, params.coupler_bore, "coupler-point"
+        )
+        return hull_link((one, two, point))
+    if params.rod_bend:
+        elbow = complex(params.rod / 2, params.rod_bend)
+        width = sizes.rod_boss if width is None else width
+        return bent_link(one, two, elbow, width, FILLET_SHARE * sizes.rod_boss, BEND_SHARE * width)
+    if width is None:
+        return hull_link((one, two))
+    return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
+
+
+@lru_cache(_CACHED)
+def layout_of(params: SliderCrankParams) -> Layout:
+    """Draw all plates and find their layers.
+
+    Raises
+    ------
+    GeometryError
+        A plate cannot be drawn, or no order of layers keeps the plates apart; the message says why.
+    KinematicsError
+        The crank cannot turn.
+    """
+    sizes, ends = sizes_of(params), limits(params.linkage)
+    outlines = {"crank": crank_outline(params), "rod": rod_outline(params)}
+    outlines["slider"] = _slider_outline(sizes)
+    outlines["rail"], rails, dowels = _rails(params, sizes, ends)
+    outlines["base"] = _base_outline(sizes, outlines["rail"], rails, dowels)
+    for heads in (True, False):
+        try:
+            found = _stack(params, sizes, outlines, rails, dowels, heads)
+        except GeometryError:
+            if heads:
+                continue
+            raise
+        return Layout(sizes, outlines, rails, dowels, found, heads)
+    raise AssertionError("the loop returns or raises")
+
+
+def _slider_outline(sizes: Sizes) -> Outline:
+    half = complex(sizes.slider_length, sizes.slider_width) / 2
+    return rectangle(-half, half, _corner(half), (Boss(0j, 0, sizes.pin, "wrist-pin"),))
+
+
+def _corner(half: complex) -> float:
+    """The corner radius, smaller on what is small."""
+    return min(CORNER, 0.4 * min(half.real, half.imag))
+
+
+def _rails(
+    params: SliderCrankParams, sizes: Sizes, ends: Limits
+) -> tuple[Outline, tuple[complex, complex], tuple[complex, ...]]:
+    """A rail in its own coordinates (origin in its middle), both places, and the dowels in the base."""
+    low, high = sorted((ends.near_position, ends.far_position))
+    # The slider stays on the rails for its whole stroke; the dowels stand beyond its ends.
+    half = (high - low + sizes.slider_length) / 2 + sizes.rail
+    apart = sizes.slider_width / 2 + params.play + sizes.rail / 2
+    middle = complex((low + high) / 2, params.offset)
+    dowel = half - sizes.rail / 2
+    corner = complex(half, sizes.rail / 2)
+    holes = tuple(Boss(complex(x), 0, sizes.dowel, "dowel") for x in (-dowel, dowel))
+    outline = rectangle(-corner, corner, _corner(corner), holes)
+    places = (middle - 1j * apart, middle + 1j * apart)
+    return outline, places, tuple(place + hole.centre for place in places for hole in holes)
+
+
+def _base_outline(
+    sizes: Sizes,
+    rail: Outline,
+    rails: tuple[complex, complex],
+    dowels: tuple[complex, ...],
+) -> Outline:
+    """A rectangle around the shaft and the rails."""
+    x0, y0, x1, y1 = rail.bounds
+    reach = sizes.base_bore / 2 + sizes.wall
+    xs = [-reach, reach, *(place.real + x for place in rails for x in (x0, x1))]
+    ys = [-reach, reach, *(place.imag + y for place in rails for y in (y0, y1))]
+    low, high = complex(min(xs), min(ys)), complex(max(xs), max(ys))
+    holes = (Boss(0j, 0, sizes.base_bore, "shaft"), *(Boss(at, 0, sizes.dowel, "dowel") for at in dowels))
+    return rectangle(low, high, CORNER, holes)
+
+
+def _stack(
+    params: SliderCrankParams,
+    sizes: Sizes,
+    outlines: dict[str, Outline],
+    rails: tuple[complex, complex],
+    dowels: tuple[complex, ...],
+    heads: bool,
+) -> Stack:
+    plates = [Plate("base", "base", outlines["base"], params.thickness, (0,))]
+    plates += [Plate(name, name, outlines[name], params.thickness) for name in ("crank", "rod", "slider")]
+    for number, place in enumerate(rails, start=1):
+        moved = outlines["rail"].moved(place.real, place.imag)
+        plates.append(Plate(f"rail-{number}", "base", moved, params.thickness))
+    head = sizes.head[0] / 2 if heads else 0.0
+    spindles = [
+        Spindle("shaft", "crank", 0j, sizes.shaft / 2, ("base", "crank")),
+        Spindle("crank-pin", "crank", complex(params.crank), sizes.pin / 2, ("crank", "rod"), head),
+        Spindle("wrist-pin", "slider", 0j, sizes.pin / 2, ("rod", "slider"), head),
+    ]
+    spindles += [
+        Spindle(f"dowel-{number}", "base", at, sizes.spacer, ("base", f"rail-{1 + (number > 2)}"))
+        for number, at in enumerate(dowels, start=1)
+    ]
+    return stack(
+        plates,
+        spindles,
+        body_poses(params, np.linspace(0, 2 * np.pi, TURN_SAMPLES)),
+        params.clearance,
+        params.gap,
+        neighbours=(("rail-1", "slider"), ("rail-2", "slider")),
+        together=(("slider", "rail-1", "rail-2"),),
+    )
+
+
+def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
+    """Poses of all bodies at crank angles (n,), rad, and of the copies of parts that are fixed in them."""
+    bodies, sizes = params.linkage.bodies(phi), sizes_of(params)
+    base = BodyMotion.about(0j, Turning.of(np.full(phi.shape, params.linkage.direction)))
+    _, rails, dowels = _rails(params, sizes, limits(params.linkage))
+    fixed = {f"rail-{number}": (base, place) for number, place in enumerate(rails, start=1)}
+    fixed |= {f"dowel-{number}": (base, place) for number, place in enumerate(dowels, start=1)}
+    fixed["crank-pin"] = (bodies.crank, complex(params.crank))
+    fixed["rod-end"] = (bodies.rod, complex(params.rod))
+    poses = {
+        "base": base.poses(),
+        "crank": bodies.crank.poses(),
+        "rod": bodies.rod.poses(),
+        "slider": bodies.slider.poses(),
+    }
+    for name, (body, place) in fixed.items():
+        poses[name] = BodyMotion(body.point(place), body.turning).poses()
+    return poses
+
+
+def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
+    """All parts, plates first.
+
+    Raises
+    ------
+    GeometryError, KinematicsError
+        As :func:`layout_of`.
+    """
+    layout = layout_of(params)
+    sizes, heights, spans = layout.sizes, layout.stack, layout.stack.spans
+    at: dict[str, tuple[Instance, ...]] = {
+        name: (Instance(name, heights.bottom(name)),) for name in ("base", "crank", "rod", "slider")
+    }
+    at["rail"] = tuple(Instance(name, heights.bottom(name)) for name in ("rail-1", "rail-2"))
+    parts = [
+        Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
+        for name in ("base", "rail", "crank", "rod", "slider")
+    ]
+    low, high = spans["shaft"]
+    tail = TAIL_SHARE * sizes.shaft
+    parts.append(pin_part("shaft", sizes.shaft, high - low + tail, (Instance("crank", low - tail),)))
+    for name, body in (("crank-pin", "crank-pin"), ("wrist-pin", "slider")):
+        low, high = spans[name]
+        head = sizes.head if _has_head(layout, name) else (0.0, 0.0)
+        length = high - low + (params.gap if head[0] else 0.0)
+        parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
+    low, high = spans["dowel-1"]
+    dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
+    parts.append(pin_part("dowel", sizes.dowel, high - low, dowels))
+    under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
+    if heights.layer["rail-1"] > 1:
+        spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
+        parts.append(
+            bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)
+        )
+    if params.bushing > 0:
+        rod = tuple(Instance(name, heights.bottom("rod")) for name in ("rod", "rod-end"))
+        parts.append(bushing_part("bushing", sizes.pin, sizes.rod_bore, params.thickness, rod))
+        base = (Instance("base", heights.bottom("base")),)
+        parts.append(bushing_part("shaft-bushing", sizes.shaft, sizes.base_bore, params.thickness, base))
+    return tuple(parts)
+
+
+def _has_head(layout: Layout, pin: str) -> bool:
+    """A pin has a head where the rod is on top of it: the plate it is pressed into needs none."""
+    other = {"crank-pin": "crank", "wrist-pin": "slider"}[pin]
+    return layout.heads and layout.stack.layer["rod"] > layout.stack.layer[other]
+
+
+def masses_of(params: SliderCrankParams) -> dict[str, Mass]:
+    """Mass of crank, rod and slider, each with the pins and bushings that are fixed in it."""
+    layout = layout_of(params)
+    sizes, spans = layout.sizes, layout.stack.spans
+
+    def plate(name: str) -> Mass:
+        return plate_mass(layout.outlines[name], params.thickness, params.material)
+
+    def pin(name: str, centre: complex) -> list[Mass]:
+        low, high = spans[name]
+        found = [cylinder_mass(sizes.pin, high - low, PIN_MATERIAL, centre)]
+        if _has_head(layout, name):
+            found += [
+                cylinder_mass(sizes.pin, params.gap, PIN_MATERIAL, centre),
+                cylinder_mass(*sizes.head, PIN_MATERIAL, centre),
+            ]
+        return found
+
+    low, high = spans["shaft"]
+    shaft = cylinder_mass(sizes.shaft, high - low + TAIL_SHARE * sizes.shaft, PIN_MATERIAL)
+    bushings = [
+        cylinder_mass(sizes.rod_bore, params.thickness, BUSHING_MATERIAL, complex(x), sizes.pin)
+        for x in (0.0, params.rod)
+        if params.bushing > 0
+    ]
+    return {
+        "crank": together([plate("crank"), shaft, *pin("crank-pin", complex(params.crank))]),
+        "rod": together([plate("rod"), *bushings]),
+        "slider": together([plate("slider"), *pin("wrist-pin", 0j)]),
+    }

@@ -1,0 +1,93 @@
+"""Sizes of the plates that a design leaves open, and those that follow from others."""
+
+from dataclasses import dataclass
+
+from mechwright_slider_crank.params import SliderCrankParams
+
+PIN_SHARE = 0.125
+"""Pin diameter over crank: slender enough that slider and rails keep out of the crank's way."""
+PIN_RANGE = (2.0, 20.0)
+"""mm: the smallest and the largest dowel pin that is easy to get."""
+SHAFT_SHARE = 1.5
+"""Shaft diameter over pin diameter: the shaft is twisted as well as bent."""
+WALL_SHARE = 0.5
+"""Wall around a bore over the pin's diameter: the least for pressed joints in aluminium."""
+DOWEL_SHARE = 0.6
+"""Diameter of the rails' dowels over that of the joint pins: there are four, and they hardly move."""
+LEAST_WALL = 2.0
+"""mm, so that the wall of a small bore survives clamping."""
+CORNER = 2.0
+"""Corner radius of slider, rails and base, mm: sharp enough to look square, blunt enough to handle."""
+HEAD_SHARE = 1.6
+"""Head diameter over pin diameter, as of clevis pins (ISO 2341)."""
+HEAD_HEIGHT_SHARE = 0.3
+"""Head height over pin diameter, as of clevis pins."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """All sizes of a design, mm; widths and diameters, not halves."""
+
+    pin: float
+    shaft: float
+    wall: float
+    bushing: float
+    slider_length: float
+    slider_width: float
+    rail: float
+
+    @property
+    def dowel(self) -> float:
+        """Diameter of the rails' dowels."""
+        return DOWEL_SHARE * self.pin
+
+    @property
+    def rod_bore(self) -> float:
+        """Bore of the rod's ends: the outside of their bushings."""
+        return self.pin + 2 * self.bushing
+
+    @property
+    def base_bore(self) -> float:
+        """Bore of the base: the outside of the shaft's bushing."""
+        return self.shaft + 2 * self.bushing
+
+    @property
+    def rod_boss(self) -> float:
+        """Radius of the rod's bosses."""
+        return self.rod_bore / 2 + self.wall
+
+    @property
+    def pin_boss(self) -> float:
+        """Radius of material around a pin that is pressed in."""
+        return self.pin / 2 + self.wall
+
+    @property
+    def spacer(self) -> float:
+        """Radius of the spacers under rails that stand high."""
+        return min(self.dowel / 2 + self.wall, self.rail / 2)
+
+    @property
+    def head(self) -> tuple[float, float]:
+        """Diameter and height of a pin's head."""
+        return HEAD_SHARE * self.pin, HEAD_HEIGHT_SHARE * self.pin
+
+
+def sizes_of(params: SliderCrankParams) -> Sizes:
+    """The sizes, those left out filled in."""
+
+    def given(value: float | None, default: float) -> float:
+        return default if value is None else value
+
+    least, most = PIN_RANGE
+    pin = given(params.pin, min(max(round(PIN_SHARE * params.crank), least), most))
+    wall = given(params.wall, max(LEAST_WALL, WALL_SHARE * pin))
+    width = given(params.slider_width, pin + 4 * wall)
+    return Sizes(
+        pin,
+        given(params.shaft, SHAFT_SHARE * pin),
+        wall,
+        params.bushing,
+        given(params.slider_length, 1.5 * width),
+        width,
+        given(params.rail, DOWEL_SHARE * pin + 2 * wall),
+    )

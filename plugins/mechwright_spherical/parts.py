@@ -1,0 +1,183 @@
+"""The parts of a design: links and pins as solids, base plate and flat strips as plates."""
+
+import math
+from collections.abc import Iterator
+from functools import partial
+from typing import TYPE_CHECKING
+
+from mechwright.part import Colour, Instance, Part
+from mechwright_spherical.drive import Train, train_of
+from mechwright_spherical.flat import strip, strip_outline
+from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.stand import base_outline
+from mechwright_spherical.vectors import arc
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+COLOURS: dict[str, Colour] = {
+    "ground": (0.55, 0.58, 0.62),
+    "base": (0.45, 0.48, 0.52),
+    "crank": (0.80, 0.30, 0.25),
+    "rocker": (0.25, 0.50, 0.75),
+    "arm": (0.90, 0.65, 0.20),
+    "coupler": (0.35, 0.65, 0.40),
+    "pin": (0.82, 0.82, 0.84),
+    "gear": (0.75, 0.68, 0.45),
+    "flat": (0.70, 0.70, 0.72),
+}
+
+ONE_SIZE = 0.02
+"""mm. Pins of both phases that lie nearer to one circle than this share a link: less than the play of a
+bore."""
+
+
+def link_arcs(linkage: Linkage) -> dict[str, float]:
+    """Arcs of the links with two joints, rad, those of phase 1 where phases differ."""
+    loop = linkage.phases[0].loop
+    found = {
+        "ground": float(arc(loop.a0, loop.b0)),
+        "crank": float(arc(loop.a0, loop.a1)),
+        "rocker": math.acos(float(loop.cb)),
+    }
+    if linkage.five_bar is not None:
+        found["arm"] = float(arc(loop.b0, loop.b1))
+    return found
+
+
+def second_size(linkage: Linkage, shells: Shells) -> dict[str, float]:
+    """Links that phase 2 needs in another size, and their arcs then, rad."""
+    mechanism = linkage.five_bar
+    if mechanism is None:
+        return {}
+    pairs = {"crank": mechanism.crank_arcs, "rocker": mechanism.rocker_arcs}
+    return {
+        name: float(two)
+        for name, (one, two) in pairs.items()
+        if abs(float(one) - float(two)) * shells.links[name][1] > ONE_SIZE
+    }
+
+
+def parts_of(params: SphericalParams) -> tuple[Part, ...]:
+    """All parts; those of the phase that is shown stand in the assembly."""
+    linkage, shells = linkage_of(params), shells_of(params)
+    train = train_of(linkage, params.drive)
+    return (
+        *_links(params, linkage, shells),
+        *_pins(params, train),
+        *_gears(params, train),
+        *_plates(params, linkage, shells),
+    )
+
+
+def _solid(name: str, params: SphericalParams, body: str, kind: str, *, shown: bool = True) -> Part:
+    hardware = params.hardware
+    return Part(
+        name,
+        None,
+        0.0,
+        hardware.pin_material if kind in {"pin", "gear"} else hardware.material,
+        instances=(Instance(body),) if shown else (),
+        colour=COLOURS[kind],
+        build=partial(_build, shape_of(params), name),
+    )
+
+
+def shape_of(params: SphericalParams) -> SphericalParams:
+    """The design without what changes no solid, so that designs alike in shape share their solids."""
+    fields = type(params).model_fields
+    idle = ("speed", "path_tolerance", "least_transmission", "flat")
+    return params.model_copy(update={name: fields[name].default for name in idle})
+
+
+def _build(params: SphericalParams, name: str) -> "cq.Solid":
+    # The kernel is imported when a solid is wanted.
+    from mechwright_spherical import links
+
+    return links.solid(params, name)
+
+
+def _links(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
+    yield _solid("ground", params, "ground", "ground")
+    other = second_size(linkage, shells)
+    second = linkage.shown.number == 2
+    for name in link_arcs(linkage):
+        if name == "ground":
+            continue
+        yield _solid(name, params, name, name, shown=not (second and name in other))
+        if name in other:
+            yield _solid(f"{name}-n", params, name, name, shown=second)
+    yield _solid("coupler", params, "coupler", "coupler")
+
+
+def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
+    """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad."""
+    linkage = linkage_of(params)
+    arcs = link_arcs(linkage)
+    if linkage.shown.number == 2:
+        arcs |= second_size(linkage, shells_of(params))
+    found = {
+        "pin-a": ("a", "crank", arcs["crank"]),
+        "pin-c": ("c", "rocker", arcs["rocker"]),
+        "shaft-a0": ("a0", "crank", 0.0),
+        "shaft-b0": ("b0", "arm" if "arm" in arcs else "rocker", 0.0),
+    }
+    if "arm" in arcs:
+        found["pin-b"] = ("b", "arm", arcs["arm"])
+    return found
+
+
+def _pins(params: SphericalParams, train: Train | None) -> Iterator[Part]:
+    for name, (_, body, _) in pin_places(params).items():
+        yield _solid(name, params, body, "pin")
+    if train is not None and train.idler_axis is not None:
+        yield _solid("shaft-idler", params, "idler", "pin")
+    yield _solid("tool", params, "coupler", "pin")
+
+
+def gear_cones(train: Train) -> dict[str, tuple[str, float]]:
+    """Gears by part name: body and half angle of the pitch cone, rad."""
+    found = {"pinion": ("pinion", train.pinion), "wheel": ("arm", train.wheel)}
+    if train.idler_axis is not None:
+        found["idler"] = ("idler", train.idler)
+    return found
+
+
+def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
+    if train is not None:
+        for name, (body, _) in gear_cones(train).items():
+            yield _solid(name, params, body, "gear")
+
+
+def gear_span(params: SphericalParams, shells: Shells, train: Train) -> tuple[float, float]:
+    """From where to where pitch cones go, mm along them: the widest one's flat end clears the ground."""
+    widest = max(train.pinion, train.wheel, train.idler)
+    inner = (shells.outside + params.hardware.gap) / math.cos(widest)
+    return inner, inner + params.drive.face_width
+
+
+def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
+    hardware, stand, flat = params.hardware, params.stand, params.flat
+    yield Part(
+        "base",
+        base_outline(stand),
+        stand.plate_thickness,
+        hardware.material,
+        instances=(Instance("base"),),
+        colour=COLOURS["base"],
+    )
+    if not flat.make:
+        return
+    arcs = link_arcs(linkage) | {f"{n}-n": a for n, a in second_size(linkage, shells).items()}
+    arcs |= {
+        f"coupler{'-n' if phase.number == 2 else ''}": math.acos(float(phase.loop.ca))
+        for phase in linkage.phases
+    }
+    for name, angle in arcs.items():
+        radius = shells.arc(name.removesuffix("-n"))[0]
+        outline = strip_outline(
+            strip(angle, radius, flat), hardware.boss_diameter, hardware.pin_diameter + hardware.fit
+        )
+        yield Part(f"flat-{name}", outline, flat.thickness, hardware.material, colour=COLOURS["flat"])

@@ -1,0 +1,428 @@
+"""The five controls: kept texts, the contract, options, and what each control reads."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from planning_parts import bore, job, plate
+from rs274 import needs_rs274, run_rs274
+from shop import TOOLS, plate_job, plate_program
+
+from mechwright.errors import ProgramError
+from mechwright.findings import Severity
+from mechwright.host import host
+from mechwright.machine import Machine
+from mechwright.output import Post
+from mechwright.program import Drill, Program, Rapid
+from mechwright.testing import PostContract, sample_program
+from mechwright.tooling import CamSettings, Measured, Posting, Tool
+from mechwright_cam.interpreter import DIALECTS, Kind, Run, interpret
+from mechwright_cam.job import Job
+from mechwright_cam.pipeline import machine
+from mechwright_cam.posts import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
+from mechwright_cam.proof import prove
+
+
+def planned_job(**settings: object) -> Job:
+    return job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
+
+
+def post_of(control: str) -> Post:
+    return host().post(control)
+
+
+# -- the contract -------------------------------------------------------------------------------------------
+
+
+class TestLinuxCnc(PostContract):
+    post = LinuxCncPost
+
+
+class TestFanuc(PostContract):
+    post = FanucPost
+
+
+class TestHaas(PostContract):
+    post = HaasPost
+
+
+class TestMach3(PostContract):
+    post = Mach3Post
+
+
+class TestGrbl(PostContract):
+    post = GrblPost
+    longest_line = 79
+
+    def length_offset(self, tool: Tool) -> str:
+        return rf"T{tool.number}\nM0\n"  # touched off at the stop
+
+
+# -- kept texts ---------------------------------------------------------------------------------------------
+
+TEXTS = texts()
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_the_text_is_as_it_was_reviewed(name: str) -> None:
+    assert TEXTS[name] == (FOLDER / name).read_text(encoding="ascii")
+
+
+def test_no_text_is_kept_that_nothing_writes() -> None:
+    assert {path.name for path in FOLDER.glob("*.nc")} == set(TEXTS)
+
+
+# -- what every control reads -------------------------------------------------------------------------------
+
+
+def read(control: str, program: Program) -> Run:
+    text = post_of(control).write(program)
+    return interpret(text, DIALECTS[control], upper_end=program.machine.retract_z)
+
+
+def cuts(run: Run) -> np.ndarray:
+    """Distinct ends of feed moves with their feeds and centres, (n, 6)."""
+    rows = np.column_stack((run.end, run.feed, np.nan_to_num(run.centre)))
+    return rows[run.cutting]
+
+
+@pytest.mark.parametrize("program", [every_operation, with_options, sample_program], ids=lambda f: f.__name__)
+def test_all_controls_cut_the_same(program) -> None:
+    runs = {control: read(control, program()) for control in CONTROLS}
+    for control, run in runs.items():
+        # Grbl has no cycles: the others' expand to the same feeds.
+        assert run.ended
+        np.testing.assert_allclose(cuts(run), cuts(runs["linuxcnc"]), atol=1.01e-3, err_msg=control)
+        assert run.seconds.sum() == pytest.approx(runs["linuxcnc"].seconds.sum())
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_program_for_any_control_is_proven_as_that_control_reads_it(control: str) -> None:
+    settings = {"control": control, "machine": {"retract_z": -2.0}}
+    program = replace(plate_program(), machine=Machine(retract_z=-2))
+    text = post_of(control).write(program)
+    proof = prove(text, plate_job(**settings), DIALECTS[control])
+    assert proof.failures == ()
+
+
+def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
+    texts = {control: post_of(control).write(plate_program()) for control in CONTROLS}
+    job = plate_job()
+    with pytest.raises(ProgramError, match=r"^line 2: "):
+        prove(texts["fanuc"], job, DIALECTS["linuxcnc"])
+    with pytest.raises(ProgramError, match="no decimal point"):
+        prove(texts["linuxcnc"], job, DIALECTS["haas"])
+    assert not prove(texts["grbl"], job, DIALECTS["mach3"]).checks["tools"].passed
+    with pytest.raises(ProgramError, match="G64 is no code that Grbl"):
+        prove(texts["mach3"], job, DIALECTS["grbl"])
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_planned_programs_are_proven_for_every_control(control: str) -> None:
+    job = planned_job(control=control, machine={"retract_z": -2.0}, post={"restart": True})
+    made = machine(job, post_of(control))
+    assert made.proof.ok
+    assert made.proof.leftover_reachable_max_mm <= 0.010
+
+
+def test_files_of_one_tool_each_are_proven_together() -> None:
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, "post": {"tool_change": "files"}}
+    made = machine(planned_job(**settings), post_of("grbl"))
+    assert len(made.files) == len(made.program.sections) >= 3
+    assert made.proof.ok
+    names = list(made.files)
+    assert names[0].endswith("-1-t1")
+    # A defect is named with its file.
+    files = {name + ".nc": text for name, text in made.files.items()}
+    last = [*files][-1]
+    broken = {**files, last: files[last].replace("S", "S9", 1)}
+    found = prove(broken, made.job, DIALECTS["grbl"]).checks["speeds"]
+    assert found.message.startswith(f"{last}: line ")
+    with pytest.raises(ProgramError, match=rf"^{last}: line 1: "):
+        prove({**files, last: "G1 X..2\n" + files[last]}, made.job, DIALECTS["grbl"])
+
+
+# -- Grbl's published list of words -------------------------------------------------------------------------
+
+GRBL_WORDS = re.compile(
+    r"G(0|1|2|3|38\.[2-5]|80|4|10|17|18|19|20|21|28|28\.1|30|30\.1|40|43\.1|49|53|54|55|56|57|58|59|61"
+    r"|90|91|91\.1|92|92\.1|93|94)|M(0|1|2|30|3|4|5|7|8|9)|[FIJKLNPRSTXYZ]-?\d+(\.\d+)?"
+)
+"""Grbl v1.1, "Supported G-codes" and the non-command words, as its wiki and gcode.h list them."""
+
+
+def hold_to_grbl(text: str) -> None:
+    for line in text.splitlines():
+        code = re.sub(r"\([^()]*\)", "", line)
+        assert len(line) <= 79
+        assert not set(line) & set("?!~%$;")
+        words = code.split()
+        assert all(GRBL_WORDS.fullmatch(word) for word in words), line
+        if {"G2", "G3"} & set(words):
+            letters = {word[0] for word in words}
+            assert letters & set("XY")
+            assert letters & set("IJ")
+        if "G53" in words:
+            assert {"G0", "G1"} & set(words)
+
+
+@pytest.mark.parametrize("name", [name for name in TEXTS if name.startswith("grbl")])
+def test_grbl_programs_hold_to_its_list_of_words(name: str) -> None:
+    hold_to_grbl(TEXTS[name])
+
+
+def test_a_planned_program_holds_to_grbl_s_list_of_words() -> None:
+    hold_to_grbl(machine(planned_job(control="grbl"), post_of("grbl")).text)
+
+
+@given(st.text(max_size=60))
+def test_no_comment_reaches_grbl_s_realtime_commands(words: str) -> None:
+    program = replace(every_operation(), notes=(words,))
+    assert not set(post_of("grbl").write(program)) & set("?!~%$;")
+    fanuc = post_of("fanuc").write(program)
+    assert fanuc.count("%") == 2
+    assert ";" not in fanuc
+    assert fanuc == fanuc.upper()
+
+
+# -- rs274 and the options ----------------------------------------------------------------------------------
+
+
+@needs_rs274
+@pytest.mark.parametrize("program", [every_operation, with_options], ids=["plain", "options"])
+def test_linuxcnc_s_own_interpreter_accepts_the_kept_texts(program, tmp_path) -> None:
+    post = post_of("linuxcnc")
+    made = program()
+    canon = run_rs274(post.write(made), tmp_path, post.tool_table(made.tools)[1])
+    assert canon.ok, canon.error
+    assert len(canon.ends) > 40
+
+
+@pytest.mark.parametrize(
+    ("posting", "words"),
+    [
+        ({"program_number": 123}, "O0123"),
+        ({"line_numbers": 7}, "N14 "),
+        ({"restart": True}, "(RESTART POINT: T2 IN THE SPINDLE)"),
+        ({"optional_stops": True}, "\nM1\n"),
+        ({"cycles": False}, "\nG1 Z-7.5 F200.\n"),
+        ({"exact_stop": True}, "\nG61\n"),
+    ],
+)
+def test_every_option_is_seen_in_the_text(posting, words) -> None:
+    post, program = post_of("fanuc"), every_operation()
+    plain, other = post.write(program), post.write(replace(program, posting=Posting(**posting)))
+    assert words in other
+    assert words not in plain
+
+
+@pytest.mark.parametrize(
+    ("places", "words"),
+    [
+        ({"retract_z": -3.5}, "G53 G0 Z-3.5"),
+        ({"change_x": 12.5}, "G53 G0 X12.5\nT1 M6"),
+        ({"change_y": -8.0}, "G53 G0 Y-8\nT1 M6"),
+        ({"home_x": 1.0, "home_y": 2.0}, "G53 G0 X1 Y2\nM30"),
+        ({"spindle_delay": 2.5}, "S3000 M3\nG4 P2.5"),
+    ],
+)
+def test_the_machine_s_places_are_in_the_text(places, words) -> None:
+    text = post_of("mach3").write(replace(every_operation(), machine=Machine(**places)))
+    assert words in text
+    assert words not in post_of("mach3").write(every_operation())
+
+
+def test_offsets_that_were_not_measured_cannot_be_written() -> None:
+    program = replace(with_options(), measured=Measured(x=1, y=2))
+    with pytest.raises(ProgramError, match=r"cam\.measured\.z is not given"):
+        post_of("haas").write(program)
+    program = replace(every_operation(), measured=Measured(x=1, y=2, z=3), posting=Posting(offsets=True))
+    with pytest.raises(ProgramError, match=r"cam\.measured\.lengths\.spot-6 is not given"):
+        post_of("haas").write(program)
+
+
+@pytest.mark.parametrize(
+    ("control", "offset", "has"),
+    [
+        *[(control, "G59", True) for control in CONTROLS],
+        ("linuxcnc", "G59.3", True),
+        ("fanuc", "G59.1", False),
+        ("fanuc", "G54.1 P48", True),
+        ("fanuc", "G54.1 P49", False),
+        ("haas", "G154 P99", True),
+        ("haas", "G54.1 P1", False),
+        ("linuxcnc", "G154 P1", False),
+        ("grbl", "G59.1", False),
+        ("mach3", "G59.1", False),
+    ],
+)
+def test_an_offset_that_the_control_does_not_have_is_found(control: str, offset: str, has: bool) -> None:
+    cam = CamSettings(control=control, work_offset=offset, machine={"retract_z": -2})
+    found = post_of(control).check(cam)
+    assert [f.severity for f in found] == ([] if has else [Severity.ERROR])
+    if has:
+        run = read(control, replace(every_operation(), work_offset=offset))
+        assert {run.states[i].work_offset for i in run.state[run.cutting]} == {offset}
+    else:
+        assert offset in found[0].message
+        assert "G54 to G59" in found[0].remedy
+
+
+def test_a_tool_number_beyond_the_control_s_table_is_refused() -> None:
+    program = every_operation()
+    high = program.sections[0].tool.model_copy(update={"number": 300})
+    program = replace(program, sections=(replace(program.sections[0], tool=high),))
+    for control in ("haas", "mach3", "grbl"):
+        with pytest.raises(ProgramError, match="has number 300"):
+            post_of(control).write(program)
+    assert "T300 M6" in post_of("fanuc").write(program)
+
+
+def test_tool_tables() -> None:
+    measured = [tool.model_copy(update={"length": 80.5 + tool.number}) for tool in TOOLS]
+    assert post_of("fanuc").tool_table(TOOLS) == ("", "")
+    assert "G10 L10 P3 R83.5\n" in post_of("haas").tool_table(measured)[1]
+    assert "2,drill-8 drill,8,82.5\n" in post_of("mach3").tool_table(measured)[1]
+    assert "T1 P1 Z81.5 D6 ;spot-6 spot-drill\n" in post_of("linuxcnc").tool_table(measured)[1]
+    assert post_of("grbl").tool_table(measured) == ("", "")
+    fanuc = interpret(post_of("fanuc").tool_table(measured)[1], DIALECTS["fanuc"])
+    assert fanuc.ended
+
+
+# -- reading what others wrote ------------------------------------------------------------------------------
+
+HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": ""}
+
+
+@pytest.mark.parametrize(
+    ("control", "line", "message"),
+    [
+        ("fanuc", "G0 X10 Y5.", r"X10 has no decimal point, and Fanuc may read thousandths"),
+        ("haas", "G1 Z-2 F100.", "Z-2 has no decimal point"),
+        ("fanuc", "G0 X1. ; note", "starts no word"),
+        ("fanuc", "G65 P9000", "macros and subprograms"),
+        ("fanuc", "M98 P100", "M98 is no code that Fanuc"),
+        ("fanuc", "G54.1 X1.", "needs its number, P"),
+        ("fanuc", "G91.1", "G91.1 is no code"),
+        ("haas", "G54.1 P3", "G54.1 is no code that Haas"),
+        ("mach3", "G84 X1 Y1 Z-2 R1", "tapping"),
+        ("grbl", "G43 H1 Z5", "no table of lengths"),
+        ("grbl", "T1 M6", "M6 is no code that Grbl"),
+        ("grbl", "G81 X1 Y1 Z-1 R1 F9", "G81 is no code that Grbl"),
+        ("grbl", "G41 D1", "G40 only"),
+        ("grbl", "(wait!)", "obeys '!'"),
+        ("grbl", "%", "% stands in a line"),
+        ("grbl", "G0 X1 Y2 " + "Z3." + "0" * 80, "reads at most 80"),
+        ("grbl", "G2 X10.02 Y0 I5 J0 F9", "Grbl refuses it"),
+    ],
+)
+def test_what_a_control_would_refuse_is_refused(control: str, line: str, message: str) -> None:
+    start = HEAD[control] + "G17 G21 G90 G94\nG0 X0. Y0. Z0.\n"
+    with pytest.raises(ProgramError, match=rf"^line {start.count(chr(10)) + 1}: .*{message}"):
+        interpret(start + line + "\n", DIALECTS[control])
+
+
+def test_dwells_are_read_in_the_control_s_unit() -> None:
+    start = "G17 G21 G90 G94\nG0 X0. Y0. Z0.\n"
+    for control, line, seconds in (
+        ("linuxcnc", "G4 P1.5", 1.5),
+        ("fanuc", "G4 P500", 0.5),
+        ("fanuc", "G4 X2.5", 2.5),
+        ("haas", "G4 P2.", 2.0),
+        ("haas", "G82 X1. Y1. Z-1. R1. P250 F90.", 0.25),
+        ("grbl", "G4 P0.2", 0.2),
+    ):
+        run = interpret(start + line + "\n", DIALECTS[control])
+        assert run.seconds.sum() == pytest.approx(seconds), line
+
+
+def test_a_tool_that_nobody_measured_is_noticed() -> None:
+    job = plate_job(control="grbl")
+    text = post_of("grbl").write(plate_program())
+    assert prove(text, job, DIALECTS["grbl"]).ok
+    at = text.index("M0\n", text.index("\nT2\n"))
+    silent = text[:at] + text[at + 3 :]
+    found = prove(silent, job, DIALECTS["grbl"]).checks["length-offset"]
+    assert not found.passed
+    assert "as if it were as long as the tool before" in found.message
+
+
+def test_a_length_that_was_not_measured_so_is_noticed() -> None:
+    tools = tuple(tool.model_copy(update={"length": 50.0 + tool.number}) for tool in TOOLS)
+    program = plate_program()
+    sections = tuple(
+        replace(s, tool=next(t for t in tools if t.number == s.tool.number)) for s in program.sections
+    )
+    text = post_of("grbl").write(replace(program, sections=sections))
+    job = plate_job(control="grbl", tools=tools)
+    assert prove(text, job, DIALECTS["grbl"]).ok
+    found = prove(text.replace("G43.1 Z52", "G43.1 Z53"), job, DIALECTS["grbl"]).checks["length-offset"]
+    assert "G43.1 Z53 while the measured length of T2 is 52 mm" in found.message
+
+
+def test_whoever_touches_off_leaves_the_tool_low() -> None:
+    text = post_of("grbl").write(plate_program())
+    careless = text.replace("M0\nG53 G0 Z0\n", "M0\n")
+    assert careless != text
+    assert not prove(careless, plate_job(control="grbl"), DIALECTS["grbl"]).checks["positions"].passed
+
+
+# -- rounding to three decimals -----------------------------------------------------------------------------
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.floats(-90, 90), st.floats(-90, 90), st.floats(0.05, 60), st.floats(-3, 3), st.floats(0.02, 6)
+        ),
+        min_size=1,
+        max_size=8,
+    )
+)
+@settings(max_examples=60)
+def test_three_decimals_keep_arcs_consistent(arcs) -> None:
+    from math import cos, sin
+
+    from mechwright.program import Feed, FeedArc, Operation, ToolSection
+
+    moves = [Rapid(0.0, 0.0, 1.0)]
+    for x, y, radius, start, sweep in arcs:
+        cx, cy = x - radius * cos(start), y - radius * sin(start)
+        end = (cx + radius * cos(start + sweep), cy + radius * sin(start + sweep))
+        moves += [Feed(x, y, None, 100), FeedArc(*end, None, cx - x, cy - y, True, 100)]
+    section = ToolSection(TOOLS[2], 1000, "off", (Operation("one", tuple(moves)),))
+    program = Program("one", "G54", 5.0, (section,))
+    for control in ("fanuc", "grbl"):
+        run = read(control, program)
+        assert run.arc_error.max(initial=0.0) <= 0.0012
+        assert np.abs(run.end[run.cutting][-1, :2] - (moves[-1].x, moves[-1].y)).max() <= 6e-4
+
+
+def test_through_cuts_stay_through_when_rounded() -> None:
+    from mechwright_cam.posts.writer import Writer
+
+    out = Writer(every_operation(), 3, False)
+    assert out.height(-6.00004) == "-6.001"
+    assert out.height(5.00004, up=True) == "5.001"
+    assert out.height(-6.0) == "-6"
+
+
+def test_a_peck_with_a_dwell_is_written_out() -> None:
+    program = every_operation()
+    moves = (Rapid(1, 1, 5), Drill(1, 1, -5, 1, 100, peck=2, dwell=0.3))
+    one = replace(
+        program,
+        sections=(
+            replace(
+                program.sections[1], operations=(replace(program.sections[1].operations[0], moves=moves),)
+            ),
+        ),
+    )
+    for control in CONTROLS:
+        run = read(control, one)
+        assert run.seconds.sum() == pytest.approx(0.3)
+        assert run.end[run.kind == Kind.FEED][:, 2].tolist() == [-1, -3, -5]

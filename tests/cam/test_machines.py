@@ -1,0 +1,119 @@
+"""Machine files and known machines: their figures arrive, and their limits are kept."""
+
+from pathlib import Path
+
+import pytest
+from planning_parts import bore, job, plate
+from shop import plate_job, plate_program
+
+from mechwright.design import load, read_toml
+from mechwright.errors import MechwrightError
+from mechwright.findings import Severity
+from mechwright.host import host
+from mechwright.machine import MACHINES, Machine
+from mechwright_cam.limits import check_machine
+from mechwright_cam.pipeline import machine as build
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+HEAD = 'family = "elliptic-gears"\n'
+KNOWN = read_toml(MACHINES)[0]
+
+
+def machine_of(folder: Path, text: str) -> Machine:
+    path = folder / "design.toml"
+    path.write_text(HEAD + text)
+    return load(path, host()).cam.machine
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_a_known_machine_has_its_figures(name: str, tmp_path: Path) -> None:
+    found = machine_of(tmp_path, f'[cam]\nmachine = "{name}"\n')
+    assert found.model == name
+    assert found.model_dump(include=set(KNOWN[name])) == pytest.approx(KNOWN[name])
+
+
+def test_single_keys_go_over_the_known_ones(tmp_path: Path) -> None:
+    found = machine_of(tmp_path, '[cam.machine]\nmodel = "haas-vf-2"\nspindle_max = "6000 rpm"\n')
+    assert (found.spindle_max, found.travel_x) == (6000, 762)
+
+
+def test_a_machine_file_beside_the_design(tmp_path: Path) -> None:
+    (tmp_path / "mill.toml").write_text('name = "old lady"\ntravel_x = "10 in"\nhome_x = 5\n')
+    found = machine_of(tmp_path, '[cam]\nmachine = "mill.toml"\n')
+    assert (found.name, found.travel_x, found.home_x) == ("old lady", 254, 5)
+
+
+@pytest.mark.parametrize(
+    ("file", "cam", "said"),
+    [
+        ("", 'machine = "haas-vf-3"', "unknown machine 'haas-vf-3'; did you mean 'haas-vf-2'?"),
+        ("", 'machine = "none.toml"', "none.toml: cannot be read"),
+        ("", 'machine = "../mill.toml"', "leads out of the folder"),
+        ("", "machine = 5", "cam.machine: "),
+        ("", "machine = { model = 5 }", "cam.machine.model: 5 should be"),
+        ("travel = 5", 'machine = "mill.toml"', "mill.toml: machine: unknown key 'travel'"),
+        ("travel_x = -5", 'machine = "mill.toml"', "mill.toml: machine.travel_x: -5 should be"),
+        ('model = "haas-vf-2"', 'machine = "mill.toml"', "a machine file stands for itself"),
+        (
+            "low_x = 0\ntravel_x = 300\nhome_x = 301",
+            'machine = "mill.toml"',
+            "home_x is 301, and X travels from",
+        ),
+        ("spindle_min = 9000\nspindle_max = 80", 'machine = "mill.toml"', "spindle_min must be below"),
+        ("x = [", 'machine = "mill.toml"', "mill.toml: is no valid TOML"),
+    ],
+)
+def test_a_mistake_names_file_and_key(tmp_path: Path, file: str, cam: str, said: str) -> None:
+    (tmp_path / "mill.toml").write_text(file)
+    with pytest.raises(MechwrightError) as caught:
+        machine_of(tmp_path, f"[cam]\n{cam}\n")
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_the_limits_of_the_machine_are_in_the_program() -> None:
+    slow = {"spindle_max": 3000, "max_feed": 333}
+    made = build(job(plate(bore(12.0)), "drill-8", "mill-6", machine=slow), LinuxCncPost())
+    speeds = {section.spindle for section in made.program.sections}
+    assert max(speeds) <= 3000
+    assert max(float(w[1:]) for w in made.text.split() if w[0] == "F" and w[1:2].isdigit()) == 333
+
+
+def test_a_tool_too_long_for_the_travel_is_found() -> None:
+    low = job(plate(bore(12.0)), "drill-8", "mill-6", machine={"travel_z": 100})
+    longest = max(low.tools, key=lambda tool: tool.flute_length)
+    (found,) = check_machine(low)
+    assert (found.code, found.severity) == ("cam.tool-too-long", Severity.ERROR)
+    assert longest.name in found.message
+    assert found.value > found.limit == 100
+    assert check_machine(job(plate(bore(12.0)), "drill-8", "mill-6", machine={"travel_z": found.value})) == []
+
+
+def test_more_tools_than_places_are_a_warning() -> None:
+    few = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", machine={"pockets": 2})
+    (found,) = check_machine(few)
+    assert (found.code, found.severity, found.value, found.limit) == ("cam.pockets", Severity.WARNING, 3, 2)
+    assert check_machine(job(plate(bore(12.0)), "drill-8", "mill-6", machine={"pockets": 2})) == []
+
+
+@pytest.mark.parametrize(
+    ("measured", "axis", "beyond"),
+    [
+        ({"x": -250.0, "y": -150.0, "z": -200.0}, None, 0.0),
+        ({"x": -470.0, "y": -150.0, "z": -200.0}, "X", 3.001),
+        ({"x": -33.0, "y": -150.0, "z": -200.0}, "X", 0.001),
+        ({"x": -250.0, "y": -380.0, "z": -200.0}, "Y", 3.001),
+        ({"x": -250.0, "y": -150.0, "z": -399.0}, "Z", 8.0),
+    ],
+)
+def test_every_move_is_within_the_travel_as_the_stock_is_clamped(measured, axis, beyond) -> None:
+    ends = {"low_x": -500, "low_y": -400, "low_z": -400}
+    placed = plate_job(machine=ends, measured=measured)
+    tools = tuple(tool.model_copy(update={"length": 0.0}) for tool in placed.tools)
+    placed = plate_job(machine=ends, measured=measured, tools=tools)
+    found = prove(LinuxCncPost().write(plate_program()), placed).checks["travel"]
+    assert found.passed == (axis is None)
+    if axis:
+        assert f"leaves the travel of {axis} by" in found.message
+        assert found.value == pytest.approx(beyond, abs=1e-3)

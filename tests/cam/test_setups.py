@@ -1,0 +1,272 @@
+"""The second side: which features are on it, how the plate lies then, and that both programs are proven."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from planning_parts import LIBRARY, bore, rounded_box
+from plate_shapes import many_spans, wavy
+
+from mechwright.errors import DesignError
+from mechwright.findings import errors
+from mechwright.geometry import Outline
+from mechwright.geometry.mirror import turned_over, turned_point
+from mechwright.host import host
+from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.tooling import CamSettings
+from mechwright_cam.interpreter import DIALECTS, interpret
+from mechwright_cam.pipeline import _after, machine
+from mechwright_cam.proof import prove
+from mechwright_cam.proof.bands import inside_of
+from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet.procedure import steps
+from mechwright_cam.setups import lay_out_setups, sides, turned_shape
+
+THICKNESS = 8.0
+HOLE = Bore("bore", (0.0, 0.0), 10.0, 0.0, THICKNESS)
+OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0.0, THICKNESS)
+COUNTERBORE = Bore("counterbore", (0.0, 0.0), 16.0, 5.0, 3.0)
+CORNER = Pocket("mark", rounded_box(8, 6, 3).moved(20.0, 10.0), (), 6.0, 2.0)
+
+
+def part(*features, name="bracket"):
+    outline = Outline(rounded_box(60, 40, 6), (bore(10.0),))
+    return Part(name, outline, THICKNESS, "aluminium", machined=(HOLE, *features, OUTSIDE))
+
+
+def cam(**changes):
+    tools = ("spot-6", "drill-8", "mill-6", "mill-4")
+    return CamSettings.model_validate({"tools": tools, **changes})
+
+
+# -- turning over -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("about", ["x", "y"])
+@pytest.mark.parametrize("loop", [wavy(), many_spans(), rounded_box(30, 20, 4).moved(7, -3)])
+def test_a_loop_turned_over_is_its_mirror_image(loop, about) -> None:
+    over = turned_over(loop, about)
+    sign = np.array((1, -1) if about == "x" else (-1, 1))
+    mirrored = shapely.Polygon(loop.flatten() * sign)
+    assert shapely.Polygon(over.flatten()).symmetric_difference(mirrored).area < 1e-2
+    assert over.area == pytest.approx(loop.area, rel=1e-12)
+    back = turned_over(over, about)
+    assert np.abs(back.flatten() - loop.flatten()).max() < 1e-9 or back.area == pytest.approx(loop.area)
+    assert turned_point(turned_point((3.0, 4.0), about), about) == (3.0, 4.0)
+
+
+# -- which side a feature is on -----------------------------------------------------------------------------
+
+STEP = Bore("step", (0.0, 0.0), 8.0, 5.0, 3.0)
+WIDE = Bore("wide", (0.0, 0.0), 12.0, 0.0, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("features", "under"),
+    [
+        ((), []),
+        ((COUNTERBORE,), ["counterbore"]),
+        ((COUNTERBORE, CORNER), ["counterbore", "mark"]),
+        ((replace(CORNER, top=0.0),), []),
+    ],
+)
+def test_underside_features_are_told_by_their_heights(features, under) -> None:
+    upper, below = sides(part(*features))
+    assert [feature.name for feature in below] == under
+    assert {f.name for f in upper} | {f.name for f in below} == {f.name for f in part(*features).features}
+
+
+def test_the_narrow_part_of_a_stepped_bore_is_cut_from_above() -> None:
+    stepped = replace(part(), machined=(WIDE, STEP, OUTSIDE))
+    assert sides(stepped)[1] == ()
+    upside_down = replace(part(), machined=(replace(WIDE, top=3.0), replace(STEP, top=0.0), OUTSIDE))
+    assert [f.name for f in sides(upside_down)[1]] == ["wide"]
+
+
+def test_a_hollow_inside_the_plate_is_refused() -> None:
+    hollow = part(Pocket("hollow", rounded_box(8, 6, 3).moved(20, 10), (), 3.0, 2.0))
+    with pytest.raises(DesignError, match="hollow starts 3 mm below the top, is 2 mm deep, and closed"):
+        sides(hollow)
+    jobs, found = lay_out_setups(hollow, cam(), LIBRARY)
+    assert jobs == []
+    assert [f.code for f in errors(found)] == ["cam.second-side"]
+
+
+# -- both setups --------------------------------------------------------------------------------------------
+
+
+@cache
+def counterbored():
+    """Both sides of the part with a counterbore."""
+    return both(part(COUNTERBORE))
+
+
+def both(made_part, control="linuxcnc", **changes):
+    jobs, found = lay_out_setups(made_part, cam(control=control, **changes), LIBRARY)
+    assert not errors(found), found
+    assert [job.side for job in jobs] == ["top", "underside"]
+    post = host().post(control)
+    first = machine(jobs[0], post)
+    return first, machine(_after(first, jobs[1], post), post)
+
+
+@pytest.mark.parametrize(
+    ("locate", "flip", "origin"), [("bore", "x", "axis"), ("edges", "y", "corner"), ("dowels", "y", "axis")]
+)
+def test_both_sides_are_proven(locate, flip, origin) -> None:
+    first, second = both(
+        part(COUNTERBORE, CORNER), origin=origin, second_side={"locate": locate, "flip": flip}
+    )
+    assert first.proof.ok
+    assert second.proof.ok
+    assert second.job.settings.work_offset == "G55"
+    assert second.program.name == "bracket-underside"
+    run = interpret(second.text)
+    assert {run.states[i].work_offset for i in run.state[run.cutting]} == {"G55"}
+    # The mark is where it is seen from below.
+    x, y = turned_point((20.0, 10.0), flip)
+    x, y = x - second.job.origin[0], y - second.job.origin[1]
+    near = run.cutting & (np.hypot(run.end[:, 0] - x, run.end[:, 1] - y) < 4)
+    assert run.end[near, 2].min() == -2.0
+    # The same plate, turned over.
+    assert second.job.stock == pytest.approx(
+        turned_shape(shapely.box(*first.job.stock), first.job, second.job).bounds, abs=1e-9
+    )
+
+
+def test_what_the_first_side_has_cut_is_gone_from_the_second() -> None:
+    first, second = counterbored()
+    gone = second.job.gone
+    x, y = -second.job.origin[0], -second.job.origin[1]
+    assert gone.contains(shapely.Point(x, y))  # the bore
+    assert not gone.contains(shapely.Point(x + 6.0, y))
+    assert gone.contains(shapely.Point(x + 33.0, y + 10))  # the channel
+    # It is what was cut, no more: the finished part and its tabs are not in it.
+    target = turned_shape(first.job.target, first.job, second.job)
+    assert gone.intersection(target).area < 0.5
+    for tab in first.job.tabs:
+        assert gone.intersection(turned_shape(tab.shape, first.job, second.job)).area < 0.5
+    # A rapid down the bore is none into stock there; without what the first side left it would be.
+    text = second.text.replace(
+        "M30\n",
+        f"G54\nG55\nG0 X{x:g} Y{y:g}\nG43 H{second.program.sections[-1].tool.number} Z5\nG0 Z-7\nG53 G0 Z0\nM30\n",
+    )
+    assert prove(text, second.job).checks["rapids-in-stock"].passed
+    assert not prove(text, replace(second.job, gone=shapely.Polygon())).checks["rapids-in-stock"].passed
+
+
+def test_dowels_stand_on_the_flip_axis_and_fit_both_sides() -> None:
+    first, second = both(part(COUNTERBORE), second_side={"locate": "dowels", "dowel_diameter": 8.0})
+    dowels = [f for f in first.job.features if f.name.startswith("dowel")]
+    assert len(dowels) == 2
+    for dowel in dowels:
+        assert dowel.diameter == 8.0
+        assert dowel.centre[1] == -first.job.origin[1]
+        hole = turned_shape(shapely.Point(dowel.centre).buffer(3.9), first.job, second.job)
+        assert second.job.gone.contains(hole)
+        assert not first.job.target.intersects(shapely.Point(dowel.centre).buffer(4.0))
+        # Turned over it is where it was.
+        at = shapely.Point(turned_shape(shapely.Point(dowel.centre), first.job, second.job))
+        assert (at.x, at.y) == pytest.approx(dowel.centre)
+
+
+@pytest.mark.parametrize(
+    ("changes", "code", "words"),
+    [
+        ({"second_side": {"work_offset": "G54"}}, "cam.second-side", "is the first side's"),
+        ({"hold": {"method": "bore", "clamp_diameter": 12}}, "cam.second-side", "would be loose by then"),
+        (
+            {"stock": {"margin": 12}, "second_side": {"locate": "dowels"}},
+            "cam.second-side",
+            "take a larger plate",
+        ),
+    ],
+)
+def test_what_cannot_be_is_refused(changes, code, words) -> None:
+    jobs, found = lay_out_setups(part(COUNTERBORE), cam(**changes), LIBRARY)
+    assert jobs == []
+    (finding,) = errors(found)
+    assert finding.code == code
+    assert words in finding.message
+    assert finding.parameter.startswith("cam.")
+
+
+def test_a_part_without_a_bore_cannot_be_picked_up_by_it() -> None:
+    blank = replace(part(), outline=Outline(rounded_box(60, 40, 6)), machined=(CORNER, OUTSIDE))
+    jobs, found = lay_out_setups(blank, cam(), LIBRARY)
+    assert jobs == []
+    assert "has no bore" in errors(found)[0].message
+    jobs, found = lay_out_setups(blank, cam(second_side={"locate": "edges"}), LIBRARY)
+    assert len(jobs) == 2
+
+
+def test_a_tab_is_not_cut_from_below() -> None:
+    groove = Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0)
+    jobs, found = lay_out_setups(part(groove), cam(), LIBRARY)
+    assert "would cut a tab" in errors(found)[0].message
+    assert jobs == []
+
+
+@pytest.mark.parametrize("control", ["fanuc", "grbl"])
+def test_second_sides_on_every_control(control) -> None:
+    _, second = both(part(COUNTERBORE), control=control)
+    run = interpret(second.text, DIALECTS[control])
+    assert {run.states[i].work_offset for i in run.state[run.cutting]} == {"G55"}
+
+
+@given(
+    x=st.floats(-20, 20),
+    y=st.floats(-10, 10),
+    width=st.floats(5, 14),
+    depth=st.floats(0.5, 5),
+    flip=st.sampled_from(["x", "y"]),
+)
+@settings(max_examples=6)
+def test_random_underside_pockets_are_proven_or_refused(x, y, width, depth, flip) -> None:
+    pocket = Pocket("pocket", rounded_box(width, 6.0, 2.2).moved(x, y), (), THICKNESS - depth, depth)
+    jobs, found = lay_out_setups(part(pocket), cam(second_side={"flip": flip}), LIBRARY)
+    if errors(found):
+        assert all(finding.parameter.startswith("cam") for finding in errors(found))
+        return
+    if len(jobs) == 1:  # all of it lies in the bore
+        assert inside_of(HOLE).buffer(1e-3).contains(inside_of(pocket))
+        return
+    made = machine(jobs[1], host().post("linuxcnc"))
+    assert made.proof.ok
+    assert math.isclose(
+        interpret(made.text).end[:, 2][np.isfinite(interpret(made.text).end[:, 2])].min(),
+        -depth,
+        abs_tol=1e-3,
+    )
+
+
+def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
+    for locate, words in (
+        ("bore", "Its axis is X +12.00, Y −4.00 in G55"),
+        ("edges", "on the front edge Y"),
+        ("dowels", "two dowels of 6 mm"),
+    ):
+        hole = Bore("larger", (12.0, 4.0), 14.0, 0.0, THICKNESS)
+        outline = Outline(rounded_box(60, 40, 6), (bore(10.0), bore(14.0, (12.0, 4.0))))
+        two = replace(part(hole, CORNER), outline=outline)
+        jobs, found = lay_out_setups(two, cam(second_side={"locate": locate, "flip": "x"}), LIBRARY)
+        assert not errors(found)
+        made = steps(jobs[1], [3], file_name="bracket-underside.nc", deepest=-3.0)
+        said = " ".join([step.title for step in made] + [line for step in made for line in step.lines])
+        assert "Turn the plate over about the X axis: its front edge goes to the rear" in said
+        assert words in said, said
+        assert "G10 L2 P2 Z" in said
+
+
+def test_the_picture_of_the_underside_shows_what_is_gone() -> None:
+    _, second = counterbored()
+    page = setup_html([(second.job, second.program, second.proof.as_dict())])
+    assert "its frame, turned over" in page
+    without = setup_html([(replace(second.job, gone=shapely.Polygon()), second.program, None)])
+    assert page.count('fill="#ffffff" fill-rule="evenodd"') == 1
+    assert 'fill="#ffffff" fill-rule="evenodd"' not in without
