@@ -106,12 +106,13 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
 
 def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
     upper_end = job.settings.machine.retract_z
+    diameters = {tool.number: tool.diameter for tool in job.tools}
     if isinstance(text, str):
-        return interpret(text, dialect, upper_end=upper_end)
+        return interpret(text, dialect, upper_end=upper_end, diameters=diameters)
     runs = []
     for name, one in text.items():
         try:
-            runs.append(interpret(one, dialect, upper_end=upper_end))
+            runs.append(interpret(one, dialect, upper_end=upper_end, diameters=diameters))
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
