@@ -199,4 +199,14 @@ class CamSettings(Parameters):
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    clearing: Literal["contour", "adaptive"] = Field(
+        "contour",
+        description="How recesses and openings are roughed: along their walls, or with bounded engagement.",
+    )
+    engagement: Degrees = Field(
+        60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
+    )
+    adaptive_depth: Ratio = Field(
+        1.5, gt=0, le=5, description="Depth of an adaptive pass in cutter diameters."
+    )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
