@@ -151,6 +151,11 @@ def spot_rows(proof: Mapping[str, Any]) -> list[dict[str, float | None]]:
     ]
 
 
+def load_rows(proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """What the simulation says of each tool."""
+    return list((proof.get("simulation") or {}).get("tools") or ())
+
+
 def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:
     """Name, answer and message of each check."""
     checks: Mapping[str, Mapping[str, Any]] = proof.get("checks") or {}

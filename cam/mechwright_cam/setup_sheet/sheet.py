@@ -23,6 +23,7 @@ def setup_html(
     suffix: str = ".nc",
     tool_table: str = "",
     design: str = "",
+    pictures: Mapping[str, str] | None = None,
 ) -> str:
     """The setup sheets of some programs.
 
@@ -38,6 +39,8 @@ def setup_html(
         The file of the control's tool table; empty if there is none.
     design
         The design file it all comes from.
+    pictures
+        Program name to the picture of its simulated stock, an ``<svg>`` element of our own.
 
     Returns
     -------
@@ -49,6 +52,7 @@ def setup_html(
     sheets = []
     for job, program, proof in programs:
         sheet = _sheet(job, program, proof or {}, program.name + suffix)
+        sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
         body = template.render(**sheet, tool_table=tool_table, design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]
@@ -71,6 +75,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "spots": spots,
         "tools": tools,
         "operations": facts.operation_rows(program, traced, proof),
+        "loads": facts.load_rows(proof),
         "steps": steps(job, [row.tool.number for row in tools], file_name=file_name, deepest=deepest),
         "origin": origin_words(job),
         "quantity": quantity(job),
