@@ -8,6 +8,7 @@ import jinja2
 from markupsafe import Markup
 
 from mechwright.program import Program
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
@@ -76,9 +77,16 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "tools": tools,
         "operations": facts.operation_rows(program, traced, proof),
         "loads": facts.load_rows(proof),
-        "steps": steps(job, [row.tool.number for row in tools], file_name=file_name, deepest=deepest),
+        "steps": steps(
+            job,
+            [row.tool.number for row in tools],
+            file_name=file_name,
+            deepest=deepest,
+            reach=facts.reach(traced),
+        ),
         "origin": origin_words(job),
         "quantity": quantity(job),
+        "by_hand": not DIALECTS.get(job.settings.control, LINUXCNC).length_table,
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         "side": Markup(side_view(job, program, deepest)),  # noqa: S704
