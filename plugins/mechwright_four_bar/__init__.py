@@ -1,0 +1,1 @@
+"""Family four-bar: crank, coupler, follower and ground, with synthesis from paths and acceleration poles."""

@@ -1,0 +1,85 @@
+"""From dimensions that a synthesis has found to designs that can be built."""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from pydantic import ValidationError
+
+from mechwright.findings import errors
+from mechwright.motion import Scalar
+from mechwright.synthesis import Candidate
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.params import FourBarParams
+
+
+@dataclass(frozen=True)
+class Found:
+    """A linkage with its merits.
+
+    Parameters
+    ----------
+    bar
+        Its dimensions.
+    residual
+        By how much it misses the requirement.
+    figures
+        What to compare it by.
+    pivot
+        A0, x + i y, mm.
+    point
+        The coupler point in the coupler's frame, x + i y, mm.
+    sense
+        +1 for a crank that turns counter-clockwise, -1 for the other.
+    """
+
+    bar: FourBar
+    residual: Scalar
+    figures: dict[str, Scalar]
+    pivot: complex = 0j
+    point: complex | None = None
+    sense: int = 1
+
+    def table(self) -> dict[str, object]:
+        """The table ``[parameters]``; what the synthesis does not say is left to its defaults."""
+        bar = self.bar
+        table: dict[str, object] = {
+            "crank": bar.crank,
+            "coupler": bar.coupler,
+            "follower": bar.follower,
+            "ground": bar.ground,
+            "ground_angle": math.degrees(math.remainder(bar.ground_angle, math.tau)),
+            "branch": "open" if bar.branch > 0 else "crossed",
+            "direction": "ccw" if self.sense > 0 else "cw",
+        }
+        if self.pivot:
+            table |= {"pivot_x": self.pivot.real, "pivot_y": self.pivot.imag}
+        if self.point is not None:
+            table |= {"coupler_point_x": self.point.real, "coupler_point_y": self.point.imag}
+        return table
+
+
+def buildable(
+    found: Iterable[Found], most: int, progress: Callable[[float], None]
+) -> tuple[list[Candidate[FourBarParams]], str]:
+    """The first ``most`` of the linkages whose design has no error, and why the first other one was left out."""
+    from mechwright_four_bar.checks import findings
+
+    candidates: list[Candidate[FourBarParams]] = []
+    reason = ""
+    for one in found:
+        try:
+            params = FourBarParams.model_validate(one.table())
+        except ValidationError as error:
+            detail = error.errors(include_url=False)[0]
+            reason = reason or f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
+            continue
+        faults = errors(findings(params))
+        if faults:
+            reason = reason or f"{faults[0].parameter}: {faults[0].message}"
+            continue
+        candidates.append(Candidate(params, one.residual, one.figures))
+        progress(len(candidates) / most)
+        if len(candidates) == most:
+            break
+    return candidates, reason

@@ -1,0 +1,21 @@
+"""Compilation of kernels, cached on disk where there is a place for it."""
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from numba import njit
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def compiled(function: F) -> F:
+    """Compile a function of numbers and arrays when it is first called.
+
+    The machine code is kept beside the module, or in the user's cache folder. Where both are read-only it is
+    compiled anew in every process. Division by zero gives infinity or NaN, as in numpy.
+    """
+    try:
+        kernel: F = njit(cache=True, error_model="numpy")(function)
+    except RuntimeError:  # numba found no place to write to
+        kernel = njit(error_model="numpy")(function)
+    return kernel

@@ -1,0 +1,65 @@
+"""The family ``four-bar``."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.errors import DesignError
+from mechwright.family import Family
+from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
+
+if TYPE_CHECKING:
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
+
+
+class FourBars(Family[FourBarParams]):
+    """A crank that turns fully drives a follower through a coupler."""
+
+    name = "four-bar"
+    title = "Four-bar linkage"
+    summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
+    Params = FourBarParams
+    requirements: ClassVar = {"path": PathRequirement, "poles": PolesRequirement}
+
+    def check(self, params: FourBarParams) -> Sequence[Finding]:
+        """Closure, rotation of the crank, transmission angle, room for bores and webs, layers."""
+        from mechwright_four_bar.checks import findings
+
+        return findings(params)
+
+    def solve(self, params: FourBarParams, samples: int) -> "Motion":
+        """One turn of the crank at constant speed."""
+        from mechwright_four_bar.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def parts(self, params: FourBarParams) -> "Sequence[Part]":
+        """Ground, crank, coupler and follower as plates, their pins and bushings.
+
+        Raises
+        ------
+        DesignError
+            ``check`` finds an error; the message is that of the first one.
+        """
+        from mechwright_four_bar.checks import findings
+        from mechwright_four_bar.plates import parts_of
+
+        for finding in errors(findings(params)):
+            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[FourBarParams]":
+        """Linkages with a wanted path of a coupler point, or with wanted acceleration poles."""
+        if kind == "path":
+            from mechwright_four_bar.path_synthesis import through_points
+
+            return through_points(PathRequirement.model_validate(requirement), progress)
+        from mechwright_four_bar.pole_synthesis import through_poles
+
+        return through_poles(PolesRequirement.model_validate(requirement), progress)

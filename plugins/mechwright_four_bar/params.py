@@ -1,0 +1,91 @@
+"""The design table of a four-bar linkage."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from mechwright.materials import MATERIALS, material
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
+
+MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
+]
+
+Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
+"""A coordinate."""
+
+
+class FourBarParams(Parameters):
+    """A crank that turns fully, a coupler, a follower and the ground, made of plates.
+
+    Examples
+    --------
+    >>> FourBarParams().coupler_point_x is None
+    True
+    """
+
+    crank: Millimetres = Field(40.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.")
+    coupler: Millimetres = Field(120.0, ge=1, le=5000, description="Coupler c, from A to B.")
+    follower: Millimetres = Field(80.0, ge=1, le=5000, description="Follower b, from B0 to B.")
+    ground: Millimetres = Field(100.0, ge=1, le=5000, description="Ground f, from A0 to B0.")
+    ground_angle: Degrees = Field(
+        0.0, ge=-360, le=360, description="Direction from A0 to B0, counter-clockwise from X."
+    )
+    branch: Literal["open", "crossed"] = Field(
+        "open", description="Assembly: B to the left of the line from A to B0, or to the right of it."
+    )
+    pivot_x: Millimetres = Field(0.0, ge=-10000, le=10000, description="X of the crank's pivot A0.")
+    pivot_y: Millimetres = Field(0.0, ge=-10000, le=10000, description="Y of the crank's pivot A0.")
+    coupler_point_x: Place | None = Field(
+        None, description="Coupler point along the coupler, from A towards B; left out, there is none."
+    )
+    coupler_point_y: Place | None = Field(
+        None, description="Coupler point across the coupler, positive to the left of A to B."
+    )
+    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
+    direction: Literal["ccw", "cw"] = Field("ccw", description="Sense of the crank, seen from above.")
+    load_torque: Annotated[float, Unit("N*m")] = Field(
+        0.0, ge=-10000, le=10000, description="Torque of the load on the follower, counter-clockwise."
+    )
+    thickness: Millimetres = Field(6.0, ge=1, le=100, description="Of crank, coupler and follower.")
+    ground_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Of the ground plate.")
+    pin_diameter: Millimetres = Field(6.0, ge=1, le=200, description="Pins of all joints.")
+    bushing_wall: Millimetres = Field(
+        1.0, ge=0, le=50, description="Wall of the plain bushings in the turning joints; 0 for none."
+    )
+    running_fit: Millimetres = Field(
+        0.03, ge=0.005, le=0.5, description="Diameter by which a turning bore is larger than its pin."
+    )
+    rim: Millimetres = Field(4.0, ge=0.5, le=100, description="Material of the plates around the bores.")
+    web_width: Millimetres = Field(
+        10.0, ge=1, le=500, description="Width of straight and bent links between their bosses."
+    )
+    coupler_bend: Millimetres = Field(
+        0.0,
+        ge=-2000,
+        le=2000,
+        description="Offset of the coupler's elbow to the left of A to B; 0 for a straight coupler.",
+    )
+    clearance: Millimetres = Field(
+        1.0, ge=0.1, le=50, description="Least distance in plan of what moves in one layer."
+    )
+    washer: Millimetres = Field(0.5, ge=0.05, le=20, description="Air between the layers of plates.")
+    material: MaterialName = Field("aluminium", description="Of the plates.")
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if (self.coupler_point_x is None) != (self.coupler_point_y is None):
+            raise ValueError("give both coupler_point_x and coupler_point_y, or neither")
+        if self.coupler_point_x is not None and self.coupler_bend != 0:
+            raise ValueError("coupler_bend is for a coupler without a point; leave out coupler_point_x and _y")
+        return self
+
+    @property
+    def coupler_point(self) -> complex | None:
+        """The coupler point in the coupler's frame, x + i y, mm."""
+        if self.coupler_point_x is None or self.coupler_point_y is None:
+            return None
+        return complex(self.coupler_point_x, self.coupler_point_y)

@@ -1,0 +1,122 @@
+"""Synthesis through prescribed acceleration poles of the coupler: crank-rockers and double cranks."""
+
+import math
+
+import numpy as np
+
+from mechwright.findings import Finding, Severity
+from mechwright.motion import Scalar
+from mechwright.synthesis import Progress, Synthesis
+from mechwright_four_bar.candidates import Found, buildable
+from mechwright_four_bar.dimensions import Kind
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.pole_equations import PoleProblem
+from mechwright_four_bar.pole_search import PoleSolution, search
+from mechwright_four_bar.requirements import PolesRequirement
+
+
+def problem_of(wanted: PolesRequirement, full_turn: bool) -> PoleProblem:
+    """The equations of a requirement, on the open branch."""
+    return PoleProblem(
+        np.array([complex(x, y) for x, y in wanted.poles]),
+        np.radians(wanted.crank_turns) if wanted.crank_turns else None,
+        None if wanted.ground_angle is None else math.radians(wanted.ground_angle),
+        wanted.ground,
+        1,
+        full_turn,
+    )
+
+
+def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[FourBarParams]:
+    """Linkages whose crank turns fully and whose coupler has its acceleration pole in all places.
+
+    All places lie on one branch, hence in one circuit. The designs are sorted by their transmission angle.
+    Where none is found, linkages whose crank does not turn are searched too, to say what there is.
+    """
+    problem = problem_of(wanted, full_turn=True)
+    result = search(problem, wanted.starts, wanted.seed, lambda part: progress(0.5 * part, "full turns"))
+    turning = [one for one in result.solutions if one.bar.kind.full_turn]
+    least = math.radians(wanted.least_transmission_angle)
+    good = sorted(
+        (one for one in turning if one.bar.least_transmission_angle() >= least),
+        key=lambda one: -one.bar.least_transmission_angle(),
+    )
+    candidates, reason = buildable(
+        (_found(one) for one in good), wanted.designs, lambda part: progress(0.5 + 0.3 * part, "designs")
+    )
+    if candidates:
+        return Synthesis(tuple(candidates), tuple(_notes(problem, turning, len(candidates))))
+    return Synthesis((), (_refusal(wanted, result.nearest, turning, bool(good), reason, progress),))
+
+
+def _found(one: PoleSolution) -> Found:
+    figures = {
+        "least_transmission_angle": Scalar(one.bar.least_transmission_angle(), "rad"),
+        **{
+            f"crank_angle_{number}": Scalar(float(angle), "rad")
+            for number, angle in enumerate(one.phi, start=1)
+        },
+        "double_crank": Scalar(float(one.bar.kind is Kind.DOUBLE_CRANK), ""),
+    }
+    return Found(one.bar, Scalar(one.residual, "mm"), figures)
+
+
+def _notes(problem: PoleProblem, turning: list[PoleSolution], given: int) -> list[Finding]:
+    infinite = " of infinitely many" if problem.freedom > 0 else ""
+    return [
+        Finding(
+            "poles.found",
+            Severity.NOTE,
+            "",
+            f"{len(turning)} linkages{infinite} with a full turn were found, {given} of them are given",
+            float(len(turning)),
+        )
+    ]
+
+
+def _refusal(
+    wanted: PolesRequirement,
+    nearest: float,
+    turning: list[PoleSolution],
+    good: bool,
+    reason: str,
+    progress: Progress,
+) -> Finding:
+    if good:
+        return Finding(
+            "poles.unbuildable",
+            Severity.ERROR,
+            "crank",
+            f"{len(turning)} linkages have their poles there, but none can be built: {reason}",
+            remedy="scale the places: lengths scale with them",
+        )
+    if turning:
+        best = max(math.degrees(one.bar.least_transmission_angle()) for one in turning)
+        return Finding(
+            "poles.transmission",
+            Severity.ERROR,
+            "crank",
+            f"the best linkage with its poles there has a transmission angle of {best:.3g} degrees",
+            best,
+            wanted.least_transmission_angle,
+            "deg",
+            f"ask for a least_transmission_angle of at most {math.floor(best * 10) / 10:g}, or move a place",
+        )
+    other = search(
+        problem_of(wanted, full_turn=False),
+        wanted.starts,
+        wanted.seed,
+        lambda part: progress(0.5 + 0.5 * part, "linkages without a full turn"),
+    )
+    without = f"; {len(other.solutions)} others have, but their cranks cannot turn" if other.solutions else ""
+    return Finding(
+        "poles.none",
+        Severity.ERROR,
+        "crank",
+        f"no linkage with a full turn was found whose poles lie there{without}: the nearest one misses them by "
+        f"{nearest:.3g} mm in the mean",
+        nearest,
+        0.0,
+        "mm",
+        "move a place, change crank_turns, or use more starts",
+    )

@@ -1,0 +1,139 @@
+"""What the four-bar's synthesis can be asked for."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, Millimetres, Unit
+
+Coordinate = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
+Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
+
+NEAREST_POLE = 0.01
+"""mm. A pole nearer to A0 asks for a coupler that hardly turns; nothing of that kind can be built."""
+
+MOST_STARTS = 1_000_000
+"""More random starts take minutes and find nothing new."""
+
+
+class PathRequirement(Parameters):
+    """The table ``[requirement]`` of the kind ``path``: a coupler point through points, in this order.
+
+    Examples
+    --------
+    >>> len(PathRequirement().points)
+    6
+    """
+
+    points: tuple[tuple[Coordinate, Coordinate], ...] = Field(
+        ((20.0, 20.0), (20.0, 25.0), (20.0, 30.0), (20.0, 35.0), (20.0, 40.0), (20.0, 45.0)),
+        min_length=3,
+        max_length=35,
+        description="Points [x, y] of the path, 3 to 35, in the order in which they are passed.",
+    )
+    crank_turns: tuple[Turn, ...] | None = Field(
+        None,
+        min_length=3,
+        max_length=35,
+        description="Crank angle at each point from that at the first, the first 0; left out, any.",
+    )
+    sense: Literal["ccw", "cw", "any"] = Field(
+        "any", description="Sense of the crank, where crank_turns does not say it."
+    )
+    tolerance: Millimetres = Field(
+        0.01,
+        ge=1e-9,
+        le=100,
+        description="Distance in the mean (root mean square) that counts as met; designs within it are "
+        "sorted by transmission angle.",
+    )
+    least_transmission_angle: Degrees = Field(
+        20.0, ge=1, le=80, description="Least transmission angle of the designs."
+    )
+    longest_link: Millimetres = Field(
+        1000.0, ge=1, le=5000, description="Longest link, ground and coupler point included."
+    )
+    shortest_link: Millimetres = Field(10.0, ge=1, le=1000, description="Shortest link, ground included.")
+    starts: int = Field(100_000, ge=100, le=MOST_STARTS, description="Random shapes to try for each branch.")
+    designs: int = Field(5, ge=1, le=50, description="Most designs to give.")
+    seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        turns = self.crank_turns
+        if turns is not None:
+            if len(turns) != len(self.points):
+                raise ValueError(f"crank_turns has {len(turns)} angles for {len(self.points)} points")
+            steps = [two - one for one, two in zip(turns, turns[1:], strict=False)]
+            if turns[0] != 0 or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
+                raise ValueError("crank_turns starts with 0 and goes one way")
+            if abs(turns[-1]) >= 360:
+                raise ValueError("crank_turns stays within one turn, below 360 degrees")
+        if len(set(self.points)) < len(self.points):
+            raise ValueError("points holds a point twice; leave one out")
+        if self.shortest_link >= self.longest_link:
+            raise ValueError("shortest_link must be below longest_link")
+        return self
+
+
+class PolesRequirement(Parameters):
+    """The table ``[requirement]`` of the kind ``poles``: acceleration poles of the coupler, from A0.
+
+    Examples
+    --------
+    >>> len(PolesRequirement().poles)
+    3
+    """
+
+    poles: tuple[tuple[Coordinate, Coordinate], ...] = Field(
+        ((93.6, 163.6), (-21.2, 234.4), (119.2, 233.2)),
+        min_length=2,
+        max_length=5,
+        description="Places [x, y] of the acceleration pole, from A0.",
+    )
+    crank_turns: tuple[Turn, ...] = Field(
+        (0.0, 50.0, 150.0),
+        max_length=5,
+        description="Crank angle at each pole from that at the first, the first 0; [] for any angles.",
+    )
+    ground_angle: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None, description="Direction from A0 to B0; left out, any."
+    )
+    ground: Annotated[float, Field(ge=1, le=5000), Unit("mm")] | None = Field(
+        None, description="Distance from A0 to B0, only with ground_angle; left out, any."
+    )
+    least_transmission_angle: Degrees = Field(
+        1.0, ge=0.5, le=80, description="Least transmission angle of the designs."
+    )
+    starts: int = Field(5000, ge=100, le=MOST_STARTS, description="Random linkages to start from, per branch.")
+    designs: int = Field(20, ge=1, le=100, description="Most designs to give.")
+    seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        count = len(self.poles)
+        if self.crank_turns:
+            if len(self.crank_turns) != count:
+                raise ValueError(f"crank_turns has {len(self.crank_turns)} angles for {count} poles")
+            if self.crank_turns[0] != 0 or len({turn % 360 for turn in self.crank_turns}) < count:
+                raise ValueError("crank_turns starts with 0 and holds no angle twice")
+        if self.ground is not None and self.ground_angle is None:
+            raise ValueError("ground needs a ground_angle; give both, or the angle alone")
+        if len(set(self.poles)) < count:
+            raise ValueError("poles holds a place twice; leave one out")
+        if any(abs(complex(*pole)) < NEAREST_POLE for pole in self.poles):
+            raise ValueError(f"poles: a pole in A0 needs a coupler at rest; keep {NEAREST_POLE:g} mm away")
+        if self.freedom < 0:
+            raise ValueError(
+                f"poles: {count} places are {2 * count} equations for {2 * count + self.freedom} unknowns; "
+                "leave places out, or leave ground, ground_angle or crank_turns open"
+            )
+        return self
+
+    @property
+    def freedom(self) -> int:
+        """Unknowns less equations; above 0 there are infinitely many linkages."""
+        count = len(self.poles)
+        angles = 1 if self.crank_turns else count
+        return 3 + angles + (self.ground_angle is None) + (self.ground is None) - 2 * count

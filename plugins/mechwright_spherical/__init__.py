@@ -1,0 +1,1 @@
+"""Spherical linkages: four-bars, and adjustable five-bar path generators."""

@@ -1,0 +1,123 @@
+"""Where the bodies are: every link has a frame of its own, with the origin in the centre of the sphere.
+
+A link's x axis points along its first joint, its arc runs in the xy plane towards the second one. Lying so,
+its middle plane is z = 0: it can be printed as it is.
+
+Glossary
+--------
+ground
+    a0 (x) to b0.
+crank, arm
+    Fixed axis (x) to moving pin.
+rocker
+    B (x) to C; the output link of a four-bar, from its fixed axis.
+coupler
+    A (x) to C in phase 1; in phase 2 the same body stands on other pins.
+pinion, idler
+    Gears of the drive; the wheel belongs to the arm.
+base
+    The base plate: z along the post, the origin on its underside.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from mechwright.motion import Array, Poses
+from mechwright_spherical.chain import orientation
+from mechwright_spherical.drive import Train
+from mechwright_spherical.jets import Turning
+from mechwright_spherical.linkage import Linkage, Phase
+from mechwright_spherical.loop import State
+from mechwright_spherical.vectors import rotation_about
+
+
+def link_frames(linkage: Linkage, phase: Phase, state: State) -> Mapping[str, Array]:
+    """Frames (3, 3, n) of all links, their axes the columns, for a state of the phase."""
+    loop = phase.loop
+    a, b, c = state.a[0], state.b[0], state.c[0]
+    frames = {
+        "ground": _still(orientation(loop.a0, loop.b0), a),
+        "crank": orientation(np.broadcast_to(loop.a0[:, None], a.shape), a),
+        "rocker": orientation(b, c),
+        "coupler": coupler_frame(linkage, phase, state),
+    }
+    if linkage.five_bar is not None:
+        frames["arm"] = orientation(np.broadcast_to(loop.b0[:, None], b.shape), b)
+    return frames
+
+
+def coupler_frame(linkage: Linkage, phase: Phase, state: State) -> Array:
+    """The coupler's frame (3, 3, n): that of phase 1, carried along on the pins of this phase."""
+    moved = orientation(state.a[0], state.c[0])
+    if phase.number == 1:
+        return moved
+    return _times(moved, pins_of_phase(linkage, 2).T @ pins_of_phase(linkage, 1))
+
+
+def pins_of_phase(linkage: Linkage, number: int) -> Array:
+    """The frame (3, 3) of the pins A and C in the position of adjustment."""
+    state = linkage.phases[number - 1].loop.at(Turning.of(np.zeros(1)), 0)
+    return orientation(state.a[0], state.c[0])[:, :, 0]
+
+
+def poses(
+    linkage: Linkage, phase: Phase, state: State, angles: Array, train: Train | None
+) -> dict[str, Poses]:
+    """Poses of all bodies that turn about the centre, for a state at input angles (n,), rad."""
+    frames = dict(link_frames(linkage, phase, state))
+    if train is not None:
+        frames["pinion"] = _turned(phase.loop.a0, angles, frames["ground"][:, :, 0])
+        if train.idler_axis is not None:
+            # The idler's x axis is its own; y towards the arm's axis.
+            at_rest = orientation(train.idler_axis, phase.loop.b0)
+            frames["idler"] = _turned(train.idler_axis, train.idler_ratio * angles, at_rest)
+    return {name: _poses(frame) for name, frame in frames.items()}
+
+
+def _poses(frame: Array) -> Poses:
+    rotation = np.ascontiguousarray(np.moveaxis(frame, 2, 0))
+    return Poses(np.zeros((rotation.shape[0], 3)), rotation)
+
+
+def _still(frame: Array, like: Array) -> Array:
+    return np.broadcast_to(frame[:, :, None], (3, 3, like.shape[-1]))
+
+
+def _turned(axis: Array, angles: Array, frame: Array) -> Array:
+    return _times(rotation_about(axis, angles), frame)
+
+
+def _times(moved: Array, frame: Array) -> Array:
+    found: Array = np.einsum("ijn,jk->ikn", moved, frame)
+    return found
+
+
+def quaternions(rotation: Array) -> Array:
+    """Unit quaternions (4, n), scalar first and not negative, of rotation matrices (3, 3, n).
+
+    The largest component is computed from the trace, the others from it (Shepperd), so that no digits are
+    lost.
+    """
+    r = rotation
+    trace = r[0, 0] + r[1, 1] + r[2, 2]
+    squares = np.stack([trace, r[0, 0], r[1, 1], r[2, 2]])
+    best = np.argmax(squares, axis=0)
+    # 4 times the products of all pairs of components.
+    products = np.array(
+        [
+            [1 + trace, r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], 1 + 2 * r[0, 0] - trace, r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
+            [r[0, 2] - r[2, 0], r[0, 1] + r[1, 0], 1 + 2 * r[1, 1] - trace, r[1, 2] + r[2, 1]],
+            [r[1, 0] - r[0, 1], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], 1 + 2 * r[2, 2] - trace],
+        ]
+    )
+    row = np.take_along_axis(products, best[None, None, :], axis=0)[0]
+    found = row / np.sqrt((row**2).sum(axis=0))
+    return np.asarray(np.where(found[0] < 0, -1.0, 1.0) * found)
+
+
+def degrees(angle: float) -> str:
+    """An angle, rad, for a message."""
+    return f"{math.degrees(angle):.4g}°"

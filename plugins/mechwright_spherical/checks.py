@@ -1,0 +1,255 @@
+"""What an engineer would object to in a design, and the figures worth knowing.
+
+The checks run from the pins to the links. Each group needs what the groups before it have found to be sound,
+so the first group with an error ends the list.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from mechwright.findings import Finding, Severity, errors
+from mechwright.motion import Array
+from mechwright_spherical.hardware_checks import hardware_findings
+from mechwright_spherical.jets import Turning
+from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
+from mechwright_spherical.mobility import input_range, kind
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.parts import second_size
+from mechwright_spherical.shells import shells_of
+
+DEAD_CENTRE = 1.0
+"""Transmission angle, degrees, below which a linkage counts as standing in a dead centre: 57 times the torque
+of the output would have to come from the input, and friction blocks it long before."""
+
+SAMPLES = 1441
+"""Input angles at which a travel is looked at before the lowest one is looked at closely: each half degree of
+two turns."""
+
+_CACHED = 32
+"""Designs whose findings are kept: parts ask for them again."""
+
+
+@lru_cache(_CACHED)
+def findings(params: SphericalParams) -> tuple[Finding, ...]:
+    """Everything that is to be said about a design. No error among it means that it can be built."""
+    found: list[Finding] = []
+    groups: tuple[Callable[[SphericalParams], Iterator[Finding]], ...] = (
+        _pins,
+        _assembly,
+        _path,
+        hardware_findings,
+        _figures,
+    )
+    for group in groups:
+        found += group(params)
+        if errors(found):
+            break
+    return tuple(found)
+
+
+def _pins(params: SphericalParams) -> Iterator[Finding]:
+    try:
+        linkage_of(params)
+    except PinError as fault:
+        yield Finding(
+            "spherical.pins",
+            Severity.ERROR,
+            fault.parameter,
+            fault.message,
+            fault.value,
+            fault.limit,
+            "deg",
+            fault.remedy,
+        )
+
+
+def travel_key(params: SphericalParams, phase: Phase) -> str:
+    """The parameter that says how far a phase goes."""
+    if params.kind == "four-bar":
+        return "four_bar.travel"
+    return "five_bar.travel" if phase.number == 1 else "five_bar.travel_n"
+
+
+def transmission_sine(phase: Phase, angles: Array) -> Array:
+    """Sine of the transmission angle (n,) at input angles, continued below 0 where it cannot be assembled.
+
+    The radicand of the closed form is the square of C's height over A and B; height times base is also
+    the product of both arcs' sines and the transmission angle's.
+    """
+    loop = phase.loop
+    state = loop.at(Turning.of(angles), 0)
+    mu = state.transmission
+    room = loop.room(angles)
+    return np.asarray(np.where(np.isfinite(mu), np.sin(mu), np.minimum(room, 0.0)))
+
+
+def weakest(phase: Phase) -> tuple[float, float]:
+    """Input angle, rad, with the worst transmission angle, and its sine; below 0: it comes apart."""
+    angles = phase.sweep(SAMPLES)
+    for _ in range(2):
+        values = transmission_sine(phase, angles)
+        low = int(np.argmin(values))
+        at, value = float(angles[low]), float(values[low])
+        angles = np.linspace(angles[max(low - 1, 0)], angles[min(low + 1, len(angles) - 1)], SAMPLES)
+    return at, value
+
+
+def _assembly(params: SphericalParams) -> Iterator[Finding]:
+    linkage = linkage_of(params)
+    for phase in linkage.phases:
+        at, sine = weakest(phase)
+        where = f"{math.degrees(at):.4g}° from the start"
+        if len(linkage.phases) > 1:
+            where += f" of phase {phase.number}"
+        if sine <= math.sin(math.radians(DEAD_CENTRE)):
+            yield _apart(params, linkage, phase, at, sine, where)
+        elif (worst := math.degrees(math.asin(sine))) < params.least_transmission:
+            yield Finding(
+                "spherical.transmission",
+                Severity.WARNING,
+                travel_key(params, phase),
+                f"the transmission angle falls to {worst:.4g}° or {180 - worst:.4g}°, {where}",
+                worst,
+                params.least_transmission,
+                "deg",
+                "shorten the travel, choose other arcs, or accept it with a smaller least_transmission",
+            )
+
+
+_NO_FOUR_BAR = "make the longest arc shorter than the others together, and all four less than 360° together"
+
+
+def _apart(
+    params: SphericalParams, linkage: Linkage, phase: Phase, at: float, sine: float, where: str
+) -> Finding:
+    fault = "it cannot be assembled" if sine < 0 else "it stands in a dead centre"
+    reach = _reach(phase)
+    four = linkage.four_bar
+    if four is not None:
+        start = params.four_bar.start
+        ranges = input_range(*four.arcs)
+        said = ", ".join(f"{math.degrees(a):.4g}° to {math.degrees(b):.4g}°" for a, b in ranges)
+        remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
+        value = start + math.degrees(at)
+        return Finding(
+            "spherical.assembly",
+            Severity.ERROR,
+            travel_key(params, phase),
+            f"{fault} at the input angle {value:.4g}°",
+            value,
+            start + reach,
+            "deg",
+            remedy,
+        )
+    return Finding(
+        "spherical.assembly",
+        Severity.ERROR,
+        travel_key(params, phase),
+        f"{fault} {where}",
+        math.degrees(at),
+        reach,
+        "deg",
+        f"travel less than {reach:.4g}°, or choose other pins",
+    )
+
+
+def _reach(phase: Phase) -> float:
+    """How far the phase gets before its dead centre, degrees, to the fineness of the samples."""
+    angles = phase.sweep(SAMPLES)
+    good = transmission_sine(phase, angles) > math.sin(math.radians(DEAD_CENTRE))
+    first = int(np.argmin(good)) if not good.all() else len(angles)
+    return math.degrees(float(angles[max(first - 1, 0)]))
+
+
+def _path(params: SphericalParams) -> Iterator[Finding]:
+    for phase in linkage_of(params).phases:
+        if not phase.target_angles.size:
+            continue
+        table = "four_bar" if params.kind == "four-bar" else "five_bar"
+        mark = "" if phase.number == 1 else "_n"
+        key, keys = f"{table}.path{mark}", f"{table}.path_angles{mark}"
+        yield from _order(phase, keys)
+        misses = params.radius * phase.path_errors
+        if not np.isfinite(misses).all():
+            bad = math.degrees(float(phase.target_angles[np.argmin(np.isfinite(misses))]))
+            yield Finding(
+                "spherical.assembly",
+                Severity.ERROR,
+                keys,
+                f"the linkage cannot be assembled at the path angle {bad:.4g}°",
+                bad,
+                _reach(phase),
+                "deg",
+                "take the point out, or choose other pins",
+            )
+            continue
+        worst, rms = float(misses.max()), float(np.sqrt(np.mean(misses**2)))
+        said = f"the path misses its points by up to {worst:.4g} mm, rms {rms:.4g} mm"
+        tolerance = params.path_tolerance
+        if tolerance is not None and worst > tolerance:
+            yield Finding(
+                "spherical.path",
+                Severity.WARNING,
+                key,
+                said,
+                worst,
+                tolerance,
+                "mm",
+                "refine the linkage with mechwright synthesize, or choose a longer projection",
+            )
+        else:
+            yield Finding("spherical.path", Severity.NOTE, key, said, worst, tolerance, "mm")
+
+
+def _order(phase: Phase, key: str) -> Iterator[Finding]:
+    angles = phase.target_angles
+    steps = np.sign(phase.travel) * np.diff(angles)
+    inside = (angles * np.sign(phase.travel) >= -ON_TRAVEL) & (
+        np.abs(angles) <= abs(phase.travel) + ON_TRAVEL
+    )
+    if (steps < 0).any() or not inside.all():
+        worst = (
+            float(angles[int(np.argmin(inside))])
+            if not inside.all()
+            else float(angles[int(np.argmin(steps)) + 1])
+        )
+        yield Finding(
+            "spherical.order",
+            Severity.WARNING,
+            key,
+            f"the point at {math.degrees(worst):.4g}° is not on the travel, or not in its order",
+            math.degrees(worst),
+            math.degrees(phase.travel),
+            "deg",
+            "order the points along the travel, and make that long enough",
+        )
+
+
+ON_TRAVEL = 1e-9
+"""rad. A point this little outside the travel is at its end: rounding of degrees."""
+
+
+def _figures(params: SphericalParams) -> Iterator[Finding]:
+    linkage = linkage_of(params)
+    four = linkage.four_bar
+    if four is not None:
+        yield Finding(
+            "spherical.mobility",
+            Severity.NOTE,
+            "four_bar",
+            f"it is a {kind(*four.arcs)}",
+        )
+        return
+    mechanism = linkage.five_bar
+    assert mechanism is not None  # noqa: S101 - a linkage is one of both
+    (r1, r1n), (r3, r3n) = mechanism.crank_arcs, mechanism.rocker_arcs
+    degrees = [math.degrees(float(x)) for x in (r1, r1n, r3, r3n)]
+    other = second_size(linkage, shells_of(params))
+    apart = max(abs(degrees[0] - degrees[1]), abs(degrees[2] - degrees[3]))
+    said = f"R1 = {degrees[0]:.4f}° and {degrees[1]:.4f}°, R3 = {degrees[2]:.4f}° and {degrees[3]:.4f}°"
+    if other:
+        said += f": {' and '.join(sorted(other))} must be exchanged for phase 2; common_arcs avoids that"
+    yield Finding("spherical.arcs", Severity.NOTE, "five_bar.common_arcs", said, apart, None, "deg")

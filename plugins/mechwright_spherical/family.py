@@ -1,0 +1,68 @@
+"""The family ``spherical``."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.errors import DesignError
+from mechwright.family import Family
+from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
+from mechwright.synthesis import Progress, Synthesis
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
+
+if TYPE_CHECKING:
+    from mechwright.motion import Motion
+    from mechwright.part import Part
+
+
+class Spherical(Family[SphericalParams]):
+    """Spherical linkages: all axes meet in one point."""
+
+    name = "spherical"
+    title = "Spherical linkages"
+    summary = "Spherical four-bars, and adjustable five-bars that trace a path on a sphere in two phases."
+    Params = SphericalParams
+    requirements: ClassVar = {
+        "adjustable-path": AdjustablePathRequirement,
+        "four-bar-path": FourBarPathRequirement,
+    }
+
+    def check(self, params: SphericalParams) -> Sequence[Finding]:
+        """Assembly, transmission angle, mobility, path, and room for the links."""
+        from mechwright_spherical.checks import findings
+
+        return findings(params)
+
+    def solve(self, params: SphericalParams, samples: int) -> "Motion":
+        """The travel of the phase that is shown, at constant speed."""
+        from mechwright_spherical.motion import motion_of
+
+        return motion_of(params, samples)
+
+    def parts(self, params: SphericalParams) -> "Sequence[Part]":
+        """Links, pins, drive, base plate and flat strips.
+
+        Raises
+        ------
+        DesignError
+            ``check`` finds an error; the message is that of the first one.
+        """
+        from mechwright_spherical.checks import findings
+        from mechwright_spherical.parts import parts_of
+
+        for finding in errors(findings(params)):
+            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: Progress
+    ) -> Synthesis[SphericalParams]:
+        """An adjustable five-bar for poses in the plane, or a four-bar for points of the sphere."""
+        if kind == "adjustable-path":
+            from mechwright_spherical.adjustable_synthesis import from_poses
+
+            return from_poses(AdjustablePathRequirement.model_validate(requirement), progress)
+        from mechwright_spherical.fourbar_synthesis import from_points
+
+        return from_points(FourBarPathRequirement.model_validate(requirement), progress)

@@ -1,0 +1,346 @@
+"""Whether links, pins, drive, stand and strips have room."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from mechwright.findings import Finding, Severity
+from mechwright.motion import Array
+from mechwright_spherical.clearances import Approach, approaches
+from mechwright_spherical.drive import Train, internal, train_of
+from mechwright_spherical.flat import strip
+from mechwright_spherical.linkage import Linkage, linkage_of
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.parts import gear_span, link_arcs, second_size
+from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
+from mechwright_spherical.vectors import arc, rotate
+
+WALL = 1.0
+"""Least material around a bore or between two, mm: less bulges when a pin goes in."""
+
+AIR = 0.5
+"""Least air between two links that pass each other, mm: what deflection and play of a hand-made linkage
+need."""
+
+
+def clear_radius(diameter: float, angle: float) -> float:
+    """Radius, mm, outside which two radial cylinders of one diameter, ``angle`` rad apart, do not touch.
+
+    >>> round(clear_radius(12, math.radians(9.704142066385073)), 6)
+    70.681672
+    """
+    return diameter / 2 / math.tan(angle / 2)
+
+
+def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
+    """All of them."""
+    linkage, shells = linkage_of(params), shells_of(params)
+    yield from _bosses(params, shells)
+    yield from _shafts(params, linkage, shells)
+    yield from _sideways(params, linkage, shells)
+    yield from _slots(params, linkage, shells)
+    yield from _drive(params, linkage, shells)
+    yield from _stand(params, linkage, shells)
+    yield from _strips(params, linkage, shells)
+
+
+def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
+    hardware = params.hardware
+    least = hardware.pin_diameter + hardware.fit + 2 * WALL
+    if hardware.boss_diameter < least:
+        yield Finding(
+            "spherical.boss",
+            Severity.ERROR,
+            "hardware.boss_diameter",
+            f"bosses of {hardware.boss_diameter:g} mm leave less than {WALL:g} mm around the bores",
+            hardware.boss_diameter,
+            least,
+            "mm",
+            f"make them {least:g} mm at least, or the pins thinner",
+        )
+    half = hardware.boss_diameter / 2
+    # The flat end of a boss reaches further out at its rim than in its middle; outer shells matter less.
+    rise = math.hypot(shells.links["coupler"][1], half) - shells.links["coupler"][1]
+    if hardware.gap <= rise:
+        yield Finding(
+            "spherical.gap",
+            Severity.ERROR,
+            "hardware.gap",
+            f"the rims of flat bosses of {hardware.boss_diameter:g} mm stand {rise:.3f} mm over their shell "
+            f"and rub in a gap of {hardware.gap:g} mm",
+            hardware.gap,
+            rise,
+            "mm",
+            f"use more than {rise:.3f} mm, smaller bosses, or a larger radius",
+        )
+
+
+def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    hardware = params.hardware
+    bored = hardware.pin_diameter + hardware.fit + WALL
+    pairs: list[tuple[str, float, float, str]] = []
+    for phase in linkage.phases:
+        coupler = math.acos(float(phase.loop.ca))
+        said = f"pins a and c of phase {phase.number}" if len(linkage.phases) > 1 else "pins a and c"
+        pairs.append((said, coupler, hardware.boss_diameter + AIR, "crank"))
+    names = {
+        "ground": "both fixed axes",
+        "crank": "the pins of the crank",
+        "rocker": "the pins of the rocker",
+    }
+    names["arm"] = "the pins of the arm"
+    pairs += [(names[link], angle, bored, link) for link, angle in link_arcs(linkage).items()]
+    point = linkage.phases[0].loop.position(np.zeros(1))[:, 0]
+    for name, seat in _seats(linkage).items():
+        pairs.append((f"tool and pin {name}", float(arc(point, seat)), bored, "coupler"))
+    for said, angle, diameter, link in pairs:
+        needed, there = clear_radius(diameter, angle), shells.links[link][0]
+        if needed > there:
+            # The shells move outwards with the sphere.
+            radius = math.ceil(10 * (params.radius + needed - there)) / 10
+            yield Finding(
+                "spherical.shafts",
+                Severity.ERROR,
+                "radius",
+                f"{said} are {math.degrees(angle):.4g}° apart, and {diameter:g} mm do not fit side by side "
+                f"at {there:.4g} mm from the centre",
+                params.radius,
+                radius,
+                "mm",
+                f"use a radius of {radius:g} mm or more, smaller pins and bosses, or a shorter projection",
+            )
+
+
+def _seats(linkage: Linkage) -> dict[str, Array]:
+    loop = linkage.phases[0].loop
+    mechanism = linkage.five_bar
+    if mechanism is None:
+        from mechwright_spherical.jets import Turning
+
+        state = loop.at(Turning.of(np.zeros(1)), 0)
+        return {"a": state.a[0][:, 0], "c": state.c[0][:, 0]}
+    return {name: getattr(mechanism, name) for name in ("a1", "a1n", "c1", "c1n")}
+
+
+def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    found = list(approaches(params, linkage, shells))
+    for near in found:
+        if near.room < AIR:
+            yield _collision(linkage, near)
+    tightest = min(found, key=lambda near: near.room)
+    if tightest.room >= AIR:
+        one, two = tightest.bodies
+        yield Finding(
+            "spherical.clearance",
+            Severity.NOTE,
+            "hardware",
+            f"{one} and {two} come nearest, {tightest.room:.3g} mm{_when(linkage, tightest)}",
+            tightest.room,
+            AIR,
+            "mm",
+        )
+
+
+def _when(linkage: Linkage, near: Approach) -> str:
+    phase = f" of phase {near.phase}" if len(linkage.phases) > 1 else ""
+    return f", {math.degrees(near.angle):.4g}° from the start{phase}"
+
+
+def _collision(linkage: Linkage, near: Approach) -> Finding:
+    one, two = near.bodies
+    verb = (
+        f"run into each other by {-near.room:.3g} mm"
+        if near.room < 0
+        else f"come as near as {near.room:.3g} mm"
+    )
+    return Finding(
+        "spherical.clearance",
+        Severity.ERROR,
+        "hardware.boss_diameter",
+        f"{one} and {two} {verb}{_when(linkage, near)}",
+        near.room,
+        AIR,
+        "mm",
+        "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
+    )
+
+
+def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    mechanism = linkage.five_bar
+    if mechanism is None:
+        return
+    hardware = params.hardware
+    one = slot_points(mechanism.a0, mechanism.a1, float(mechanism.crank_setting))
+    two = slot_points(mechanism.b1, mechanism.c1, float(mechanism.rocker_setting))
+    nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", one, two), -1, 1)).min())
+    radius = shells.links["coupler"][0]
+    least = hardware.pin_diameter + hardware.fit + WALL
+    apart = 2 * radius * math.tan(nearest / 2)
+    if apart < least:
+        yield Finding(
+            "spherical.slot",
+            Severity.ERROR,
+            "five_bar.c1n",
+            f"the slots of both pins come as near as {apart:.4g} mm and run into each other",
+            apart,
+            least,
+            "mm",
+            f"keep them {least:g} mm apart: use thinner pins or a larger radius",
+        )
+
+
+def slot_points(axis: Array, start: Array, sweep: float) -> Array:
+    """Points (3, n) along a circular slot."""
+    steps = np.linspace(0.0, sweep, 61)  # a sixtieth of a slot is far less than a pin
+    return rotate(axis[:, None], steps, start[:, None])
+
+
+def _drive(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    mechanism = linkage.five_bar
+    if mechanism is None or not params.drive.gears:
+        return
+    train = train_of(linkage, params.drive)
+    shafts = float(arc(mechanism.a0, mechanism.b0))
+    if train is None:
+        least = math.degrees((1 - params.drive.share) * shafts / 2)
+        yield Finding(
+            "spherical.drive",
+            Severity.ERROR,
+            "drive.idler",
+            f"an idler of {params.drive.idler:g}° does not reach both gears",
+            params.drive.idler,
+            least,
+            "deg",
+            f"use more than {least:.4g}°, or a larger share",
+        )
+        return
+    yield from _cones(params, shells, train)
+    said = f"pitch cones of {_cone(train.pinion)} on the crank and {_cone(train.wheel)} on the arm"
+    if train.idler_axis is not None:
+        said += f", an idler of {_cone(train.idler)}"
+        if mechanism.ratio < 1:
+            inner, outer = internal(shafts, mechanism.ratio)
+            said += f"; an internal pair would have {_cone(inner)} and {_cone(outer)}"
+    yield Finding("spherical.drive", Severity.NOTE, "drive", said)
+
+
+def _cone(angle: float) -> str:
+    return f"{math.degrees(angle):.4f}°"
+
+
+def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Finding]:
+    hardware = params.hardware
+    inner, _ = gear_span(params, shells, train)
+    least = hardware.pin_diameter + hardware.fit + 2 * WALL
+    cones = {"pinion": train.pinion, "wheel": train.wheel}
+    if train.idler_axis is not None:
+        cones["idler"] = train.idler
+    for name, angle in cones.items():
+        diameter = 2 * inner * math.sin(angle)
+        if diameter < least or angle >= math.pi / 2:
+            yield Finding(
+                "spherical.drive",
+                Severity.ERROR,
+                "drive.idler" if name == "idler" else "drive.share",
+                f"the {name} has a pitch diameter of {diameter:.4g} mm at its small end, or is no cone",
+                diameter,
+                least,
+                "mm",
+                f"it needs {least:g} mm: use a larger radius, thinner pins, or no gears",
+            )
+
+
+def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    stand = params.stand
+    whole = math.degrees(link_arcs(linkage)["ground"]) + stand.arc
+    if whole > LONGEST_GROUND:
+        yield Finding(
+            "spherical.stand",
+            Severity.ERROR,
+            "stand.arc",
+            f"the ground link would be an arc of {whole:.4g}°",
+            whole,
+            LONGEST_GROUND,
+            "deg",
+            f"use at most {LONGEST_GROUND - whole + stand.arc:.4g}°",
+        )
+    yield from _post(params, linkage, shells)
+    # Mounting holes, a screw's head of material around them, and the flange must all fit on the plate.
+    rim = (0.5 - abs(MOUNTING_SCREWS[0][0])) * stand.plate
+    if rim < stand.screw or flange_diameter(stand) > stand.plate:
+        most = min(rim, (stand.plate / 2 - (flange_diameter(stand) / 2 - 1.5 * stand.screw)) / 1.5)
+        yield Finding(
+            "spherical.stand",
+            Severity.ERROR,
+            "stand.screw",
+            f"screws of {stand.screw:g} mm are too large for a base plate of {stand.plate:g} mm",
+            stand.screw,
+            most,
+            "mm",
+            f"use at most {math.floor(100 * most) / 100:g} mm, or a larger plate",
+        )
+    if stand.height < params.hardware.link_thickness:
+        yield Finding(
+            "spherical.stand",
+            Severity.ERROR,
+            "stand.height",
+            "the flange is thicker than the post is high",
+            stand.height,
+            params.hardware.link_thickness,
+            "mm",
+            f"make the post {params.hardware.link_thickness:g} mm at least",
+        )
+
+
+LONGEST_GROUND = 330.0
+"""Degrees of the ground link from post to far axis: with more, its ends meet."""
+
+
+def _post(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    """Post and flange against bosses and gears next to them."""
+    stand, hardware = params.stand, params.hardware
+    radius = shells.outside
+    wide = max(hardware.boss_diameter, flange_diameter(stand) * radius / (radius + stand.height))
+    half = math.atan2(wide / 2, radius)
+    train = train_of(linkage, params.drive)
+    needed = math.atan2(hardware.boss_diameter / 2 + AIR, radius)
+    if train is not None:
+        needed = max(needed, train.pinion)
+    if math.radians(stand.arc) < needed + half:
+        least = math.degrees(needed + half)
+        yield Finding(
+            "spherical.stand",
+            Severity.ERROR,
+            "stand.arc",
+            "post and flange stand in the way of what sits on the input axis",
+            stand.arc,
+            least,
+            "deg",
+            f"use {math.ceil(10 * least) / 10:g}° or more, a smaller plate, or a higher post",
+        )
+
+
+def _strips(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    flat, hardware = params.flat, params.hardware
+    if not flat.make:
+        return
+    arcs = {**link_arcs(linkage), **second_size(linkage, shells)}
+    arcs |= {f"coupler{phase.number}": math.acos(float(phase.loop.ca)) for phase in linkage.phases}
+    shortest = hardware.boss_diameter / 2
+    for name, angle in arcs.items():
+        link = "coupler" if name.startswith("coupler") else name
+        found = strip(angle, shells.arc(link)[0], flat)
+        if found.leg < shortest:
+            yield Finding(
+                "spherical.strip",
+                Severity.ERROR,
+                "flat.bend_radius",
+                f"the strip of the {link} has {found.leg:.4g} mm between bore and bend, and its round end "
+                f"takes {shortest:g} mm",
+                found.leg,
+                shortest,
+                "mm",
+                "use a smaller bend_radius, smaller bosses or a larger radius, or flat.make = false",
+            )

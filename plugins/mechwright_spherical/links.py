@@ -1,0 +1,145 @@
+"""The solid parts of a design: what each is made of, in its body's own frame. Imports the CAD kernel."""
+
+import math
+
+import cadquery as cq
+import numpy as np
+
+from mechwright.motion import Array
+from mechwright_spherical.bodies import pins_of_phase
+from mechwright_spherical.chain import orientation
+from mechwright_spherical.drive import Train
+from mechwright_spherical.linkage import Linkage
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.shells import Shells, Span
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell
+from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
+from mechwright_spherical.vectors import arc
+
+PITCH_PLAY = 0.05
+"""How much thinner pitch cones are drawn, mm, so that two that touch do not cut each other."""
+
+X = np.array([1.0, 0.0, 0.0])
+
+
+def direction(angle: float) -> Array:
+    """The direction in a link's frame at an arc, rad, from its first joint."""
+    return np.array([math.cos(angle), math.sin(angle), 0.0])
+
+
+def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq.Solid:
+    """A link with two joints: an arc with a boss and a bore at each end."""
+    hardware = params.hardware
+    ends = (X, direction(angle))
+    span = shells.links[name]
+    return fused(
+        [
+            arc_body(*ends, shells.arc(name), hardware.link_width),
+            *(cylinder(end, span, hardware.boss_diameter) for end in ends),
+        ],
+        [bore(params, end, span) for end in ends],
+    )
+
+
+def bore(params: SphericalParams, at: Array, span: Span) -> cq.Solid:
+    """What a pin's bore takes away: from inside the span to outside, never through the centre."""
+    hardware = params.hardware
+    return cylinder(at, (span[0] - _OVER, span[1] + _OVER), hardware.pin_diameter + hardware.fit)
+
+
+_OVER = 1.0
+"""How far cutters reach over the faces that they go through, mm."""
+
+
+def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Solid:
+    """The coupler: seats or slots for its two pins, and an arm to the path point."""
+    hardware = params.hardware
+    frame = pins_of_phase(linkage, 1)
+    point = path_point(linkage, frame)
+    seats = coupler_slots(linkage, frame)
+    span, arcs = shells.links["coupler"], shells.arc("coupler")
+    wide, bored = hardware.boss_diameter, hardware.pin_diameter + hardware.fit
+    # Seats and bosses are trimmed to one spherical shell: their own ends differ by hundredths of a
+    # millimetre, and the kernel would make slivers of that.
+    beyond = (span[0] - _OVER, span[1] + _OVER)
+    bodies = [seat.surroundings(beyond, wide) for seat in seats]
+    bodies.append(arc_body(seats[0].start, seats[1].start, arcs, hardware.link_width))
+    bodies.append(cylinder(point, beyond, wide))
+    nearest = min(
+        (pin for seat in seats for pin in (seat.start, seat.end)), key=lambda pin: float(arc(pin, point))
+    )
+    bodies.append(arc_body(nearest, point, arcs, hardware.link_width))
+    holes = [hole for seat in seats for hole in seat.swept(beyond, bored)]
+    return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
+
+
+def path_point(linkage: Linkage, frame: Array) -> Array:
+    """The path point in the coupler's frame."""
+    return np.asarray(frame.T @ linkage.phases[0].loop.position(np.zeros(1))[:, 0])
+
+
+def coupler_slots(linkage: Linkage, frame: Array) -> tuple[Slot, Slot]:
+    """Where the coupler takes its two pins, in its frame; a four-bar's slots have no length."""
+    mechanism = linkage.five_bar
+    if mechanism is None:
+        a, c = X, direction(math.acos(float(linkage.shown.loop.ca)))
+        return Slot(a, a, a), Slot(c, c, c)
+    own = {name: frame.T @ getattr(mechanism, name) for name in ("a0", "b1", "a1", "a1n", "c1", "c1n")}
+    return Slot(own["a0"], own["a1"], own["a1n"]), Slot(own["b1"], own["c1"], own["c1n"])
+
+
+def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Train | None) -> cq.Solid:
+    """The frame: both fixed axes on one arc, the idler's on another, and the post with its flange."""
+    hardware, stand = params.hardware, params.stand
+    loop = linkage.shown.loop
+    axes = [X, direction(float(arc(loop.a0, loop.b0)))]
+    span, arcs = shells.links["ground"], shells.arc("ground")
+    bodies = [arc_body(axes[0], axes[1], arcs, hardware.link_width, start=-math.radians(stand.arc))]
+    if train is not None and train.idler_axis is not None:
+        axes.append(_in_ground(linkage, train.idler_axis))
+        bodies.append(arc_body(axes[0], axes[2], arcs, hardware.link_width))
+        bodies.append(arc_body(axes[1], axes[2], arcs, hardware.link_width))
+    bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
+    post = post_direction(stand)
+    top = shells.outside + stand.height
+    flange = (top - hardware.link_thickness, top)
+    bodies.append(cylinder(post, (span[0], top), hardware.boss_diameter))
+    bodies.append(cylinder(post, flange, flange_diameter(stand)))
+    side, up = np.array([0.0, 0.0, 1.0]), np.cross(post, [0.0, 0.0, 1.0])
+    holes = [bore(params, axis, span) for axis in axes]
+    for one, two in FLANGE_SCREWS:
+        at = stand.plate * (one * side + two * up)
+        holes.append(
+            cq.Solid.makeCylinder(
+                stand.screw / 2,
+                hardware.link_thickness + 2 * _OVER,
+                cq.Vector(*(at + (flange[0] - _OVER) * post).tolist()),
+                cq.Vector(*post.tolist()),
+            )
+        )
+    return fused(bodies, holes)
+
+
+def _in_ground(linkage: Linkage, axis: Array) -> Array:
+    loop = linkage.shown.loop
+    return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
+
+
+def pin(span: Span, at: Array, diameter: float) -> cq.Solid:
+    """A straight pin or shaft."""
+    return cylinder(at, span, diameter)
+
+
+def tool(params: SphericalParams, shells: Shells, at: Array) -> cq.Solid:
+    """The tool: a pin in the coupler whose cone ends on the sphere."""
+    low, high = shells.pins["tool"]
+    radius = params.hardware.pin_diameter / 2
+    tip = min(2 * radius, (high - low) / 2)
+    cone = cq.Solid.makeCone(0.0, radius, tip, cq.Vector(*(low * at).tolist()), cq.Vector(*at.tolist()))
+    return fused([cone, cylinder(at, (low + tip, high), 2 * radius)])
+
+
+def gear(params: SphericalParams, span: Span, half_angle: float) -> cq.Solid:
+    """A gear blank: the pitch cone, with a bore for its shaft."""
+    blank = frustum(X, half_angle, span, PITCH_PLAY)
+    return fused([blank], [bore(params, X, (span[0] / 2, 2 * span[1]))])

@@ -1,0 +1,118 @@
+"""How far the links of a spherical four-bar can turn.
+
+The planar rule of Grashof is wrong on the sphere for half of all linkages. What counts are the signs of
+
+    T1 = α1 - α2 + α3 - α4,   T2 = α1 - α2 - α3 + α4,   T3 = α3 + α4 - α1 - α2,   T4 = 2π - α1 - α2 - α3 - α4.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechwright.motion import Array
+
+BALANCE = 1e-9
+"""rad. Sums of arcs that differ by less are equal: the linkage folds flat there, and no machine holds it
+apart."""
+
+_KINDS = {
+    (1, 1, 1): "crank-rocker",
+    (1, -1, -1): "rocker-crank",
+    (-1, -1, 1): "double crank",
+    (-1, 1, -1): "Grashof double rocker",
+    (-1, -1, -1): "double rocker, inward and outward",
+    (1, 1, -1): "double rocker, outward",
+    (1, -1, 1): "double rocker, inward",
+    (-1, 1, 1): "double rocker, outward and inward",
+}
+"""Signs of T1, T2, T3 for a linkage whose arcs add to less than 360 degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mobility:
+    """Mobility of one linkage or of many.
+
+    Parameters
+    ----------
+    t
+        T1 to T4, (4, ...), rad.
+    input_full, output_full
+        Whether input and output link turn all the way around, (...) bool.
+    grashof
+        Whether some joint turns all the way around, (...) bool.
+    """
+
+    t: Array
+    input_full: NDArray[np.bool_]
+    output_full: NDArray[np.bool_]
+    grashof: NDArray[np.bool_]
+
+
+def mobility(ground: ArrayLike, input_: ArrayLike, coupler: ArrayLike, output: ArrayLike) -> Mobility:
+    """Judge linkages by the signs of T1 to T4; arcs (...) in rad, above 0 and below π.
+
+    >>> m = mobility(*np.radians([80, 30, 70, 60]))
+    >>> bool(m.input_full), bool(m.output_full), bool(m.grashof)
+    (True, False, True)
+    """
+    a1, a2, a3, a4 = (np.asarray(x, dtype=float) for x in (ground, input_, coupler, output))
+    t = np.stack([a1 - a2 + a3 - a4, a1 - a2 - a3 + a4, a3 + a4 - a1 - a2, 2 * np.pi - a1 - a2 - a3 - a4])
+    t1, t2, t3, t4 = np.where(np.abs(t) < BALANCE, 0.0, t)
+    return Mobility(
+        t,
+        np.asarray((t1 * t2 >= 0) & (t3 * t4 >= 0)),
+        np.asarray((t1 * t3 <= 0) & (t2 * t4 <= 0)),
+        np.asarray(t1 * t2 * t3 * t4 >= 0),
+    )
+
+
+def kind(ground: float, input_: float, coupler: float, output: float) -> str:
+    """What one linkage is called; arcs in rad.
+
+    >>> kind(*np.radians([80, 30, 70, 60])), kind(*np.radians([100, 150, 110, 120]))
+    ('crank-rocker', 'crank-rocker')
+    >>> kind(*np.radians([60, 60, 60, 60]))
+    'change-point linkage'
+    """
+    found = mobility(ground, input_, coupler, output)
+    if (np.abs(found.t) < BALANCE).any():
+        return "change-point linkage"
+    if found.t[3] < 0:
+        # All rules are products of two signs, so that changing all four of them changes none.
+        return _KINDS[_signs(-found.t[:3])]
+    return _KINDS[_signs(found.t[:3])]
+
+
+def _signs(values: Array) -> tuple[int, int, int]:
+    one, two, three = (1 if value > 0 else -1 for value in values)
+    return one, two, three
+
+
+def input_range(
+    ground: float, input_: float, coupler: float, output: float
+) -> tuple[tuple[float, float], ...]:
+    """Input angles, rad, at which the linkage can be assembled: intervals inside 0 to 2π, in order.
+
+    The diagonal D from a to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ, and the far links reach
+    |α3 - α4| ≤ D ≤ min(α3 + α4, 2π - α3 - α4). No interval: it cannot be assembled at all.
+
+    >>> [tuple(round(math.degrees(x), 6) for x in pair) for pair in input_range(*np.radians([80, 30, 70,
+    60]))] [(0.0, 360.0)]
+    """
+    reach = min(coupler + output, 2 * math.pi - coupler - output)
+    level, swing = math.cos(ground) * math.cos(input_), math.sin(ground) * math.sin(input_)
+    highest = (math.cos(coupler - output) - level) / swing
+    lowest = (math.cos(reach) - level) / swing
+    if highest < -1 or lowest > 1:
+        return ()
+    near = math.acos(highest) if highest < 1 else 0.0
+    far = math.acos(lowest) if lowest > -1 else math.pi
+    if near == 0.0 and far == math.pi:
+        return ((0.0, math.tau),)
+    if near == 0.0:
+        return ((0.0, far), (math.tau - far, math.tau))
+    if far == math.pi:
+        return ((near, math.tau - near),)
+    return ((near, far), (math.tau - far, math.tau - near))

@@ -1,0 +1,151 @@
+"""The motion of a design: channels, poses and figures over the travel of the phase that is shown."""
+
+import math
+
+import numpy as np
+
+from mechwright.errors import DesignError, KinematicsError
+from mechwright.motion import Channel, Motion, Poses, Scalar
+from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
+from mechwright_spherical.drive import train_of
+from mechwright_spherical.fourbar import FourBar
+from mechwright_spherical.jets import Jet, Turning, turning_about
+from mechwright_spherical.linkage import Linkage, Phase, linkage_of
+from mechwright_spherical.loop import State
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.shells import shells_of
+from mechwright_spherical.stand import base_pose
+from mechwright_spherical.vectors import norm
+
+_RATES = ("", "/s", "/s^2", "/s^3")
+
+
+def motion_of(params: SphericalParams, samples: int) -> Motion:
+    """Sample the travel of the phase that is shown at constant input speed, both ends included.
+
+    Raises
+    ------
+    DesignError
+        Fewer than two samples.
+    KinematicsError
+        The linkage cannot be assembled all the way, or passes a dead centre.
+    """
+    if samples < 2:
+        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
+    linkage = linkage_of(params)
+    phase = linkage.shown
+    angles = phase.sweep(samples)
+    omega = math.copysign(params.speed * math.tau / 60, phase.travel)
+    turning = Turning.of(angles, omega)
+    with np.errstate(over="ignore", invalid="ignore"):
+        state = phase.loop.at(turning, 3)
+    if not all(np.isfinite(rate).all() for rate in (*state.c, *state.p)):
+        bad = angles[~np.isfinite(state.c[-1]).all(axis=0)]
+        at = math.degrees(float(bad[0])) if bad.size else math.degrees(float(angles[0]))
+        raise KinematicsError(
+            f"the linkage cannot be assembled, or stands in a dead centre, {at:.4g}° from the start of phase "
+            f"{phase.number}; shorten the travel, or choose other arcs"
+        )
+    channels = {
+        "time": Channel(np.abs(angles / omega), "s"),
+        **_turning("theta", "omega", "alpha", "jerk", _offset(params, turning)),
+        **_driven(linkage, phase, state, turning, params),
+        "transmission_angle": Channel(state.transmission, "rad"),
+        **_point(state.p, params.radius),
+        **_spin(linkage, phase, state),
+    }
+    train = train_of(linkage, params.drive)
+    bodies = poses(linkage, phase, state, angles, train)
+    position, rotation = base_pose(linkage, shells_of(params), params.stand)
+    bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
+    return Motion("theta", channels, bodies, _figures(params, linkage))
+
+
+def _offset(params: SphericalParams, turning: Turning) -> Turning:
+    """The input angle as it is counted: a four-bar's from the arc to the output axis."""
+    start = math.radians(params.four_bar.start) if params.kind == "four-bar" else 0.0
+    return Turning(turning.angle + start, turning.rate, turning.acceleration, turning.jerk)
+
+
+def _turning(angle: str, rate: str, acceleration: str, jerk: str, turning: Turning) -> dict[str, Channel]:
+    values = (turning.angle, turning.rate, turning.acceleration, turning.jerk)
+    return {
+        name: Channel(np.asarray(value), f"rad{unit}")
+        for name, value, unit in zip((angle, rate, acceleration, jerk), values, _RATES, strict=True)
+    }
+
+
+def _driven(
+    linkage: Linkage, phase: Phase, state: State, turning: Turning, params: SphericalParams
+) -> dict[str, Channel]:
+    four_bar = linkage.four_bar
+    if four_bar is None:
+        arm = turning.scaled(phase.loop.ratio)
+        return _turning("phi", "omega_phi", "alpha_phi", "jerk_phi", arm)
+    rates = turning_about(phase.loop.b0, state.c)
+    angle = four_bar.output_angle(turning.angle + math.radians(params.four_bar.start))
+    angle = angle - math.tau * np.round(angle[0] / math.tau)
+    output = Turning(angle, rates.rate, rates.acceleration, rates.jerk)
+    return _turning("psi", "omega_psi", "alpha_psi", "jerk_psi", output)
+
+
+def _point(p: Jet, radius: float) -> dict[str, Channel]:
+    found: dict[str, Channel] = {}
+    for name, unit, value in zip(("", "v", "a", "j"), _RATES, p, strict=True):
+        found |= {
+            f"{name}{axis}P": Channel(radius * x, f"mm{unit}") for axis, x in zip("xyz", value, strict=True)
+        }
+        if name:
+            found[f"{name}P"] = Channel(radius * norm(value), f"mm{unit}")
+    return found
+
+
+def _spin(linkage: Linkage, phase: Phase, state: State) -> dict[str, Channel]:
+    found: dict[str, Channel] = {}
+    spins = state.coupler_spin
+    for name, unit, value in zip(("omega", "alpha", "jerk"), _RATES[1:], spins, strict=True):
+        found |= {f"{name}3{axis}": Channel(x, f"rad{unit}") for axis, x in zip("xyz", value, strict=True)}
+    # From the coupler's place in the position of adjustment, or at the start.
+    turn = np.einsum("ijn,kj->ikn", coupler_frame(linkage, phase, state), pins_of_phase(linkage, 1))
+    for name, part in zip(("q0", "q1", "q2", "q3"), quaternions(turn), strict=True):
+        found[name] = Channel(part, "")
+    return found
+
+
+_FIGURE_SAMPLES = 721
+"""Samples of the travel for figures that are extremes: 0.5° for a whole turn, second-order exact."""
+
+
+def _figures(params: SphericalParams, linkage: Linkage) -> dict[str, Scalar]:
+    found: dict[str, Scalar] = {}
+    for phase in linkage.phases:
+        mark = "" if phase.number == 1 else "_n"
+        mu = phase.state(_FIGURE_SAMPLES).transmission
+        found[f"transmission_min{mark}"] = Scalar(float(np.nanmin(mu)), "rad")
+        found[f"transmission_max{mark}"] = Scalar(float(np.nanmax(mu)), "rad")
+        if phase.target_angles.size:
+            errors = params.radius * phase.path_errors
+            found[f"path_error_max{mark}"] = Scalar(float(errors.max()), "mm")
+            found[f"path_error_rms{mark}"] = Scalar(float(np.sqrt(np.mean(errors**2))), "mm")
+    if linkage.five_bar is not None:
+        found |= _arcs(linkage)
+    else:
+        found |= _mobility(linkage.four_bar)
+    return found
+
+
+def _arcs(linkage: Linkage) -> dict[str, Scalar]:
+    mechanism = linkage.five_bar
+    assert mechanism is not None  # noqa: S101 - the caller looked
+    (r1, r1n), (r3, r3n) = mechanism.crank_arcs, mechanism.rocker_arcs
+    values = {"R1": r1, "R1n": r1n, "R3": r3, "R3n": r3n}
+    values |= {"crank_setting": mechanism.crank_setting, "rocker_setting": mechanism.rocker_setting}
+    return {name: Scalar(float(value), "rad") for name, value in values.items()}
+
+
+def _mobility(four_bar: FourBar | None) -> dict[str, Scalar]:
+    from mechwright_spherical.mobility import mobility
+
+    assert four_bar is not None  # noqa: S101 - the caller looked
+    t = mobility(*four_bar.arcs).t
+    return {f"T{place}": Scalar(float(value), "rad") for place, value in enumerate(t, start=1)}

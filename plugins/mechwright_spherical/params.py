@@ -1,0 +1,260 @@
+"""The design table of a spherical linkage."""
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from mechwright.materials import MATERIALS, material
+from mechwright.parameters import Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_spherical import printed
+
+MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
+]
+
+Coordinate = Annotated[float, Field(ge=-1000, le=1000), Unit("")]
+Pin = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=3)]
+"""Two numbers: a point of the plane, to be projected. Three: a direction of any length."""
+Point = tuple[Coordinate, Coordinate]
+Direction = tuple[Coordinate, Coordinate, Coordinate]
+Turn = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
+
+MOST_POSITIONS = 50
+"""Path points of a design: a table for people."""
+
+
+def same_length(name: str, points: tuple[Any, ...], other: str, angles: tuple[Any, ...]) -> None:
+    """Refuse two lists that do not go together, with a ValueError that names both."""
+    if len(points) != len(angles):
+        raise ValueError(
+            f"{name} has {len(points)} entries and {other} {len(angles)}; give one angle for each point"
+        )
+
+
+class FourBarTable(Parameters):
+    """A spherical four-bar by its arcs.
+
+    The input axis points along ``input_axis``; the output axis lies ``ground`` away from it, towards
+    ``output_towards``.
+    """
+
+    ground: Degrees = Field(80.0, gt=0, lt=180, description="Arc α1 between the fixed axes.")
+    input: Degrees = Field(30.0, gt=0, lt=180, description="Arc α2 of the input link.")
+    coupler: Degrees = Field(70.0, gt=0, lt=180, description="Arc α3 of the coupler.")
+    output: Degrees = Field(60.0, gt=0, lt=180, description="Arc α4 of the output link.")
+    branch: Literal[1, -1] = Field(
+        1, description="1 or -1: which of the two ways to assemble it, the sign of c.(a x b)."
+    )
+    point_azimuth: Degrees = Field(
+        35.0, ge=-180, le=180, description="Path point: angle κ along the coupler from the input pin."
+    )
+    point_elevation: Degrees = Field(
+        15.0, ge=-90, le=90, description="Path point: angle η out of the coupler's great circle, to its left."
+    )
+    start: Degrees = Field(
+        0.0,
+        ge=-360,
+        le=360,
+        description="Input angle at the start; 0 where the input link points at the output axis.",
+    )
+    travel: Degrees = Field(360.0, ge=-720, le=720, description="How far the input turns from there.")
+    input_axis: Direction = Field((0.0, 0.0, 1.0), description="Direction of the input axis.")
+    output_towards: Direction = Field(
+        (1.0, 0.0, 0.0), description="Direction to which the output axis lies from the input axis."
+    )
+    path: tuple[Direction, ...] = Field(
+        (),
+        max_length=MOST_POSITIONS,
+        description="Prescribed path points, as directions; none to prescribe nothing.",
+    )
+    path_angles: tuple[Turn, ...] = Field(
+        (), max_length=MOST_POSITIONS, description="Input angles of the path points, from the start."
+    )
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if self.travel == 0:
+            raise ValueError("travel is 0; give the angle that the input turns")
+        same_length("path", self.path, "path_angles", self.path_angles)
+        return self
+
+
+class FiveBarTable(Parameters):
+    """An adjustable spherical five-bar by its pins in the position of adjustment; ``n`` marks phase 2."""
+
+    a0: Pin = Field(
+        printed.PINS["a0"], description="Axis of the crank: x, y in the plane, or a direction x, y, z."
+    )
+    a1: Pin = Field(printed.PINS["a1"], description="Pin of crank and coupler in phase 1.")
+    a1n: Pin = Field(printed.PINS["a1n"], description="The same in phase 2.")
+    b0: Pin = Field(printed.PINS["b0"], description="Axis of the arm.")
+    b1: Pin = Field(tuple(round(x, 6) for x in printed.PINS["b1"]), description="Pin of arm and rocker.")
+    c1: Pin = Field(printed.PINS["c1"], description="Pin of coupler and rocker in phase 1.")
+    c1n: Pin = Field(printed.PINS["c1n"], description="The same in phase 2.")
+    point: Pin = Field(printed.TABLE_2[0], description="Path point, the same in both phases.")
+    projection_length: Ratio = Field(
+        printed.LENGTH,
+        gt=0,
+        le=1000,
+        description="Distance of the plane from the centre, in the plane's unit; for pins of two numbers.",
+    )
+    projection_centre: Point = Field(
+        (0.0, 0.0), description="Point of the plane that the z axis meets; for pins of two numbers."
+    )
+    common_arcs: bool = Field(
+        False,
+        description="Bring the pins to the mean arcs, so that one crank and one rocker serve both phases.",
+    )
+    ratio: Ratio = Field(printed.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
+    phase: Literal[1, 2] = Field(1, description="Phase that motion and assembly show.")
+    travel: Degrees = Field(
+        printed.ANGLES[-1],
+        ge=-720,
+        le=720,
+        description="How far the crank turns in phase 1 from the adjustment.",
+    )
+    travel_n: Degrees = Field(printed.ANGLES_N[-1], ge=-720, le=720, description="The same in phase 2.")
+    path: tuple[Pin, ...] = Field(
+        (),
+        max_length=MOST_POSITIONS,
+        description="Prescribed path points of phase 1; none to prescribe nothing.",
+    )
+    path_angles: tuple[Turn, ...] = Field(
+        (), max_length=MOST_POSITIONS, description="Crank angles of these points, from the adjustment."
+    )
+    path_n: tuple[Pin, ...] = Field((), max_length=MOST_POSITIONS, description="Path points of phase 2.")
+    path_angles_n: tuple[Turn, ...] = Field((), max_length=MOST_POSITIONS, description="Their crank angles.")
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if self.ratio == 0:
+            raise ValueError('ratio is 0, so the arm stands still; use kind = "four-bar"')
+        if self.travel == 0 or self.travel_n == 0:
+            raise ValueError("travel or travel_n is 0; give the angle that the crank turns")
+        same_length("path", self.path, "path_angles", self.path_angles)
+        same_length("path_n", self.path_n, "path_angles_n", self.path_angles_n)
+        if not self.flat_pins:
+            fields = type(self).model_fields
+            for name in ("projection_length", "projection_centre"):
+                if getattr(self, name) != fields[name].default:
+                    raise ValueError(f"{name} is for pins of two numbers, and all have three; leave it out")
+        return self
+
+    @property
+    def flat_pins(self) -> bool:
+        """Whether any pin or path point lies in the plane."""
+        named = (self.a0, self.a1, self.a1n, self.b0, self.b1, self.c1, self.c1n, self.point)
+        return any(len(pin) == 2 for pin in (*named, *self.path, *self.path_n))
+
+
+class HardwareTable(Parameters):
+    """Sizes of the links. They lie on concentric shells, the coupler on the innermost one."""
+
+    standoff: Millimetres = Field(5.0, ge=0, le=200, description="From the sphere to the coupler's shell.")
+    link_thickness: Millimetres = Field(5.0, ge=0.5, le=100, description="Thickness of the links, radially.")
+    link_width: Millimetres = Field(8.0, ge=1, le=200, description="Width of the links, across.")
+    boss_diameter: Millimetres = Field(
+        12.0, ge=2, le=200, description="Diameter of the bosses around the pins."
+    )
+    boss_height: Millimetres = Field(
+        0.5, ge=0, le=50, description="How far bosses rise over the link, each side."
+    )
+    pin_diameter: Millimetres = Field(6.0, ge=1, le=100, description="Diameter of pins and shafts.")
+    fit: Millimetres = Field(
+        0.05, ge=0, le=1, description="How much wider bores and slots are than their pins."
+    )
+    gap: Millimetres = Field(1.5, ge=0.05, le=50, description="Between the shells, radially.")
+    material: MaterialName = Field("aluminium", description="Material of links and base.")
+    pin_material: MaterialName = Field("steel", description="Material of pins and drive.")
+
+
+class StandTable(Parameters):
+    """The frame's foot: the ground link goes on beyond the crank's axis to a post and a base plate."""
+
+    arc: Degrees = Field(
+        40.0, ge=5, le=170, description="From the input axis to the post, away from the other one."
+    )
+    height: Millimetres = Field(40.0, ge=2, le=1000, description="Of the post over the ground link.")
+    plate: Millimetres = Field(80.0, ge=10, le=1000, description="Side of the square base plate.")
+    plate_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the base plate.")
+    screw: Millimetres = Field(6.6, ge=1, le=50, description="Diameter of the screw holes in the base plate.")
+
+
+class DriveTable(Parameters):
+    """The bevel drive from crank to arm of a five-bar, as pitch cones outside the ground link."""
+
+    gears: bool = Field(True, description="Whether there are gears; false if two motors drive.")
+    share: Ratio = Field(
+        0.85,
+        ge=0.2,
+        le=0.98,
+        description="Size of the gears of a pair with idler: part of what the shafts leave.",
+    )
+    idler: Degrees = Field(5.0, ge=1, le=45, description="Pitch cone angle of the idler.")
+    face_width: Millimetres = Field(10.0, ge=1, le=200, description="Face width, along the cones.")
+
+
+class FlatTable(Parameters):
+    """Links as flat strips, to be cut on a two-axis mill and bent."""
+
+    make: bool = Field(True, description="Whether drawings and programs of the strips are made.")
+    thickness: Millimetres = Field(3.0, ge=0.3, le=20, description="Thickness of the strips.")
+    bend_radius: Millimetres = Field(3.0, ge=0.1, le=50, description="Inside radius of the bends.")
+    neutral: Ratio = Field(
+        0.4,
+        ge=0.2,
+        le=0.5,
+        description="Place of the neutral fibre in the thickness, from the inside: the K factor.",
+    )
+
+
+class SphericalParams(Parameters):
+    """A spherical four-bar, or an adjustable spherical five-bar, and its links.
+
+    Examples
+    --------
+    >>> SphericalParams(kind="four-bar").four_bar.ground
+    80.0
+    """
+
+    kind: Literal["five-bar", "four-bar"] = Field(
+        "five-bar",
+        description="Which of the tables five_bar and four_bar counts; the other one stays as it is.",
+    )
+    radius: Millimetres = Field(
+        100.0, ge=5, le=2000, description="Radius of the sphere on which the path point moves."
+    )
+    speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Constant speed of the input.")
+    path_tolerance: Annotated[float, Field(gt=0, le=100), Unit("mm")] | None = Field(
+        None,
+        description="Allowed distance of the path from its prescribed points; left out, it is only reported.",
+    )
+    least_transmission: Degrees = Field(
+        40.0, ge=0, le=89, description="Transmission angle that neither side may go below without a warning."
+    )
+    five_bar: FiveBarTable = Field(FiveBarTable(), description="The adjustable five-bar.")
+    four_bar: FourBarTable = Field(FourBarTable(), description="The four-bar.")
+    hardware: HardwareTable = Field(HardwareTable(), description="Sizes of the links.")
+    stand: StandTable = Field(StandTable(), description="The frame's foot.")
+    drive: DriveTable = Field(DriveTable(), description="The bevel drive of a five-bar.")
+    flat: FlatTable = Field(FlatTable(), description="Links as flat strips.")
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> Self:
+        other: Any = self.four_bar if self.kind == "five-bar" else self.five_bar
+        name = "four_bar" if self.kind == "five-bar" else "five_bar"
+        if other != type(other)():
+            raise ValueError(f'{name} is not looked at with kind = "{self.kind}"; set kind, or leave it out')
+        if self.kind == "four-bar" and self.drive != DriveTable():
+            raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
+        if self.path_tolerance is not None and not self._has_path:
+            raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
+        return self
+
+    @property
+    def _has_path(self) -> bool:
+        table = self.five_bar if self.kind == "five-bar" else self.four_bar
+        return bool(table.path) or bool(self.kind == "five-bar" and self.five_bar.path_n)

@@ -1,0 +1,13 @@
+"""What this plugin registers."""
+
+from typing import Any
+
+from mechwright.family import Family
+from mechwright.hookspecs import hookimpl
+from mechwright_spherical.family import Spherical
+
+
+@hookimpl
+def mechwright_register_families() -> list[type[Family[Any]]]:
+    """The mechanism families."""
+    return [Spherical]

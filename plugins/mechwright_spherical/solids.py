@@ -1,0 +1,170 @@
+"""Solids of links and pins on concentric shells. Imports the CAD kernel.
+
+Directions are unit vectors (3,), radii in mm from the centre of the sphere.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cadquery as cq
+import numpy as np
+
+from mechwright.errors import GeometryError
+from mechwright.motion import Array
+from mechwright_spherical.shells import Span
+from mechwright_spherical.vectors import arc, azimuth, cross, norm, perpendicular, rotate, vector
+
+NO_SWEEP = 1e-6
+"""rad. A slot shorter than this is a bore: a ten-thousandth of a millimetre."""
+
+
+def arc_body(u: Array, v: Array, span: Span, width: float, *, start: float = 0.0) -> cq.Solid:
+    """The arc of a link: a rectangle, ``span`` by ``width``, revolved about m = u x v from u to v.
+
+    ``start`` lets it begin at that angle from u instead, rad, negative for before it. Its volume is
+    width (Ro² - Ri²)/2 times the angle.
+    """
+    m = vector(cross(u, v))
+    first = math.cos(start) * u + math.sin(start) * cross(m, u)
+    return _revolved(_rectangle(first, m, span, width), m, float(arc(u, v)) - start)
+
+
+def shell_strip(u: Array, v: Array, span: Span, half_width: float) -> cq.Solid:
+    """The true strip of a spherical shell, ``half_width`` rad to both sides of the arc from u to v.
+
+    A piece of a ring revolved: volume 2 sin(half width) (Ro³ - Ri³)/3 times the angle.
+    """
+    m = vector(cross(u, v))
+    corners = [math.cos(half_width) * u + side * math.sin(half_width) * m for side in (-1, 1)]
+    low, high = span
+    edges = [
+        cq.Edge.makeLine(_point(low * corners[0]), _point(high * corners[0])),
+        cq.Edge.makeThreePointArc(_point(high * corners[0]), _point(high * u), _point(high * corners[1])),
+        cq.Edge.makeLine(_point(high * corners[1]), _point(low * corners[1])),
+        cq.Edge.makeThreePointArc(_point(low * corners[1]), _point(low * u), _point(low * corners[0])),
+    ]
+    return _revolved(cq.Wire.assembleEdges(edges), m, float(arc(u, v)))
+
+
+def wedge(axis: Array, start: Array, sweep: float, span: Span, width: float) -> cq.Solid:
+    """What the middle plane of a radial pin of that width sweeps about an axis, rad of either sign.
+
+    A rectangle in the meridian of axis and pin, revolved: volume width (r1² - r0²)/2 sin(arc) times the
+    sweep.
+    """
+    across = vector(cross(cross(axis, start), start))
+    return _revolved(_rectangle(start, across, span, width), axis if sweep > 0 else -axis, abs(sweep))
+
+
+def cylinder(direction: Array, span: Span, diameter: float) -> cq.Solid:
+    """A radial pin or boss."""
+    low, high = span
+    return cq.Solid.makeCylinder(diameter / 2, high - low, _point(low * direction), _point(direction))
+
+
+def shell(span: Span, towards: Array) -> cq.Solid:
+    """A whole spherical shell, its seam on the side away from ``towards``."""
+    place = cq.Location(cq.Plane((0, 0, 0), tuple(-towards), tuple(perpendicular(towards))))
+    inner, outer = (cq.Solid.makeSphere(radius, angleDegrees1=-90, angleDegrees2=90) for radius in span)
+    found = outer.cut(inner).Solids()[0].located(place)
+    if not isinstance(found, cq.Solid):
+        raise GeometryError("the CAD kernel made no solid of a shell; change its sizes a little")
+    return found
+
+
+def frustum(axis: Array, half_angle: float, span: Span, play: float) -> cq.Solid:
+    """A pitch cone between two distances from its tip along the cone, mm, drawn ``play`` mm thinner."""
+    low, high = span
+    sine, cosine = math.sin(half_angle), math.cos(half_angle)
+    return cq.Solid.makeCone(
+        low * sine - play,
+        high * sine - play,
+        (high - low) * cosine,
+        _point(low * cosine * axis),
+        _point(axis),
+    )
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A circular slot for a radial pin: about ``axis`` from ``start`` by ``sweep`` rad to ``end``.
+
+    ``end`` is given besides the sweep, since the pins of two phases may lie on slightly different circles.
+    """
+
+    axis: Array
+    start: Array
+    end: Array
+
+    @property
+    def sweep(self) -> float:
+        """From start to end, rad."""
+        return float(azimuth(self.axis, self.start, self.end))
+
+    @property
+    def has_length(self) -> bool:
+        """Whether the pin moves at all in it."""
+        return float(arc(self.start, self.end)) > NO_SWEEP and abs(self.sweep) > NO_SWEEP
+
+    def surroundings(self, span: Span, width: float) -> cq.Solid:
+        """Material around the slot, square at its ends, half a width beyond the pin's places; or a boss."""
+        if not self.has_length:
+            return cylinder(self.start, span, width)
+        # Measured where a chord is shortest, on the inside.
+        beyond = math.asin(min(1.0, width / 2 / (span[0] * float(norm(cross(self.axis, self.start))))))
+        sense = math.copysign(1.0, self.sweep)
+        start = rotate(self.axis, -sense * beyond, self.start)
+        return wedge(self.axis, start, self.sweep + 2 * sense * beyond, span, width)
+
+    def swept(self, span: Span, diameter: float) -> list[cq.Solid]:
+        """What a pin of that diameter sweeps on its way, with the pin at both ends."""
+        if not self.has_length:
+            return [cylinder(self.start, span, diameter)]
+        ends = [cylinder(end, span, diameter) for end in (self.start, self.end)]
+        return [wedge(self.axis, self.start, self.sweep, span, diameter), *ends]
+
+
+def fused(
+    bodies: Sequence[cq.Solid], holes: Sequence[cq.Solid] = (), *, within: cq.Solid | None = None
+) -> cq.Solid:
+    """One solid of all bodies, as far as they lie ``within`` another one, less all holes.
+
+    Raises
+    ------
+    GeometryError
+        They do not hang together.
+    """
+    whole: cq.Shape = bodies[0].fuse(*bodies[1:]) if len(bodies) > 1 else bodies[0]
+    if within is not None:
+        whole = whole.intersect(within)
+    if holes:
+        whole = whole.cut(*holes)
+    solids = whole.Solids()
+    if len(solids) != 1:
+        raise GeometryError(
+            f"the link falls into {len(solids)} pieces; make it wider than its pins, or its bosses larger"
+        )
+    solid = solids[0]
+    if not isinstance(solid, cq.Solid):
+        raise GeometryError("the CAD kernel made no solid of the link; change its sizes a little")
+    return solid
+
+
+def _rectangle(along: Array, across: Array, span: Span, width: float) -> cq.Wire:
+    corners = [
+        radius * along + side * width / 2 * across
+        for radius, side in ((span[0], -1), (span[1], -1), (span[1], 1), (span[0], 1))
+    ]
+    return cq.Wire.makePolygon([_point(corner) for corner in corners], close=True)
+
+
+def _revolved(wire: cq.Wire, axis: Array, angle: float) -> cq.Solid:
+    solid = cq.Solid.revolve(wire, [], math.degrees(angle), cq.Vector(0, 0, 0), _point(axis))
+    if not isinstance(solid, cq.Solid):
+        raise GeometryError("the CAD kernel made no solid of an arc; change its sizes a little")
+    return solid
+
+
+def _point(values: Array) -> cq.Vector:
+    return cq.Vector(*np.asarray(values, dtype=float).tolist())

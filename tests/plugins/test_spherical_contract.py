@@ -1,0 +1,44 @@
+from typing import ClassVar
+
+from mechwright.testing import FamilyContract
+from mechwright_spherical.family import Spherical
+
+FOUR_BAR = {"kind": "four-bar", "radius": 60}
+
+
+class TestSpherical(FamilyContract):
+    family = Spherical
+    examples: ClassVar = ({}, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
+    refused: ClassVar = (
+        ({"radius": 40}, "radius"),
+        ({"five_bar": {"travel": -150}}, "five_bar.travel"),
+        ({"five_bar": {"travel_n": 170}}, "five_bar.travel_n"),
+        ({"five_bar": {"a1": [0.0, 0.0004]}}, "five_bar.a1"),
+        ({"five_bar": {"a1": [0.0, 0.0, 0.0]}}, "five_bar.a1"),
+        ({"five_bar": {"a1": [1.0]}}, "five_bar.a1"),
+        ({"five_bar": {"ratio": 0}}, "five_bar"),
+        ({"five_bar": {"projection_length": 0}}, "five_bar.projection_length"),
+        ({"four_bar": {"ground": 70}}, "four_bar"),
+        ({**FOUR_BAR, "four_bar": {"ground": 180}}, "four_bar.ground"),
+        ({**FOUR_BAR, "four_bar": {"ground": 20}}, "four_bar.travel"),
+        ({**FOUR_BAR, "four_bar": {"input": 100}}, "four_bar.travel"),
+        ({**FOUR_BAR, "drive": {"gears": False}}, "drive"),
+        ({"path_tolerance": 1}, "path_tolerance"),
+        ({"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
+        ({"hardware": {"gap": 0.1}}, "hardware.gap"),
+        ({"hardware": {"boss_diameter": 24, "gap": 3}}, "hardware.boss_diameter"),
+        ({"stand": {"arc": 8}}, "stand.arc"),
+        ({"stand": {"screw": 20}}, "stand.screw"),
+        ({"drive": {"idler": 1, "share": 0.2}}, "drive.idler"),
+        ({"flat": {"bend_radius": 50}}, "flat.bend_radius"),
+    )
+    derivatives: ClassVar = (
+        ("theta", "omega"),
+        *((f"{axis}P", f"v{axis}P") for axis in "xyz"),
+        *((f"v{axis}P", f"a{axis}P") for axis in "xyz"),
+        *((f"a{axis}P", f"j{axis}P") for axis in "xyz"),
+        *((f"omega3{axis}", f"alpha3{axis}") for axis in "xyz"),
+        *((f"alpha3{axis}", f"jerk3{axis}") for axis in "xyz"),
+    )
+    input_rate = "omega"
+    variations: ClassVar = {"path_tolerance": ()}
