@@ -24,7 +24,12 @@ DESIGNS = {
     "straight": {"law": "straight"},
     "two rollers": {"law": "straight", "slots": 6, "rollers": 2},
     "prototype": {"entry_radius": 70, "offset_angle": 12, "crank_half_angle": 45},
-    "regime B": {"entry_radius": 70, "offset_angle": -12, "crank_half_angle": 45, "law": "modified-trapezoid"},
+    "regime B": {
+        "entry_radius": 70,
+        "offset_angle": -12,
+        "crank_half_angle": 45,
+        "law": "modified-trapezoid",
+    },
     "backed": {"construction": "backed", "fixing": 2.5},
     "no clearance": {"groove_clearance": 0},
     "three slots": {"slots": 3, "law": "modified-sine"},
@@ -71,7 +76,9 @@ def test_the_proof_sees_the_simple_relief_circle():
     angle = m.crank_half
     for radius, enough in ((m.rim, False), (101.1, True)):
         disc = shapely.Point(0, 0).buffer(m.lock, quad_segs=512)
-        sector = shapely.Polygon([(0, 0), *(200 * np.array([math.cos(t), math.sin(t)]) for t in (-angle, angle))])
+        sector = shapely.Polygon(
+            [(0, 0), *(200 * np.array([math.cos(t), math.sin(t)]) for t in (-angle, angle))]
+        )
         cut = disc.difference(shapely.Point(m.axes, 0).buffer(radius, quad_segs=512).intersection(sector))
         outline = Outline(Loop.polygon(shapely.get_coordinates(shapely.orient_polygons(cut).exterior)[:-1]))
         proof = prove(m, changed(parts, "locking-disc", outline))
@@ -92,7 +99,7 @@ def test_the_proof_sees_the_printed_wall():
     from mechwright_geneva.kinematics import LEFT, RIGHT
 
     params = GenevaParams(law="3-4-5", groove_clearance=0)
-    m, parts = mechanism_of(params), Geneva().parts(params)
+    m = mechanism_of(params)
     u = np.linspace(0, 1, 401)
     walls = [printed.wall(m.frame, m.law, u, m.groove, side) for side in (LEFT, RIGHT)]
     ring = np.concatenate((walls[0], walls[1][::-1]))
@@ -164,9 +171,13 @@ def test_the_relief_is_the_exact_sweep(table):
         nearest[k] = min(m.lock, float(hit.min()))
     length = []
     for direction in chi:
-        ray = shapely.LineString([(0, 0), (2 * m.lock * math.cos(direction), 2 * m.lock * math.sin(direction))])
+        ray = shapely.LineString(
+            [(0, 0), (2 * m.lock * math.cos(direction), 2 * m.lock * math.sin(direction))]
+        )
         # Where the ray first leaves the disc: behind it the disc may hook round the horn's path.
-        length.append(shapely.distance(shapely.Point(0, 0), shapely.intersection(ray, shapely.boundary(edge))))
+        length.append(
+            shapely.distance(shapely.Point(0, 0), shapely.intersection(ray, shapely.boundary(edge)))
+        )
     # Never beyond what the sweep leaves; and not more taken away than the sweep takes, give or take a sample.
     assert (np.array(length) <= nearest + deviation + 0.02).all()
     assert (np.array(length) >= nearest - deviation - 0.25).all()
