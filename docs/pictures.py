@@ -97,7 +97,7 @@ def figure_eight() -> str:
 
 
 def geneva() -> str:
-    """The reference design at 33 degrees of the crank: grooves, roller, locking disc and its relief, crank."""
+    """The reference design at 33 degrees of the crank: grooves, roller, locking disc, crank."""
     family = Geneva()
     params = family.Params(lock_radius=70)
     motion = family.solve(params, 361)
@@ -113,7 +113,7 @@ def geneva() -> str:
         data = "".join(path(loop.flatten(0.02), close=True) for loop in loops)
         opacity = ' fill-opacity=".75"' if name == "crank" else ""
         drawn.append(
-            f'<path d="{data}" fill="{fill}" fill-rule="evenodd"{opacity} stroke="#22303c" stroke-width=".6"/>'
+            f'<path d="{data}" fill="{fill}" fill-rule="evenodd"{opacity} stroke="#234" stroke-width=".6"/>'
         )
         if name == "wheel":
             disc = Polygon(part.outline.outer.flatten())
