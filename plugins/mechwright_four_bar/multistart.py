@@ -32,7 +32,11 @@ than to follow it into a far local minimum."""
 
 
 def least_squares(
-    residual: Residual, starts: Array, steps: int, arrived: float, alive: Callable[[float], None] | None = None
+    residual: Residual,
+    starts: Array,
+    steps: int,
+    arrived: float,
+    alive: Callable[[float], None] | None = None,
 ) -> tuple[Array, Array]:
     """Minimise the sum of squares from each start.
 

@@ -50,7 +50,9 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     if not candidates:
         return Synthesis((), (_refusal(wanted, found, bool(good), reason),))
     missed = candidates[0].residual.value - wanted.tolerance
-    return Synthesis(tuple(candidates), (_missed(wanted, candidates[0].residual.value),) if missed > 0 else ())
+    return Synthesis(
+        tuple(candidates), (_missed(wanted, candidates[0].residual.value),) if missed > 0 else ()
+    )
 
 
 def mean_distance(one: PathSolution) -> float:
@@ -80,9 +82,7 @@ def _found(one: PathSolution) -> Found:
         "first_crank_angle": Scalar(float(one.phi[0] % math.tau), "rad"),
         "crank_turn": Scalar(float(one.phi[-1] - one.phi[0]), "rad"),
     }
-    return Found(
-        one.bar, Scalar(mean_distance(one), "mm"), figures, one.pivot, one.point, one.sense
-    )
+    return Found(one.bar, Scalar(mean_distance(one), "mm"), figures, one.pivot, one.point, one.sense)
 
 
 def _missed(wanted: PathRequirement, residual: float) -> Finding:

@@ -106,7 +106,9 @@ class PolesRequirement(Parameters):
     least_transmission_angle: Degrees = Field(
         1.0, ge=0.5, le=80, description="Least transmission angle of the designs."
     )
-    starts: int = Field(5000, ge=100, le=MOST_STARTS, description="Random linkages to start from, per branch.")
+    starts: int = Field(
+        5000, ge=100, le=MOST_STARTS, description="Random linkages to start from, per branch."
+    )
     designs: int = Field(20, ge=1, le=100, description="Most designs to give.")
     seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
 
