@@ -150,8 +150,8 @@ def _equations(wanted: Plane, rotations: Array, branch: int) -> Callable[[Array]
 def _random(wanted: Plane, rotations: Array, branch: int, starts: int, seed: int) -> Array:
     """Starting points that can be assembled at every angle."""
     rng = np.random.default_rng(seed)
-    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line, or a
-    # rod that only just lets the crank round.
+    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line, or
+    # a rod that only just lets the crank round.
     far = rng.random(starts) < _FAR_SHARE
     a = np.exp(rng.normal(np.where(far, -3.0, -0.5), 1.0))
     e = rng.choice((-1.0, 1.0), starts) * np.exp(rng.normal(np.where(far, 0.5, -1.0), 1.0))
@@ -159,10 +159,10 @@ def _random(wanted: Plane, rotations: Array, branch: int, starts: int, seed: int
     grid = np.linspace(-math.pi, math.pi, _ANGLES, endpoint=False)
     if rotations.size:
         turned = grid[:, None] + np.concatenate(([0.0], rotations))
-        places = pole(turned, *(x[:, None, None] for x in (a, c, e)), branch)
+        places = pole(turned, a[:, None, None], c[:, None, None], e[:, None, None], branch)
         miss = np.abs(places - wanted).max(axis=2)[:, None]
     else:
-        places = pole(grid, *(x[:, None] for x in (a, c, e)), branch)
+        places = pole(grid, a[:, None], c[:, None], e[:, None], branch)
         miss = np.abs(places[:, None] - wanted[:, None])
     # The nearest angle, or by chance another one that is near: a pole's path may come by several times.
     chance = np.exp(_CHANCE * rng.standard_exponential(miss.shape))
