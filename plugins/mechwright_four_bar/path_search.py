@@ -17,7 +17,7 @@ SPREAD = 100.0
 """Starts have cranks and excess lengths of dyads up to so many ground lines, and down to so many parts."""
 
 STRETCH = 4.0
-"""Most of \\|y\\| in the starts: tanh(4) leaves a thousandth of the diagonal."""
+"""Largest y in the starts: tanh(4) leaves a thousandth of the diagonal."""
 
 LEAST_EXCESS = 1e-4
 """Least share by which the dyads of the starts are longer than the diagonal."""

@@ -123,8 +123,8 @@ def _refusal(wanted: PathRequirement, found: list[PathSolution], good: bool, rea
         Severity.ERROR,
         "crank",
         "no linkage through the points keeps the limits: the nearest one misses the points by "
-        f"{mean_distance(best):.3g} mm, its links are {min(best.bar.lengths):.4g} to {best.longest:.4g} mm long "
-        f"and its transmission angle is {angle:.3g} degrees",
+        f"{mean_distance(best):.3g} mm, its links are {min(best.bar.lengths):.4g} to {best.longest:.4g} mm "
+        f"long and its transmission angle is {angle:.3g} degrees",
         angle,
         wanted.least_transmission_angle,
         "deg",
