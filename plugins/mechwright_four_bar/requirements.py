@@ -43,11 +43,10 @@ class PathRequirement(Parameters):
         "any", description="Sense of the crank, where crank_turns does not say it."
     )
     tolerance: Millimetres = Field(
-        0.01,
-        ge=1e-9,
+        0.0,
+        ge=0,
         le=100,
-        description="Distance in the mean (root mean square) that counts as met; designs within it are "
-        "sorted by transmission angle.",
+        description="Distance in the mean (root mean square) that counts as met; 0 for as near as possible.",
     )
     least_transmission_angle: Degrees = Field(
         20.0, ge=1, le=80, description="Least transmission angle of the designs."
