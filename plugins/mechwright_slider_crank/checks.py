@@ -30,6 +30,9 @@ MAX_PRESSURE = 20.0
 MAX_BENDING = 250.0
 """Bending stress of a pin, MPa: a quarter of a hardened dowel's strength, since the load alternates."""
 
+MOST_BEND = 0.5
+"""Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""
+
 _CACHED = 16
 
 
@@ -125,8 +128,8 @@ def _webs(params: SliderCrankParams) -> Iterator[Finding]:
         "slider-crank.rail-web",
         "rail",
         "beside the rail's dowels",
-        (sizes.rail - sizes.pin) / 2,
-        f"make rail at least {sizes.pin + 2 * LEAST_WEB:.4g} mm, or pin thinner",
+        (sizes.rail - sizes.dowel) / 2,
+        f"make rail at least {sizes.dowel + 2 * LEAST_WEB:.4g} mm, or pin thinner",
     )
 
 
@@ -138,6 +141,19 @@ def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iter
 
 def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether the rod can be drawn, and all plates find their layers."""
+    most = MOST_BEND * params.rod
+    if abs(params.rod_bend) > most:
+        yield Finding(
+            "slider-crank.rod-bend",
+            Severity.ERROR,
+            "rod_bend",
+            f"the rod leaves the straight line by {abs(params.rod_bend):g} mm, half its length is {most:g}",
+            abs(params.rod_bend),
+            most,
+            "mm",
+            f"make rod_bend at most {most:g} mm either way",
+        )
+        return
     try:
         outline = rod_outline(params)
         outline.polygon()

@@ -1,7 +1,7 @@
 """Slider-cranks whose coupler has its acceleration pole in given places (seed document 000).
 
-In the slide frame the pole of a crank angle φ is G = a exp(i φ) (1 + 1/(i α - ω²)), so each pole gives two
-equations. With the crank's rotation between two poles given, a, c, e and the first angle are four unknowns for
+In the slide frame the pole of a crank angle φ is G = a exp(i φ) (1 + 1/(i α - ω²)): two equations for each
+pole. With the crank's rotation between two poles given, a, c, e and the first angle are four unknowns for
 four equations; with free angles three poles give six equations for six unknowns. Very many random starts go
 through Levenberg and Marquardt's method at once, for each assembly by itself, so that no solution changes its
 assembly between poles. A solution is certified: its residual is bounded in interval arithmetic.
@@ -24,6 +24,10 @@ ACCURACY = 1e-10
 
 _SAME = 1e-6
 """Solutions closer than this, relative, are one."""
+
+_FIRST, _NEAR, _POLISH = 30, 1e-2, 200
+"""Steps of every start, the residual that makes a start worth more, and how many more it then gets: most
+starts are lost at once, and badly conditioned solutions are slow at the end."""
 
 _DIGITS = 40
 """Digits of the certificate: enough to leave no doubt about a residual of 1e-10."""
@@ -103,10 +107,12 @@ def through_poles(
     for number, branch in enumerate((1, -1)):
         heard(number / 2, f"{starts} starts, slider {'ahead of' if branch > 0 else 'behind'} the crank pin")
         equations = _equations(wanted, rotations, branch)
-        x, error = solve_all(equations, _random(wanted, rotations, starts, seed))
+        x, error = solve_all(equations, _random(wanted, rotations, starts, seed), _FIRST)
         turning = np.exp(x[:, 1]) > np.exp(x[:, 0]) + np.abs(x[:, 2])
         best = min(best, scale * float(np.min(error, where=turning, initial=math.inf)))
-        good = x[turning & (error < ACCURACY)]
+        near = x[turning & (error < _NEAR)]
+        x, error = solve_all(equations, near, _POLISH)
+        good = x[error < ACCURACY]
         good[:, 3:] = np.angle(np.exp(1j * good[:, 3:]))
         for row in good[distinct(good, _SAME)]:
             solution = _certified(row, wanted, rotations, branch, scale)
@@ -136,11 +142,12 @@ def _equations(wanted: Plane, rotations: Array, branch: int) -> Callable[[Array]
 
 
 def _random(wanted: Plane, rotations: Array, starts: int, seed: int) -> Array:
-    """Starts of about the size of the poles; all of them can be assembled at every angle."""
+    """Starting points that can be assembled at every angle."""
     rng = np.random.default_rng(seed)
-    a = rng.uniform(0.1, 1.5, starts)
-    e = rng.normal(0.0, 0.5, starts)
-    c = (a + np.abs(e)) * np.exp(rng.exponential(0.4, starts) + 0.02)
+    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line.
+    a = np.exp(rng.normal(-0.8, 0.9, starts))
+    e = rng.standard_t(1.5, starts) * 0.5
+    c = (a + np.abs(e)) * np.exp(rng.exponential(0.4, starts) + 0.01)
     angles = rng.uniform(-math.pi, math.pi, (starts, 1 if rotations.size else len(wanted)))
     return np.column_stack((np.log(a), np.log(c), e, angles))
 
@@ -159,9 +166,7 @@ def _certified(row: Array, wanted: Plane, rotations: Array, branch: int, scale: 
     return Found(a, c, e, branch, tuple(float(phi) for phi in angles), worst)
 
 
-def _distance(
-    a: float, c: float, e: float, branch: int, phi: float, turn: float, place: complex
-) -> float:
+def _distance(a: float, c: float, e: float, branch: int, phi: float, turn: float, place: complex) -> float:
     """Upper bound of the pole's distance from its place, in interval arithmetic."""
     angle = arb(phi) + arb(turn)
     x, y = arb(a) * angle.cos(), arb(a) * angle.sin()

@@ -18,7 +18,10 @@ class StrokeRequirement(Parameters):
 
     stroke: Millimetres = Field(120.0, ge=0.1, le=LONGEST, description="Stroke H of the slider.")
     time_ratio: Ratio = Field(
-        1.5, ge=0.1, le=10, description="Time of the slow stroke over that of the quick one, K, between 1 and 3."
+        1.5,
+        ge=0.1,
+        le=10,
+        description="Time of the slow stroke over that of the quick one, K, between 1 and 3.",
     )
     crank: Length | None = Field(None, description="Crank a; give at most one of crank, rod and offset.")
     rod: Length | None = Field(None, description="Rod c.")
@@ -55,8 +58,8 @@ class PolesRequirement(Parameters):
     def _square_system(self) -> Self:
         if (len(self.poles), len(self.rotations)) not in {(2, 1), (3, 0)}:
             raise ValueError(
-                f"rotations: {len(self.poles)} poles with {len(self.rotations)} rotations; give two poles and one "
-                "rotation, or three poles and rotations = []"
+                f"rotations: {len(self.poles)} poles with {len(self.rotations)} rotations; give two poles "
+                "and one rotation, or three poles and rotations = []"
             )
         if len(set(self.poles)) < len(self.poles):
             raise ValueError("poles: two of them are the same; leave one out")

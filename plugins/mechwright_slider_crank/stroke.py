@@ -1,14 +1,14 @@
 """Slider-cranks of a given stroke H and time ratio K, in closed form (seed document 001).
 
-With θ = π (K - 1)/(K + 1) the crank turns by π + θ and π - θ between the limits, and the triangle of A0 and the
-two limits gives
+With θ = π (K - 1)/(K + 1) the crank turns by π + θ and π - θ between the limits, and the triangle of A0 and
+the two limits gives
 
 * (H/2)² = a² cos²(θ/2) + c² sin²(θ/2), e H = (c² - a²) sin θ;
 * given e: a² = (H/2)² - (e H/2) tan(θ/2), c² = (H/2)² + (e H/2) cot(θ/2);
 * given a: c = √((H/2)² - a² cos²(θ/2)) / sin(θ/2); given c: a = √((H/2)² - c² sin²(θ/2)) / cos(θ/2).
 
-The crank turns fully for 0 < e <= H cot θ, (H/2) tan(θ/2) <= a < H/2, H/2 < c <= (H/2) cot(θ/2). With none given
-e is where the least transmission angle, acos((a + e)/c), is the greatest.
+The crank turns fully for 0 < e <= H cot θ, (H/2) tan(θ/2) <= a < H/2, H/2 < c <= (H/2) cot(θ/2). With none
+given e is where the least transmission angle, acos((a + e)/c), is the greatest.
 """
 
 import math
@@ -70,9 +70,7 @@ def from_offset(stroke: float, time_ratio: float, offset: float) -> Lengths:
     (51.237105, 113.283055)
     """
     half, t = stroke / 2, math.tan(rocking_angle(time_ratio) / 2)
-    return Lengths(
-        math.sqrt(half**2 - offset * half * t), math.sqrt(half**2 + offset * half / t), offset
-    )
+    return Lengths(math.sqrt(half**2 - offset * half * t), math.sqrt(half**2 + offset * half / t), offset)
 
 
 def from_crank(stroke: float, time_ratio: float, crank: float) -> Lengths:
@@ -109,7 +107,9 @@ def best(stroke: float, time_ratio: float) -> Lengths:
         return (1 - quarter * t / a) * c**2 - (a + offset) * quarter / t
 
     # At e = 0 the slope is that of c = a, negative; at the largest e the crank only just turns.
-    return from_offset(stroke, time_ratio, brentq(slope, 0.0, ranges(stroke, time_ratio).offset[1], xtol=1e-14))
+    return from_offset(
+        stroke, time_ratio, brentq(slope, 0.0, ranges(stroke, time_ratio).offset[1], xtol=1e-14)
+    )
 
 
 def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
@@ -121,12 +121,13 @@ def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
             "slider-crank.time-ratio",
             Severity.ERROR,
             "time_ratio",
-            f"no crank that turns fully has a time ratio of {wanted.time_ratio:g} with an offset slide: it lies "
-            "between 1 and 3",
+            f"no crank that turns fully has a time ratio of {wanted.time_ratio:g} with an offset slide: it "
+            "lies between 1 and 3",
             wanted.time_ratio,
             low if wanted.time_ratio <= low else high,
             "",
-            f"ask for a time ratio {near}" + ("; a ratio of 1 has no offset" if near == "just above 1" else ""),
+            f"ask for a time ratio {near}"
+            + ("; a ratio of 1 has no offset" if near == "just above 1" else ""),
         )
         return
     allowed = ranges(wanted.stroke, wanted.time_ratio)

@@ -73,8 +73,8 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         "slider-crank.not-buildable",
         Severity.ERROR,
         "crank",
-        f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this stroke and "
-        f"time ratio, but cannot be built: {why}",
+        f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this "
+        f"stroke and time ratio, but cannot be built: {why}",
         remedy="choose another length inside its range, or a larger stroke",
     )
     return Synthesis((), (fault,))
@@ -107,7 +107,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
                 "crank": found.crank,
                 "rod": found.rod,
                 "offset": found.offset,
-                "assembly": "ahead" if found.branch > 0 else "behind",
+                "assembly": _side(found),
                 "slide_direction": wanted.slide_direction,
             }
         )
@@ -123,8 +123,12 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
         figures = {"mu_min": Scalar(_transmission(params), "deg"), **_lengths(params), **angles}
         candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
     if not candidates:
-        notes.insert(0, _none_found(solutions, best, wanted))
+        notes.insert(0, _none_found(notes, best, wanted))
     return Synthesis(tuple(candidates), tuple(notes))
+
+
+def _side(found: Found) -> str:
+    return "ahead" if found.branch > 0 else "behind"
 
 
 def _left_out(found: Found, why: str) -> Finding:
@@ -132,22 +136,21 @@ def _left_out(found: Found, why: str) -> Finding:
         "slider-crank.left-out",
         Severity.NOTE,
         "",
-        f"crank {found.crank:.6g}, rod {found.rod:.6g}, offset {found.offset:.6g} mm has the poles as well, but "
-        f"cannot be built: {why}",
+        f"crank {found.crank:.6g}, rod {found.rod:.6g}, offset {found.offset:.6g} mm, {_side(found)}, has "
+        f"the poles as well, but cannot be built: {why}",
         found.residual,
         None,
         "mm",
     )
 
 
-def _none_found(solutions: Sequence[Found], best: float, wanted: PolesRequirement) -> Finding:
-    if solutions:
+def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequirement) -> Finding:
+    if left_out:
         return Finding(
             "slider-crank.not-buildable",
             Severity.ERROR,
             "poles",
-            f"{len(solutions)} slider-cranks have these poles, but none can be built from plates; the notes of "
-            "synthesis say why",
+            f"{len(left_out)} slider-cranks have these poles, but none can be built: {left_out[0].message}",
             remedy="scale the poles up, or move them",
         )
     nearest = f"the best residual found is {best:.4g} mm" if math.isfinite(best) else "none came near"
@@ -155,7 +158,8 @@ def _none_found(solutions: Sequence[Found], best: float, wanted: PolesRequiremen
         "slider-crank.no-solution",
         Severity.ERROR,
         "poles",
-        f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; {nearest}",
+        f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; "
+        f"{nearest}",
         best if math.isfinite(best) else None,
         ACCURACY * max(math.hypot(*place) for place in wanted.poles),
         "mm",

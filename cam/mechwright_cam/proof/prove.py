@@ -238,7 +238,13 @@ def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
         if last > first:
             tool = int(run.tool[last - 1])
             out.append(
-                OperationTime(name, tool, float(seconds[first:last].sum()), float(path[first:last].sum()))
+                OperationTime(
+                    name,
+                    tool,
+                    float(seconds[first:last].sum()),
+                    float(path[first:last].sum()),
+                    float(seconds[first:last][run.cutting[first:last]].sum()),
+                )
             )
     return tuple(out)
 

@@ -31,6 +31,7 @@ class ToolRow:
     feed: str
     coolant: str
     seconds: float | None
+    in_cut: str
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,7 @@ def tool_rows(
                 _range(feeds),
                 ", ".join(dict.fromkeys(item.section.coolant for item in mine)),
                 seconds.get(tool.number),
+                _in_cut(tool, proof),
             )
         )
     return rows
@@ -164,6 +166,17 @@ def verdict(proof: Mapping[str, Any]) -> bool | None:
     if "ok" in proof:
         return bool(proof["ok"])
     return all(passed for _, passed, _ in checks) if checks else None
+
+
+def _in_cut(tool: Tool, proof: Mapping[str, Any]) -> str:
+    """Time in cut, and how much of the tool's life that is where the library knows it."""
+    seconds = (proof.get("tool_cutting_s") or {}).get(str(tool.number))
+    if seconds is None:
+        return ""
+    words = f"{duration(seconds)} in cut"
+    if tool.life is not None:
+        words += f" of a life of {tool.life:g} min ({100 * seconds / 60 / tool.life:.0f} %)"
+    return words
 
 
 def _after_stop(traced: Sequence[Traced]) -> list[Traced]:
