@@ -59,10 +59,9 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     )
     if not candidates:
         return Synthesis((), (_refusal(wanted, found, bool(good), reason),))
-    missed = candidates[0].residual.value - wanted.tolerance
-    return Synthesis(
-        tuple(candidates), (_missed(wanted, candidates[0].residual.value),) if missed > 0 else ()
-    )
+    best = candidates[0].residual.value
+    findings = (_missed(wanted, best),) if best > met and wanted.tolerance > 0 else ()
+    return Synthesis(tuple(candidates), findings)
 
 
 def mean_distance(one: PathSolution) -> float:
