@@ -50,15 +50,20 @@ class Tool(Parameters):
     corner_radius: Millimetres = Field(0.0, ge=0, le=50, description="Radius of a bull-nose mill's corner.")
     tip_diameter: Millimetres = Field(0.0, ge=0, le=50, description="Flat at the tip of a chamfer mill.")
     shank_diameter: Millimetres | None = Field(
-        None, gt=0, le=100, description="Diameter of the shank; by default the cutting diameter."
+        None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
     )
     stick_out: Millimetres | None = Field(
         None,
         gt=0,
         le=400,
-        description="How far it stands out of its holder; by default what the job asks.",
+        description="Length out of the holder, if it is set; the setup sheet says the least.",
     )
-    holder_diameter: Millimetres = Field(40.0, gt=0, le=200, description="Diameter of its holder.")
+    holder_diameter: Millimetres = Field(
+        40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
+    )
+    life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
+        None, description="Minutes in cut after which an edge is worn."
+    )
     substrate: Literal["carbide", "hss"] = Field("carbide", description="What it is made of.")
     coating: str = Field("", max_length=20, description="Its coating, as the setup sheet names it.")
     length: Millimetres | None = Field(
@@ -77,7 +82,7 @@ class Tool(Parameters):
         if (self.kind is ToolKind.BULL_NOSE) != (self.corner_radius > 0):
             raise ValueError("a bull-nose mill has a corner_radius, and no other tool has one")
         if self.stick_out is not None and self.stick_out < self.flute_length:
-            raise ValueError("stick_out must be at least the flute_length")
+            raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
         return self
 
     @property

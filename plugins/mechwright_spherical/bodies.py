@@ -27,7 +27,6 @@ import numpy as np
 from mechwright.motion import Array, Poses
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase
 from mechwright_spherical.loop import State
 from mechwright_spherical.vectors import rotation_about
@@ -57,8 +56,8 @@ def coupler_frame(linkage: Linkage, phase: Phase, state: State) -> Array:
 
 
 def pins_of_phase(linkage: Linkage, number: int) -> Array:
-    """The frame (3, 3) of the pins A and C in the position of adjustment."""
-    state = linkage.phases[number - 1].loop.at(Turning.of(np.zeros(1)), 0)
+    """The frame (3, 3) of the pins A and C at the reference angle."""
+    state = linkage.phases[number - 1].at_reference
     return orientation(state.a[0], state.c[0])[:, :, 0]
 
 

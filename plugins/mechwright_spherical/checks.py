@@ -101,7 +101,7 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
     linkage = linkage_of(params)
     for phase in linkage.phases:
         at, sine = weakest(phase)
-        where = f"{math.degrees(at):.4g}° from the start"
+        where = f"at the input angle {math.degrees(at):.4g}°"
         if len(linkage.phases) > 1:
             where += f" of phase {phase.number}"
         if sine <= math.sin(math.radians(DEAD_CENTRE)):
@@ -111,7 +111,7 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
                 "spherical.transmission",
                 Severity.WARNING,
                 travel_key(params, phase),
-                f"the transmission angle falls to {worst:.4g}° or {180 - worst:.4g}°, {where}",
+                f"the transmission angle falls to {worst:.4g}° or {180 - worst:.4g}° {where}",
                 worst,
                 params.least_transmission,
                 "deg",
@@ -129,21 +129,13 @@ def _apart(
     reach = _reach(phase)
     four = linkage.four_bar
     if four is not None:
-        start = params.four_bar.start
         ranges = input_range(*four.arcs)
-        said = ", ".join(f"{math.degrees(a):.4g}° to {math.degrees(b):.4g}°" for a, b in ranges)
-        remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
-        value = start + math.degrees(at)
-        return Finding(
-            "spherical.assembly",
-            Severity.ERROR,
-            travel_key(params, phase),
-            f"{fault} at the input angle {value:.4g}°",
-            value,
-            start + reach,
-            "deg",
-            remedy,
+        said = ", ".join(
+            f"{round(math.degrees(a), 2):g}° to {round(math.degrees(b), 2):g}°" for a, b in ranges
         )
+        remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
+    else:
+        remedy = f"end at less than {reach:.4g}°, or choose other pins"
     return Finding(
         "spherical.assembly",
         Severity.ERROR,
@@ -152,7 +144,7 @@ def _apart(
         math.degrees(at),
         reach,
         "deg",
-        f"travel less than {reach:.4g}°, or choose other pins",
+        remedy,
     )
 
 
@@ -206,10 +198,10 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
 
 def _order(phase: Phase, key: str) -> Iterator[Finding]:
     angles = phase.target_angles
-    steps = np.sign(phase.travel) * np.diff(angles)
-    inside = (angles * np.sign(phase.travel) >= -ON_TRAVEL) & (
-        np.abs(angles) <= abs(phase.travel) + ON_TRAVEL
-    )
+    sense = math.copysign(1.0, phase.travel)
+    steps = sense * np.diff(angles)
+    along = sense * (angles - phase.start)
+    inside = (along >= -ON_TRAVEL) & (along <= abs(phase.travel) + ON_TRAVEL)
     if (steps < 0).any() or not inside.all():
         worst = (
             float(angles[int(np.argmin(inside))])
@@ -222,7 +214,7 @@ def _order(phase: Phase, key: str) -> Iterator[Finding]:
             key,
             f"the point at {math.degrees(worst):.4g}° is not on the travel, or not in its order",
             math.degrees(worst),
-            math.degrees(phase.travel),
+            math.degrees(phase.start + phase.travel),
             "deg",
             "order the points along the travel, and make that long enough",
         )

@@ -92,7 +92,7 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
     }
     names["arm"] = "the pins of the arm"
     pairs += [(names[link], angle, bored, link) for link, angle in link_arcs(linkage).items()]
-    point = linkage.phases[0].loop.position(np.zeros(1))[:, 0]
+    point = linkage.phases[0].at_reference.p[0][:, 0]
     for name, seat in _seats(linkage).items():
         pairs.append((f"tool and pin {name}", float(arc(point, seat)), bored, "coupler"))
     for said, angle, diameter, link in pairs:
@@ -114,12 +114,9 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
 
 
 def _seats(linkage: Linkage) -> dict[str, Array]:
-    loop = linkage.phases[0].loop
     mechanism = linkage.five_bar
     if mechanism is None:
-        from mechwright_spherical.jets import Turning
-
-        state = loop.at(Turning.of(np.zeros(1)), 0)
+        state = linkage.phases[0].at_reference
         return {"a": state.a[0][:, 0], "c": state.c[0][:, 0]}
     return {name: getattr(mechanism, name) for name in ("a1", "a1n", "c1", "c1n")}
 
@@ -145,7 +142,7 @@ def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iter
 
 def _when(linkage: Linkage, near: Approach) -> str:
     phase = f" of phase {near.phase}" if len(linkage.phases) > 1 else ""
-    return f", {math.degrees(near.angle):.4g}° from the start{phase}"
+    return f", at the input angle {math.degrees(near.angle):.4g}°{phase}"
 
 
 def _collision(linkage: Linkage, near: Approach) -> Finding:

@@ -10,7 +10,7 @@ from mechwright.errors import DesignError, GeometryError
 from mechwright.motion import Array
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning, circle
+from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
@@ -31,8 +31,10 @@ class Phase:
     loop
         The linkage, its input angle counted from the position of adjustment or, for a four-bar, from its
         start.
-    travel
-        Input angle at the end, rad, of either sign.
+    reference
+        Input angle at which bodies are measured, rad: 0, the adjustment, or a four-bar's start.
+    start, travel
+        Input angle at which it starts, and how far it goes from there, rad.
     targets
         Prescribed path points (3, n), unit vectors.
     target_angles
@@ -41,17 +43,24 @@ class Phase:
 
     number: int
     loop: Loop
+    reference: float
+    start: float
     travel: float
     targets: Array
     target_angles: Array
 
     def sweep(self, samples: int) -> Array:
         """Input angles (samples,) over the whole travel, rad."""
-        return np.linspace(0.0, self.travel, samples)
+        return np.linspace(self.start, self.start + self.travel, samples)
 
     def state(self, samples: int, order: int = 0) -> State:
         """The linkage over the whole travel, moved at 1 rad/s."""
         return self.loop.at(Turning.of(self.sweep(samples)), order)
+
+    @property
+    def at_reference(self) -> State:
+        """The linkage at its reference angle, one sample."""
+        return self.loop.at(Turning.of(np.array([self.reference])), 0)
 
     @property
     def path_errors(self) -> Array:
@@ -154,6 +163,8 @@ def _five_bar(table: FiveBarTable) -> Linkage:
         Phase(
             1,
             mechanism.phase(1),
+            0.0,
+            math.radians(table.start),
             math.radians(table.travel),
             _points(table.path, table, "path"),
             np.radians(np.array(table.path_angles, dtype=float)),
@@ -161,6 +172,8 @@ def _five_bar(table: FiveBarTable) -> Linkage:
         Phase(
             2,
             mechanism.phase(2),
+            0.0,
+            math.radians(table.start_n),
             math.radians(table.travel_n),
             _points(table.path_n, table, "path_n"),
             np.radians(np.array(table.path_angles_n, dtype=float)),
@@ -191,10 +204,9 @@ def _four_bar(table: FourBarTable) -> Linkage:
     )
     axes = _frame(table)
     own = four_bar.loop()
-    start = math.radians(table.start)
     loop = Loop(
         axes @ own.a0,
-        axes @ circle(own.a0, own.a1, Turning.of(start), 0)[0],
+        axes @ own.a1,
         axes @ own.b0,
         axes @ own.b1,
         0.0,
@@ -203,10 +215,17 @@ def _four_bar(table: FourBarTable) -> Linkage:
         own.side,
         own.point,
     )
+    start = math.radians(table.start)
     found = [_vector(pin, "four_bar.path") for pin in table.path]
     targets = np.array(found).T.reshape(3, len(found))
     phase = Phase(
-        1, loop, math.radians(table.travel), targets, np.radians(np.array(table.path_angles, dtype=float))
+        1,
+        loop,
+        start,
+        start,
+        math.radians(table.travel),
+        targets,
+        start + np.radians(np.array(table.path_angles, dtype=float)),
     )
     return Linkage((phase,), phase, four_bar=four_bar)
 

@@ -1,6 +1,7 @@
 """The solid parts of a design: what each is made of, in its body's own frame. Imports the CAD kernel."""
 
 import math
+from functools import lru_cache
 
 import cadquery as cq
 import numpy as np
@@ -8,16 +9,20 @@ import numpy as np
 from mechwright.motion import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
-from mechwright_spherical.drive import Train
-from mechwright_spherical.linkage import Linkage
+from mechwright_spherical.drive import Train, train_of
+from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import Shells, Span
-from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell
+from mechwright_spherical.parts import gear_cones, gear_span, link_arcs, pin_places, second_size
+from mechwright_spherical.shells import Shells, Span, shells_of
+from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
 
 PITCH_PLAY = 0.05
 """How much thinner pitch cones are drawn, mm, so that two that touch do not cut each other."""
+
+_CACHED = 64
+"""Solids that are kept: those of some four designs."""
 
 X = np.array([1.0, 0.0, 0.0])
 
@@ -27,6 +32,36 @@ def direction(angle: float) -> Array:
     return np.array([math.cos(angle), math.sin(angle), 0.0])
 
 
+@lru_cache(_CACHED)
+def solid(params: SphericalParams, name: str) -> cq.Solid:
+    """The solid of the part of that name; the same one for the same design.
+
+    Raises
+    ------
+    GeometryError
+        The kernel cannot make it.
+    """
+    linkage, shells = linkage_of(params), shells_of(params)
+    train = train_of(linkage, params.drive)
+    pins = pin_places(params)
+    if name in pins:
+        span, _, angle = pins[name]
+        return cylinder(direction(angle), shells.pins[span], params.hardware.pin_diameter)
+    if name == "shaft-idler":
+        return cylinder(X, shells.pins["idler"], params.hardware.pin_diameter)
+    if name == "tool":
+        return tool(params, shells, path_point(linkage, pins_of_phase(linkage, 1)))
+    if name == "ground":
+        return ground(params, shells, linkage, train)
+    if name == "coupler":
+        return coupler(params, shells, linkage)
+    if train is not None and name in (cones := gear_cones(train)):
+        return gear(params, gear_span(params, shells, train), cones[name][1])
+    own = name.removesuffix("-n")
+    arcs = link_arcs(linkage) if own == name else second_size(linkage, shells)
+    return link(params, shells, own, arcs[own])
+
+
 def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq.Solid:
     """A link with two joints: an arc with a boss and a bore at each end."""
     hardware = params.hardware
@@ -34,11 +69,16 @@ def link(params: SphericalParams, shells: Shells, name: str, angle: float) -> cq
     span = shells.links[name]
     return fused(
         [
-            arc_body(*ends, shells.arc(name), hardware.link_width),
+            _arc(params, *ends, shells.arc(name)),
             *(cylinder(end, span, hardware.boss_diameter) for end in ends),
         ],
         [bore(params, end, span) for end in ends],
     )
+
+
+def _arc(params: SphericalParams, u: Array, v: Array, span: Span, *, start: float = 0.0) -> cq.Solid:
+    make = shell_strip if params.hardware.section == "shell" else arc_body
+    return make(u, v, span, params.hardware.link_width, start=start)
 
 
 def bore(params: SphericalParams, at: Array, span: Span) -> cq.Solid:
@@ -63,19 +103,19 @@ def coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> cq.Sol
     # millimetre, and the kernel would make slivers of that.
     beyond = (span[0] - _OVER, span[1] + _OVER)
     bodies = [seat.surroundings(beyond, wide) for seat in seats]
-    bodies.append(arc_body(seats[0].start, seats[1].start, arcs, hardware.link_width))
+    bodies.append(_arc(params, seats[0].start, seats[1].start, arcs))
     bodies.append(cylinder(point, beyond, wide))
     nearest = min(
         (pin for seat in seats for pin in (seat.start, seat.end)), key=lambda pin: float(arc(pin, point))
     )
-    bodies.append(arc_body(nearest, point, arcs, hardware.link_width))
+    bodies.append(_arc(params, nearest, point, arcs))
     holes = [hole for seat in seats for hole in seat.swept(beyond, bored)]
     return fused(bodies, [*holes, bore(params, point, span)], within=shell(span, point))
 
 
 def path_point(linkage: Linkage, frame: Array) -> Array:
     """The path point in the coupler's frame."""
-    return np.asarray(frame.T @ linkage.phases[0].loop.position(np.zeros(1))[:, 0])
+    return np.asarray(frame.T @ linkage.phases[0].at_reference.p[0][:, 0])
 
 
 def coupler_slots(linkage: Linkage, frame: Array) -> tuple[Slot, Slot]:
@@ -94,11 +134,11 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     loop = linkage.shown.loop
     axes = [X, direction(float(arc(loop.a0, loop.b0)))]
     span, arcs = shells.links["ground"], shells.arc("ground")
-    bodies = [arc_body(axes[0], axes[1], arcs, hardware.link_width, start=-math.radians(stand.arc))]
+    bodies = [_arc(params, axes[0], axes[1], arcs, start=-math.radians(stand.arc))]
     if train is not None and train.idler_axis is not None:
         axes.append(_in_ground(linkage, train.idler_axis))
-        bodies.append(arc_body(axes[0], axes[2], arcs, hardware.link_width))
-        bodies.append(arc_body(axes[1], axes[2], arcs, hardware.link_width))
+        bodies.append(_arc(params, axes[0], axes[2], arcs))
+        bodies.append(_arc(params, axes[1], axes[2], arcs))
     bodies += [cylinder(axis, span, hardware.boss_diameter) for axis in axes]
     post = post_direction(stand)
     top = shells.outside + stand.height
@@ -123,11 +163,6 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
 def _in_ground(linkage: Linkage, axis: Array) -> Array:
     loop = linkage.shown.loop
     return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
-
-
-def pin(span: Span, at: Array, diameter: float) -> cq.Solid:
-    """A straight pin or shaft."""
-    return cylinder(at, span, diameter)
 
 
 def tool(params: SphericalParams, shells: Shells, at: Array) -> cq.Solid:

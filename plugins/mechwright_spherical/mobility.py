@@ -98,8 +98,9 @@ def input_range(
     The diagonal D from a to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ, and the far links reach
     |α3 - α4| ≤ D ≤ min(α3 + α4, 2π - α3 - α4). No interval: it cannot be assembled at all.
 
-    >>> [tuple(round(math.degrees(x), 6) for x in pair) for pair in input_range(*np.radians([80, 30, 70,
-    60]))] [(0.0, 360.0)]
+    >>> arcs = np.radians([80, 30, 70, 60])
+    >>> [(round(math.degrees(low), 6), round(math.degrees(high), 6)) for low, high in input_range(*arcs)]
+    [(0.0, 360.0)]
     """
     reach = min(coupler + output, 2 * math.pi - coupler - output)
     level, swing = math.cos(ground) * math.cos(input_), math.sin(ground) * math.sin(input_)

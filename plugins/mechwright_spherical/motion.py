@@ -43,13 +43,13 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
         bad = angles[~np.isfinite(state.c[-1]).all(axis=0)]
         at = math.degrees(float(bad[0])) if bad.size else math.degrees(float(angles[0]))
         raise KinematicsError(
-            f"the linkage cannot be assembled, or stands in a dead centre, {at:.4g}° from the start of phase "
+            f"the linkage cannot be assembled, or is in a dead centre, at the input angle {at:.4g}° of phase "
             f"{phase.number}; shorten the travel, or choose other arcs"
         )
     channels = {
-        "time": Channel(np.abs(angles / omega), "s"),
-        **_turning("theta", "omega", "alpha", "jerk", _offset(params, turning)),
-        **_driven(linkage, phase, state, turning, params),
+        "time": Channel(np.abs((angles - angles[0]) / omega), "s"),
+        **_turning("theta", "omega", "alpha", "jerk", turning),
+        **_driven(linkage, phase, state, turning),
         "transmission_angle": Channel(state.transmission, "rad"),
         **_point(state.p, params.radius),
         **_spin(linkage, phase, state),
@@ -61,12 +61,6 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     return Motion("theta", channels, bodies, _figures(params, linkage))
 
 
-def _offset(params: SphericalParams, turning: Turning) -> Turning:
-    """The input angle as it is counted: a four-bar's from the arc to the output axis."""
-    start = math.radians(params.four_bar.start) if params.kind == "four-bar" else 0.0
-    return Turning(turning.angle + start, turning.rate, turning.acceleration, turning.jerk)
-
-
 def _turning(angle: str, rate: str, acceleration: str, jerk: str, turning: Turning) -> dict[str, Channel]:
     values = (turning.angle, turning.rate, turning.acceleration, turning.jerk)
     return {
@@ -75,15 +69,13 @@ def _turning(angle: str, rate: str, acceleration: str, jerk: str, turning: Turni
     }
 
 
-def _driven(
-    linkage: Linkage, phase: Phase, state: State, turning: Turning, params: SphericalParams
-) -> dict[str, Channel]:
+def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:
     four_bar = linkage.four_bar
     if four_bar is None:
         arm = turning.scaled(phase.loop.ratio)
         return _turning("phi", "omega_phi", "alpha_phi", "jerk_phi", arm)
     rates = turning_about(phase.loop.b0, state.c)
-    angle = four_bar.output_angle(turning.angle + math.radians(params.four_bar.start))
+    angle = four_bar.output_angle(turning.angle)
     angle = angle - math.tau * np.round(angle[0] / math.tau)
     output = Turning(angle, rates.rate, rates.acceleration, rates.jerk)
     return _turning("psi", "omega_psi", "alpha_psi", "jerk_psi", output)

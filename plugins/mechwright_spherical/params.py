@@ -110,11 +110,15 @@ class FiveBarTable(Parameters):
     )
     ratio: Ratio = Field(printed.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
     phase: Literal[1, 2] = Field(1, description="Phase that motion and assembly show.")
+    start: Degrees = Field(
+        0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 1 starts."
+    )
+    start_n: Degrees = Field(0.0, ge=-360, le=360, description="The same in phase 2.")
     travel: Degrees = Field(
         printed.ANGLES[-1],
         ge=-720,
         le=720,
-        description="How far the crank turns in phase 1 from the adjustment.",
+        description="How far the crank turns in phase 1, from its start.",
     )
     travel_n: Degrees = Field(printed.ANGLES_N[-1], ge=-720, le=720, description="The same in phase 2.")
     path: tuple[Pin, ...] = Field(
@@ -156,6 +160,10 @@ class HardwareTable(Parameters):
     standoff: Millimetres = Field(5.0, ge=0, le=200, description="From the sphere to the coupler's shell.")
     link_thickness: Millimetres = Field(5.0, ge=0.5, le=100, description="Thickness of the links, radially.")
     link_width: Millimetres = Field(8.0, ge=1, le=200, description="Width of the links, across.")
+    section: Literal["rectangle", "shell"] = Field(
+        "rectangle",
+        description="Section of the arcs: flat to both sides, or a true strip of a spherical shell.",
+    )
     boss_diameter: Millimetres = Field(
         12.0, ge=2, le=200, description="Diameter of the bosses around the pins."
     )

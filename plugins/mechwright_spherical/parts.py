@@ -5,11 +5,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mechwright.motion import Array
 from mechwright.part import Colour, Instance, Part
-from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.linkage import Linkage, linkage_of
@@ -69,73 +65,90 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
     linkage, shells = linkage_of(params), shells_of(params)
     train = train_of(linkage, params.drive)
     return (
-        *_links(params, linkage, shells, train),
-        *_pins(params, linkage, shells, train),
-        *_gears(params, shells, train),
+        *_links(params, linkage, shells),
+        *_pins(params, train),
+        *_gears(params, train),
         *_plates(params, linkage, shells),
     )
 
 
-def _solid(name: str, params: SphericalParams, body: str, build: "partial[cq.Solid]", *, shown: bool = True,
-           kind: str = "") -> Part:  # fmt: skip
-    pin = kind in {"pin", "gear"}
+def _solid(name: str, params: SphericalParams, body: str, kind: str, *, shown: bool = True) -> Part:
+    hardware = params.hardware
     return Part(
         name,
         None,
         0.0,
-        params.hardware.pin_material if pin else params.hardware.material,
+        hardware.pin_material if kind in {"pin", "gear"} else hardware.material,
         instances=(Instance(body),) if shown else (),
-        colour=COLOURS[kind or body],
-        build=build,
+        colour=COLOURS[kind],
+        build=partial(_build, shape_of(params), name),
     )
 
 
-def _links(params: SphericalParams, linkage: Linkage, shells: Shells, train: Train | None) -> Iterator[Part]:
-    yield _solid("ground", params, "ground", partial(_ground, params, shells, linkage, train))
+def shape_of(params: SphericalParams) -> SphericalParams:
+    """The design without what changes no solid, so that designs alike in shape share their solids."""
+    fields = type(params).model_fields
+    idle = ("speed", "path_tolerance", "least_transmission", "flat")
+    return params.model_copy(update={name: fields[name].default for name in idle})
+
+
+def _build(params: SphericalParams, name: str) -> "cq.Solid":
+    # The kernel is imported when a solid is wanted.
+    from mechwright_spherical import links
+
+    return links.solid(params, name)
+
+
+def _links(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
+    yield _solid("ground", params, "ground", "ground")
     other = second_size(linkage, shells)
     second = linkage.shown.number == 2
-    for name, angle in link_arcs(linkage).items():
+    for name in link_arcs(linkage):
         if name == "ground":
             continue
-        shown = not (second and name in other)
-        yield _solid(name, params, name, partial(_link, params, shells, name, angle), shown=shown)
+        yield _solid(name, params, name, name, shown=not (second and name in other))
         if name in other:
-            build = partial(_link, params, shells, name, other[name])
-            yield _solid(f"{name}-n", params, name, build, shown=second)
-    yield _solid("coupler", params, "coupler", partial(_coupler, params, shells, linkage))
+            yield _solid(f"{name}-n", params, name, name, shown=second)
+    yield _solid("coupler", params, "coupler", "coupler")
 
 
-def _pins(params: SphericalParams, linkage: Linkage, shells: Shells, train: Train | None) -> Iterator[Part]:
+def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
+    """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad."""
+    linkage = linkage_of(params)
     arcs = link_arcs(linkage)
     if linkage.shown.number == 2:
-        arcs |= second_size(linkage, shells)
-    places = {
-        "a": ("crank", arcs["crank"]),
-        "c": ("rocker", arcs["rocker"]),
-        "a0": ("crank", 0.0),
-        "b0": ("arm" if "arm" in arcs else "rocker", 0.0),
+        arcs |= second_size(linkage, shells_of(params))
+    found = {
+        "pin-a": ("a", "crank", arcs["crank"]),
+        "pin-c": ("c", "rocker", arcs["rocker"]),
+        "shaft-a0": ("a0", "crank", 0.0),
+        "shaft-b0": ("b0", "arm" if "arm" in arcs else "rocker", 0.0),
     }
     if "arm" in arcs:
-        places["b"] = ("arm", arcs["arm"])
+        found["pin-b"] = ("b", "arm", arcs["arm"])
+    return found
+
+
+def _pins(params: SphericalParams, train: Train | None) -> Iterator[Part]:
+    for name, (_, body, _) in pin_places(params).items():
+        yield _solid(name, params, body, "pin")
     if train is not None and train.idler_axis is not None:
-        places["idler"] = ("idler", 0.0)
-    for name, (body, angle) in places.items():
-        title = f"pin-{name}" if name in {"a", "b", "c"} else f"shaft-{name}"
-        at = np.array([math.cos(angle), math.sin(angle), 0.0])
-        build = partial(_pin, shells.pins[name], at, params.hardware.pin_diameter)
-        yield _solid(title, params, body, build, kind="pin")
-    yield _solid("tool", params, "coupler", partial(_tool, params, shells, linkage), kind="pin")
+        yield _solid("shaft-idler", params, "idler", "pin")
+    yield _solid("tool", params, "coupler", "pin")
 
 
-def _gears(params: SphericalParams, shells: Shells, train: Train | None) -> Iterator[Part]:
-    if train is None:
-        return
-    cones = {"pinion": ("pinion", train.pinion), "wheel": ("arm", train.wheel)}
+def gear_cones(train: Train) -> dict[str, tuple[str, float]]:
+    """Gears by part name: body and half angle of the pitch cone, rad."""
+    found = {"pinion": ("pinion", train.pinion), "wheel": ("arm", train.wheel)}
     if train.idler_axis is not None:
-        cones["idler"] = ("idler", train.idler)
-    span = gear_span(params, shells, train)
-    for name, (body, angle) in cones.items():
-        yield _solid(name, params, body, partial(_gear, params, span, angle), kind="gear")
+        found["idler"] = ("idler", train.idler)
+    return found
+
+
+def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
+    if train is not None:
+        for name, (body, _) in gear_cones(train).items():
+            yield _solid(name, params, body, "gear")
 
 
 def gear_span(params: SphericalParams, shells: Shells, train: Train) -> tuple[float, float]:
@@ -168,43 +181,3 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
             strip(angle, radius, flat), hardware.boss_diameter, hardware.pin_diameter + hardware.fit
         )
         yield Part(f"flat-{name}", outline, flat.thickness, hardware.material, colour=COLOURS["flat"])
-
-
-# The kernel is imported when a solid is wanted.
-
-
-def _link(params: SphericalParams, shells: Shells, name: str, angle: float) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    return links.link(params, shells, name, angle)
-
-
-def _coupler(params: SphericalParams, shells: Shells, linkage: Linkage) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    return links.coupler(params, shells, linkage)
-
-
-def _ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Train | None) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    return links.ground(params, shells, linkage, train)
-
-
-def _pin(span: tuple[float, float], at: Array, diameter: float) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    return links.pin(span, at, diameter)
-
-
-def _tool(params: SphericalParams, shells: Shells, linkage: Linkage) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    frame = pins_of_phase(linkage, 1)
-    return links.tool(params, shells, links.path_point(linkage, frame))
-
-
-def _gear(params: SphericalParams, span: tuple[float, float], angle: float) -> "cq.Solid":
-    from mechwright_spherical import links
-
-    return links.gear(params, span, angle)

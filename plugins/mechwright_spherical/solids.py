@@ -25,26 +25,34 @@ def arc_body(u: Array, v: Array, span: Span, width: float, *, start: float = 0.0
     ``start`` lets it begin at that angle from u instead, rad, negative for before it. Its volume is
     width (Ro² - Ri²)/2 times the angle.
     """
-    m = vector(cross(u, v))
-    first = math.cos(start) * u + math.sin(start) * cross(m, u)
+    m, first = _beginning(u, v, start)
     return _revolved(_rectangle(first, m, span, width), m, float(arc(u, v)) - start)
 
 
-def shell_strip(u: Array, v: Array, span: Span, half_width: float) -> cq.Solid:
-    """The true strip of a spherical shell, ``half_width`` rad to both sides of the arc from u to v.
+def shell_strip(u: Array, v: Array, span: Span, width: float, *, start: float = 0.0) -> cq.Solid:
+    """The same as a true strip of a spherical shell, ``width`` across in the middle of its thickness.
 
-    A piece of a ring revolved: volume 2 sin(half width) (Ro³ - Ri³)/3 times the angle.
+    With δ = asin(width / (Ri + Ro)), a piece of a ring between the cones ±δ, revolved: its volume is
+    2 sin δ (Ro³ - Ri³)/3 times the angle.
     """
-    m = vector(cross(u, v))
-    corners = [math.cos(half_width) * u + side * math.sin(half_width) * m for side in (-1, 1)]
+    m, first = _beginning(u, v, start)
     low, high = span
+    sine = width / (low + high)
+    cosine = math.sqrt(1 - sine**2)
+    left, right = (cosine * first + side * sine * m for side in (-1, 1))
     edges = [
-        cq.Edge.makeLine(_point(low * corners[0]), _point(high * corners[0])),
-        cq.Edge.makeThreePointArc(_point(high * corners[0]), _point(high * u), _point(high * corners[1])),
-        cq.Edge.makeLine(_point(high * corners[1]), _point(low * corners[1])),
-        cq.Edge.makeThreePointArc(_point(low * corners[1]), _point(low * u), _point(low * corners[0])),
+        cq.Edge.makeLine(_point(low * left), _point(high * left)),
+        cq.Edge.makeThreePointArc(_point(high * left), _point(high * first), _point(high * right)),
+        cq.Edge.makeLine(_point(high * right), _point(low * right)),
+        cq.Edge.makeThreePointArc(_point(low * right), _point(low * first), _point(low * left)),
     ]
-    return _revolved(cq.Wire.assembleEdges(edges), m, float(arc(u, v)))
+    return _revolved(cq.Wire.assembleEdges(edges), m, float(arc(u, v)) - start)
+
+
+def _beginning(u: Array, v: Array, start: float) -> tuple[Array, Array]:
+    """Normal of an arc, and the direction at the angle ``start`` from u."""
+    m = vector(cross(u, v))
+    return m, math.cos(start) * u + math.sin(start) * cross(m, u)
 
 
 def wedge(axis: Array, start: Array, sweep: float, span: Span, width: float) -> cq.Solid:

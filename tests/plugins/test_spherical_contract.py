@@ -3,16 +3,20 @@ from typing import ClassVar
 from mechwright.testing import FamilyContract
 from mechwright_spherical.family import Spherical
 
+PATH = {
+    "path_tolerance": 0.5,
+    "five_bar": {"path": [[0.2757, 1.8649], [0.4208, 1.6891]], "path_angles": [-10, -30]},
+}
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 
 class TestSpherical(FamilyContract):
     family = Spherical
-    examples: ClassVar = ({}, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
+    examples: ClassVar = (PATH, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
     refused: ClassVar = (
         ({"radius": 40}, "radius"),
-        ({"five_bar": {"travel": -150}}, "five_bar.travel"),
-        ({"five_bar": {"travel_n": 170}}, "five_bar.travel_n"),
+        ({"five_bar": {"travel": -190}}, "five_bar.travel"),
+        ({"five_bar": {"start": 60}}, "five_bar.travel"),
         ({"five_bar": {"a1": [0.0, 0.0004]}}, "five_bar.a1"),
         ({"five_bar": {"a1": [0.0, 0.0, 0.0]}}, "five_bar.a1"),
         ({"five_bar": {"a1": [1.0]}}, "five_bar.a1"),
@@ -41,4 +45,8 @@ class TestSpherical(FamilyContract):
         *((f"alpha3{axis}", f"jerk3{axis}") for axis in "xyz"),
     )
     input_rate = "omega"
-    variations: ClassVar = {"path_tolerance": ()}
+    variations: ClassVar = {"path_tolerance": (0.1,)}
+    requirements: ClassVar = {
+        "adjustable-path": ({"unknowns": "six", "starts": 1},),
+        "four-bar-path": ({"atlas": 200, "starts": 1},),
+    }

@@ -273,7 +273,8 @@ def cad_fact(name, inputs):
             return solids.arc_body(*ends, (inputs["Ri"], inputs["Ro"]), inputs["w"]).Volume()
         case "shell_strip_volume":
             delta, angle = inputs["half_width_angle_rad"], math.radians(inputs["alpha_deg"])
-            return solids.shell_strip(*between(angle), (inputs["Ri"], inputs["Ro"]), delta).Volume()
+            span = (inputs["Ri"], inputs["Ro"])
+            return solids.shell_strip(*between(angle), span, sum(span) * math.sin(delta)).Volume()
         case "link_volume":
             ends = between(math.radians(inputs["alpha_deg"]))
             span = (

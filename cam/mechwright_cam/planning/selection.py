@@ -321,6 +321,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     for zone in zones:
         if zone.tabs is not None:
             continue
+        found += _partly(job, zone)
         depth = remainder(zone.wall, zone.finisher.radius, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
@@ -386,6 +387,34 @@ def _remarks(job: Job) -> list[Finding]:
             found += _bending(job, tool)
         found += _figures(tool, material)
     return found
+
+
+MOSTLY = 0.9
+"""A recess of which the mills reach less than this is hardly what was drawn."""
+
+
+def _partly(job: Job, zone: Zone) -> list[Finding]:
+    """Whether much of a recess is too narrow for all its mills."""
+    if zone.kind == "outside":
+        return []
+    must = zone.clear if zone.must is None else zone.must
+    radius = zone.finisher.radius
+    reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
+    share = float(shapely.intersection(reach, must).area / must.area)
+    if share >= MOSTLY:
+        return []
+    return [
+        Finding(
+            "cam.partly",
+            Severity.WARNING,
+            "cam.tools",
+            f"{zone.finisher.name} reaches {100 * share:.0f} % of {zone.name} of {job.part.name}",
+            100 * share,
+            100 * MOSTLY,
+            "%",
+            "list a smaller end mill",
+        )
+    ]
 
 
 def _bending(job: Job, tool: Tool) -> list[Finding]:
