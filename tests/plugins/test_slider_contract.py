@@ -8,8 +8,15 @@ class TestSliderCrank(FamilyContract):
     family = SliderCrankFamily
     examples = (
         {},
-        {"crank": 40, "rod": 150, "offset": -20, "assembly": "behind", "rod_width": 8, "clockwise": True},
-        {"coupler_bore": 6, "coupler_x": 60, "coupler_y": 30, "crank_shape": "arm", "slide_direction": 30},
+        {
+            "assembly": "behind",
+            "clockwise": True,
+            "coupler_bore": 6,
+            "coupler_x": 60,
+            "coupler_y": 30,
+            "crank_shape": "arm",
+            "slide_direction": 30,
+        },
     )
     refused = (
         ({"rod": 39}, "rod"),
@@ -30,3 +37,8 @@ class TestSliderCrank(FamilyContract):
         ("axP", "jxP"),
     )
     input_rate = "omega"
+    requirements = {
+        "stroke": ({}, {"stroke": 100, "time_ratio": 1.2, "rod": 150}),
+        "poles": ({"starts": 400}, {"starts": 400, "slide_direction": 20}),
+    }
+    max_examples = 20
