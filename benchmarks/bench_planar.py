@@ -39,9 +39,13 @@ def fresh_locus(*lengths):
     return run
 
 
+def silent(done, what):
+    pass
+
+
 def poles(rotations, *places):
     def run():
-        found, _ = through_poles(np.array(places), np.radians(rotations), 3000, 1, lambda done, what: None)
+        found, _ = through_poles(np.array(places), np.radians(rotations), 3000, 1, silent)
         return f"{len(found)} solutions"
 
     return run

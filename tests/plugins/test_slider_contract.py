@@ -1,5 +1,7 @@
 """The family under the kit that third parties use."""
 
+from typing import ClassVar
+
 from mechwright.testing import FamilyContract
 from mechwright_slider_crank.family import SliderCrankFamily
 
@@ -37,7 +39,7 @@ class TestSliderCrank(FamilyContract):
         ("axP", "jxP"),
     )
     input_rate = "omega"
-    requirements = {
+    requirements: ClassVar = {
         "stroke": ({}, {"stroke": 100, "time_ratio": 1.2, "rod": 150}),
         "poles": ({"starts": 400}, {"starts": 400, "slide_direction": 20}),
     }
