@@ -37,7 +37,7 @@ def step_times(run: Run, machine: Machine) -> Array:
     unknown = moving & ~np.isfinite(length)
     length[unknown] = machine.travel_z / 2
     acceleration = machine.acceleration * 1000.0
-    speed = np.where(rapid, machine.rapid, np.minimum(run.feed, machine.max_feed)) / 60
+    speed = np.where(rapid, _rapids(run, machine), np.minimum(run.feed, machine.max_feed)) / 60
     arc = run.kind == Kind.ARC
     speed[arc] = np.minimum(speed[arc], np.sqrt(acceleration * run.radius[arc]))
     speed = np.where(moving & (length > SHORTEST), np.maximum(speed, SHORTEST), 0.0)
@@ -49,6 +49,16 @@ def step_times(run: Run, machine: Machine) -> Array:
     seconds += run.seconds
     seconds[run.kind == Kind.TOOL] += machine.tool_change
     return seconds
+
+
+def _rapids(run: Run, machine: Machine) -> Array:
+    """Speed (n,) of each rapid, mm/min: as fast along its line as Z allows, where Z is slower."""
+    if machine.rapid_z is None or len(run) == 0:
+        return np.full(len(run), machine.rapid)
+    _, along = _directions(run)
+    upright = np.maximum(np.abs(along[:, 2]), SHORTEST)
+    flat = np.maximum(np.hypot(along[:, 0], along[:, 1]), SHORTEST)
+    return np.minimum(np.minimum(machine.rapid / flat, machine.rapid_z / upright), machine.rapid)
 
 
 def _junctions(run: Run, length: Array, speed: Array, acceleration: float) -> tuple[Array, Array]:

@@ -41,12 +41,33 @@ class Tool(Parameters):
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
     centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
     point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
+    shank_diameter: Millimetres | None = Field(
+        None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
+    )
+    stick_out: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=400,
+        description="Length out of the holder, if it is set; the setup sheet says the least.",
+    )
+    holder_diameter: Millimetres = Field(
+        40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
+    )
+    life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
+        None, description="Minutes in cut after which an edge is worn."
+    )
     length: Millimetres | None = Field(
         None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
     )
     cutting: dict[str, CuttingData] = Field(
         default_factory=dict, description="Material name to cutting data."
     )
+
+    @model_validator(mode="after")
+    def _flutes_are_out(self) -> Self:
+        if self.stick_out is not None and self.stick_out < self.flute_length:
+            raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
+        return self
 
     @property
     def radius(self) -> float:
@@ -178,4 +199,14 @@ class CamSettings(Parameters):
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    clearing: Literal["contour", "adaptive"] = Field(
+        "contour",
+        description="How recesses and openings are roughed: along their walls, or with bounded engagement.",
+    )
+    engagement: Degrees = Field(
+        60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
+    )
+    adaptive_depth: Ratio = Field(
+        1.5, gt=0, le=5, description="Depth of an adaptive pass in cutter diameters."
+    )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")

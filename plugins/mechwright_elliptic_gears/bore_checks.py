@@ -17,7 +17,7 @@ FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
 
 LEAST_WIDTH = 0.3
-"""Smallest bore, keyway or relief, mm: there are no end mills for smaller ones."""
+"""Smallest hole, keyway or relief, mm: there are no end mills for smaller ones."""
 
 SMALLEST_EDGE = 0.01
 """Straight length, mm, that must stay between reliefs, and between relief and bore."""
@@ -37,9 +37,9 @@ def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
 
 
 def _smallest(params: EllipticGearParams) -> Iterator[Finding]:
-    for name in ("bore", "keyway_width", "keyway_relief"):
+    for name in ("bore", "keyway_width", "keyway_relief", "tracer_diameter"):
         value = getattr(params, name)
-        if 0 < value < LEAST_WIDTH:
+        if value is not None and 0 < value < LEAST_WIDTH:
             yield Finding(
                 "bore.size",
                 Severity.ERROR,

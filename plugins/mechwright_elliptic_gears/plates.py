@@ -12,8 +12,9 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 COUPLER, BASE = "coupler", "base"
 """Names of the parts and of their bodies."""
 
-_FLAT = 1e-9
-"""mm. A point nearer than this to a line lies on it."""
+_FLAT = 1e-6
+"""mm. A point nearer than this to a line, or to another point, lies on it: a nanometre, ten times what two
+segments of a loop may be apart."""
 
 
 def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
@@ -102,7 +103,8 @@ def convex_hull(points: Sequence[Point]) -> list[Point]:
             chain.append(point)
         return chain[:-1]
 
-    ordered = sorted(set(points))
+    grain = -round(math.log10(_FLAT))
+    ordered = sorted({(round(x, grain), round(y, grain)) for x, y in points})
     return half(ordered) + half(ordered[::-1])
 
 

@@ -4,14 +4,19 @@ The score of a design is what is to be small. The length of the window jumps whe
 leaves the band, so that the best designs lie on ridges, which methods that follow a slope lose.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright.motion import Array
+from mechwright_elliptic_gears.bore_checks import LEAST_RIM
 from mechwright_elliptic_gears.kinematics import Complex, Turning, train
+from mechwright_elliptic_gears.layout import SPACER
+from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import point_of_coupler, speed_of_q
+from mechwright_elliptic_gears.train_checks import SWEEP_GAP, WALL
 
 POPULATION, GENERATIONS = 32, 90
 """Designs at a time, and generations: two thirds of them find two free variables to 1e-3."""
@@ -26,6 +31,16 @@ MISSED = 1e9
 """Score of a design that misses the wanted window, and more by how much: above any jerk that can be."""
 
 
+UNBUILDABLE = 1e15
+"""Score of a design that cannot be made, and more by how far: above any that misses a window."""
+
+STEP_IN_TEETH = 0.9
+"""Share of the largest module without undercut that is left by the next odd number of teeth, from 19 on."""
+
+_RACK = EllipticGearParams()
+"""The rack of the designs: that of all defaults."""
+
+
 @dataclass(frozen=True)
 class Designs:
     """Columns (n,): eccentricity, phase (rad), semi-major axis (mm), speed (rad/s) and place c of Q."""
@@ -35,6 +50,28 @@ class Designs:
     semi_major: Array
     omega: Array
     c: Complex
+
+
+def shortfall(designs: Designs, bore: float, cutter: float) -> Array:
+    """How far (n,), in semi-major axes, each design is from one that can be made; 0 where it can, as a rule.
+
+    The largest module without undercut is a (1 - e²) sin²α over the straight depth of the rack. With it the
+    fillets must take the cutter; with the least module whose fillets do, bore and spacers need room to the
+    near vertex; and the joint needs a wall to the shaft. ``check`` asks exactly.
+    """
+    a, e = designs.semi_major, designs.eccentricity
+    sin = math.sin(math.radians(_RACK.pressure_angle))
+    straight = _RACK.dedendum - _RACK.tip_radius * (1 - sin)
+    largest = STEP_IN_TEETH * a * (1 - e * e) * sin * sin / straight
+    depth = (_RACK.dedendum - _RACK.tip_radius) * largest
+    mill = 2 * (_RACK.tip_radius * largest + depth**2 / (a / np.sqrt(1 - e * e) + depth))
+    least = cutter / (2 * _RACK.tip_radius)
+    rim = bore / 2 + (LEAST_RIM + _RACK.dedendum) * least
+    sweep = SPACER * bore / 2 + SWEEP_GAP + _RACK.addendum * least
+    joint = 0.75 * bore + WALL * bore
+    short = np.stack((cutter - mill, max(rim, sweep) - a * (1 - e), joint - 2 * a * e))
+    missing: Array = np.maximum(short, 0.0).sum(axis=0) / a
+    return missing
 
 
 def window_lengths(designs: Designs, band: float) -> Array:

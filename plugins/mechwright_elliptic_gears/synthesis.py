@@ -15,7 +15,15 @@ from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill
 from mechwright_elliptic_gears.params import LEAST_TEETH, EllipticGearParams
 from mechwright_elliptic_gears.requirements import BOUNDED, TrainRequirement
-from mechwright_elliptic_gears.search import MISSED, Designs, evolve, peaks, window_lengths
+from mechwright_elliptic_gears.search import (
+    MISSED,
+    UNBUILDABLE,
+    Designs,
+    evolve,
+    peaks,
+    shortfall,
+    window_lengths,
+)
 from mechwright_elliptic_gears.undercut import least_teeth
 
 GRAIN = {
@@ -93,20 +101,15 @@ class _Problem:
 
     def sampled_score(self, points: Array) -> Array:
         """Score (n,) of points (n, free) of the unit cube, from samples."""
-        value = self.values(points)
-        designs = Designs(
-            value["eccentricity"],
-            np.radians(value["phase"]),
-            value["semi_major"],
-            value["speed"] * (math.tau / 60),
-            value["point_along"] + 0.5j * value["point_across"] / value["semi_major"],
-        )
+        designs = _designs(self.values(points))
+        lacking = shortfall(designs, self.wanted.bore, self.wanted.cutter)
         window = window_lengths(designs, self.wanted.band)
         if self.kind in KINDS:
             top = peaks(designs, KINDS[self.kind])
             score = np.where(window >= self.window, top, MISSED * (1 + self.window - window))
         else:
             score = -window
+        score = np.where(lacking > 0, UNBUILDABLE * (1 + lacking), score)
         return np.where(self.known(points), np.inf, score)
 
     def params(self, value: Mapping[str, float]) -> EllipticGearParams:
@@ -124,6 +127,13 @@ class _Problem:
         """Exact score of a design."""
         if self.known(self.point(value)[None, :])[0]:
             return math.inf
+        lacking = shortfall(
+            _designs({name: np.array([one]) for name, one in value.items()}),
+            self.wanted.bore,
+            self.wanted.cutter,
+        )[0]
+        if lacking > 0:
+            return UNBUILDABLE * (1 + float(lacking))
         params = self.params(value)
         window = point_window(params).length
         told = KINDS.get(self.kind)
@@ -178,6 +188,16 @@ class _Problem:
                 yield trial
 
 
+def _designs(value: Mapping[str, Array]) -> Designs:
+    return Designs(
+        value["eccentricity"],
+        np.radians(value["phase"]),
+        value["semi_major"],
+        value["speed"] * (math.tau / 60),
+        value["point_along"] + 0.5j * value["point_across"] / value["semi_major"],
+    )
+
+
 def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synthesis[EllipticGearParams]:
     """Designs that meet the requirement, best first."""
     problem = _Problem(kind, wanted)
@@ -201,7 +221,7 @@ def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synth
     candidates = []
     for number, (score, value) in enumerate(distinct):
         progress(0.9 + 0.1 * number / len(distinct), "teeth")
-        if score >= MISSED:
+        if MISSED <= score < UNBUILDABLE:
             faults.append(_missed(problem, value))
             continue
         params, objections = _with_teeth(problem.params(value), wanted.cutter)

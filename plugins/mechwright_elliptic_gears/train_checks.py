@@ -8,7 +8,7 @@ import numpy as np
 from mechwright.findings import Finding, Severity, errors
 from mechwright.motion import Array
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
-from mechwright_elliptic_gears.gear import rack_of
+from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, Hole, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout
@@ -51,13 +51,15 @@ def _error(
 
 def _on_coupler(params: EllipticGearParams) -> Iterator[Finding]:
     """Q within the coupler's length, and not farther beside it than half of that."""
-    most = Layout.of(params).semi_major
-    for name, value, low, high, unit in (
-        ("point_along", params.point_along, 0.0, 1.0, ""),
-        ("point_across", params.point_across, -most, most, "mm"),
+    layout = Layout.of(params)
+    most = layout.semi_major
+    margin = _joint_margin(params, layout) if params.stages == 2 else 0.0
+    for name, value, low, high, unit, inset in (
+        ("point_along", params.point_along, 0.0, 1.0, "", margin if margin < 0.5 else 0.0),
+        ("point_across", params.point_across, -most, most, "mm", 0.0),
     ):
-        nearest = min(max(value, low), high)
-        if nearest != value:
+        if not low <= value <= high:
+            nearest = low + inset if value < low else high - inset
             yield _error(
                 "point.off-coupler",
                 name,
@@ -65,8 +67,17 @@ def _on_coupler(params: EllipticGearParams) -> Iterator[Finding]:
                 value,
                 nearest,
                 unit,
-                f"the nearest value on it is {nearest:g}",
+                f"the nearest value that works is {nearest:g}",
             )
+
+
+def _joint_margin(params: EllipticGearParams, layout: Layout) -> float:
+    """How far from J or K, in lengths of the coupler, the hole at Q has a wall to the joint."""
+    if layout.tracer == 0:
+        return 0.0
+    wanted = (layout.tracer + layout.pin) / 2 + WALL * max(layout.tracer, layout.pin)
+    beside = math.sqrt(max(0.0, wanted**2 - params.point_across**2))
+    return math.ceil(beside / (2 * layout.semi_major) * 1e4) / 1e4
 
 
 def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
@@ -84,18 +95,24 @@ def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
             f"make tracer_diameter at most {layout.pin:g}, or pin_diameter larger",
         )
         return
-    length = 2 * layout.semi_major
-    wanted = (layout.tracer + layout.pin) / 2 + WALL * layout.pin
-    for name, end in (("J", 0.0), ("K", 1.0)):
-        beside = length * (params.point_along - end)
-        if math.hypot(beside, params.point_across) >= wanted:
-            continue
-        step = math.sqrt(max(0.0, wanted**2 - params.point_across**2)) / length
-        nearest = _outwards(end + (step if end == 0 else -step), -end)
+    margin = _joint_margin(params, layout)
+    if margin >= 0.5:
+        yield _error(
+            "train.tracer",
+            "tracer_diameter",
+            "there is no room for a hole between the joints",
+            layout.tracer,
+            0.0,
+            "mm",
+            "set tracer_diameter = 0, or make pin_diameter smaller",
+        )
+        return
+    nearest = min(max(params.point_along, margin), 1 - margin)
+    if nearest != params.point_along:
         yield _error(
             "train.tracer",
             "point_along",
-            f"the hole at Q runs into the joint {name}",
+            f"the hole at Q runs into the joint {'J' if nearest == margin else 'K'}",
             params.point_along,
             nearest,
             "",
@@ -139,19 +156,32 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
 
 def _sweep(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     """The far vertex of gear 3 passes the tall spacer of gear 5."""
-    a, tip = layout.semi_major, rack_of(params).addendum
-    gap = a * (1 - params.eccentricity) - tip - layout.spacer / 2
-    if gap < SWEEP_GAP:
-        nearest = _outwards(1 - (tip + layout.spacer / 2 + SWEEP_GAP) / a, -1)
-        yield _error(
-            "train.sweep",
-            "eccentricity",
-            f"the tips of gear 3 come within {gap:.2f} mm of the spacer below gear 5",
-            gap,
-            SWEEP_GAP,
-            "mm",
-            f"make eccentricity at most {nearest:g}, or bore smaller",
-        )
+    gap = _sweep_gap(params, layout)
+    if gap >= SWEEP_GAP:
+        return
+    nearest = next(
+        (
+            e / 1000
+            for e in range(math.ceil(params.eccentricity * 1000) - 1, -1, -1)
+            if _sweep_gap(params.model_copy(update={"eccentricity": e / 1000}), layout) >= SWEEP_GAP
+        ),
+        None,
+    )
+    yield _error(
+        "train.sweep",
+        "eccentricity",
+        f"the tips of gear 3 come within {gap:.2f} mm of the spacer below gear 5",
+        params.eccentricity,
+        nearest,
+        "",
+        "make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
+    )
+
+
+def _sweep_gap(params: EllipticGearParams, layout: Layout) -> float:
+    """From the tip at the far vertex to the spacer, mm; a smaller eccentricity has larger teeth."""
+    tip = rack_of(params).addendum
+    return ellipse_of(params).semi_major * (1 - params.eccentricity) - tip - layout.spacer / 2
 
 
 def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
@@ -199,12 +229,8 @@ def _turned_openings(params: EllipticGearParams) -> Iterator[Finding]:
     given = math.degrees(params.phase_angle or 0.0)
     nearest = None
     for step in range(PHASE_STEP, 181, PHASE_STEP):
-        near = [given + sign * step for sign in (-1, 1)]
-        works = [
-            phase
-            for phase in near
-            if 0 <= phase <= 360 and _phase_fault(params.model_copy(update={"phase": phase})) is None
-        ]
+        near = [(given + sign * step) % 360 for sign in (-1, 1)]
+        works = [phase for phase in near if _phase_fault(params.model_copy(update={"phase": phase})) is None]
         if works:
             nearest = works[0]
             break

@@ -27,10 +27,10 @@ class FourBarParams(Parameters):
     True
     """
 
-    crank: Millimetres = Field(40.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.")
-    coupler: Millimetres = Field(120.0, ge=1, le=5000, description="Coupler c, from A to B.")
-    follower: Millimetres = Field(80.0, ge=1, le=5000, description="Follower b, from B0 to B.")
-    ground: Millimetres = Field(100.0, ge=1, le=5000, description="Ground f, from A0 to B0.")
+    crank: Millimetres = Field(30.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.")
+    coupler: Millimetres = Field(80.0, ge=1, le=5000, description="Coupler c, from A to B.")
+    follower: Millimetres = Field(70.0, ge=1, le=5000, description="Follower b, from B0 to B.")
+    ground: Millimetres = Field(90.0, ge=1, le=5000, description="Ground f, from A0 to B0.")
     ground_angle: Degrees = Field(
         0.0, ge=-360, le=360, description="Direction from A0 to B0, counter-clockwise from X."
     )
@@ -80,7 +80,9 @@ class FourBarParams(Parameters):
         if (self.coupler_point_x is None) != (self.coupler_point_y is None):
             raise ValueError("give both coupler_point_x and coupler_point_y, or neither")
         if self.coupler_point_x is not None and self.coupler_bend != 0:
-            raise ValueError("coupler_bend is for a coupler without a point; leave out coupler_point_x and _y")
+            raise ValueError(
+                "coupler_bend is for a coupler without a point; leave out coupler_point_x and _y"
+            )
         return self
 
     @property

@@ -8,13 +8,10 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.openings import hub_radius, opening_findings, reach, wheel_opening
+from mechwright_geneva.openings import driver_radius, hub_radius, opening_findings, reach, wheel_opening
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.sound import LEAST_BITE
 from mechwright_geneva.wheel import Wheel
-
-LEAST_FLOOR = 0.5
-"""Least depth of a groove and length of a roller, mm."""
 
 ROLLER_WALL = 0.1
 """Least wall of a roller about its pin, in roller radii: what the smallest needle rollers have."""
@@ -24,12 +21,13 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
     """Construction, openings, locking, driver."""
     found = [*_construction(m), *opening_findings(m.params)]
     if not errors(found):
-        found += [*_lock(m), *_hub(m), *_pin(m), *_driver(m)]
+        found += _driver(m)
+    if not errors(found):
+        found += [*_lock(m), *_hub(m), *_pin(m)]
     yield from found
 
 
 def _construction(m: Mechanism) -> Iterator[Finding]:
-    params = m.params
     if not m.straight and m.construction == "through":
         yield Finding(
             "geneva.islands-loose",
@@ -45,21 +43,6 @@ def _construction(m: Mechanism) -> Iterator[Finding]:
             "construction",
             "straight slots have no islands that a backing plate could carry",
             remedy='use construction = "through" or "blind"',
-        )
-    if m.construction != "through" and m.roller_length < LEAST_FLOOR:
-        most = params.thickness - params.axial_gap - LEAST_FLOOR
-        yield Finding(
-            "geneva.floor",
-            Severity.ERROR,
-            "floor",
-            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
-            f"{m.roller_length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",
-            params.floor,
-            most,
-            "mm",
-            f"make floor at most {math.floor(most * 100) / 100:g}"
-            if most >= 0.2
-            else "make thickness larger, or axial_gap smaller",
         )
 
 
@@ -214,7 +197,7 @@ def _pin(m: Mechanism) -> Iterator[Finding]:
 def _driver(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     inner, outer = driver_room(m)
-    wanted = params.least_wall if params.fixing == 0 else 2 * params.least_wall + params.fixing
+    wanted = driver_radius(0.0, params.least_wall, params.fixing)
     if outer - inner < wanted:
         blame = "driver_bore" if params.fixing == 0 or outer - inner < params.least_wall else "fixing"
         bore = 2 * (outer - wanted)
@@ -251,16 +234,3 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
             None,
             "mm",
         )
-    gap = m.crank - m.roller - m.lock
-    if not params.rollers or gap >= 0:
-        return
-    yield Finding(
-        "geneva.roller-lock",
-        Severity.ERROR,
-        "lock_radius",
-        "the roller stands in the locking disc",
-        gap,
-        0.0,
-        "mm",
-        f"make lock_radius at most {m.crank - m.roller:.2f}",
-    )

@@ -71,52 +71,94 @@ class Contact:
     blocked: NDArray[np.bool_]
 
 
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What loads the contact: numbers, or columns (m, 1) for many designs.
+
+    Parameters
+    ----------
+    omega
+        Crank speed, rad/s.
+    inertia, torque
+        Of the load, kg·m² and N·m.
+    radius, length
+        Of the roller, mm.
+    stiffness
+        E*, MPa.
+    """
+
+    omega: float
+    inertia: float
+    torque: float
+    radius: "float | Array"
+    length: float
+    stiffness: float
+
+
 def contact(mechanism: Mechanism, run: Stroke) -> Contact:
     """The contact over a stroke, at the driver's constant speed."""
     m, params = mechanism, mechanism.params
-    omega = params.speed * math.tau / 60
-    inertia = params.load_inertia * run.second * omega**2  # N·m
+    drive = Drive(
+        params.speed * math.tau / 60,
+        params.load_inertia,
+        params.load_torque,
+        m.roller,
+        m.roller_length,
+        stiffness(params.material, params.roller_material),
+    )
+    return _straight(run, drive) if m.straight else curved(run, drive)
+
+
+def _straight(run: Stroke, drive: Drive) -> Contact:
+    """Along a radial wall: the whole radius is lever, the pressure angle 0, the wall flat."""
     reach = np.abs(run.centre)
-    if m.straight:
-        lever = reach
-        signed = np.full(reach.shape, float(RIGHT)) * reach  # a push ahead is on the right of the way in
-        signed = np.where(run.phi < 0, -signed, signed)
-        limited = np.zeros(reach.shape, dtype=bool)
-        curvature = np.zeros(reach.shape)
-    else:
-        signed = (np.conj(run.centre) * run.normal).imag
-        lever = np.abs(signed)
-        limited = np.abs(np.sin(run.phi)) < _MIDDLE
-        curvature = run.curvature
-    delta = np.arccos(np.clip(lever / reach, 0, 1))
+    torque = drive.inertia * run.second * drive.omega**2 + drive.torque
+    # A push ahead is on the right of the way in and on the left of the way out.
+    ahead = np.where(run.phi >= 0, RIGHT, LEFT)
+    force = np.abs(torque) / reach * 1e3
+    none = np.zeros(reach.shape)
+    return Contact(
+        reach,
+        none,
+        np.where(torque >= 0, ahead, -ahead),
+        force,
+        np.sqrt(force * drive.stiffness / (math.pi * drive.length * drive.radius)),
+        torque * run.first,
+        none.astype(bool),
+    )
+
+
+def curved(run: Stroke, drive: Drive) -> Contact:
+    """In a curved slot; design axis first if there is one."""
+    signed = (np.conj(run.centre) * run.normal).imag
+    lever = np.abs(signed)
+    delta = np.arccos(np.clip(lever / np.abs(run.centre), 0, 1))
     blocked = delta > BLOCKED
-    load = np.where(blocked, 0.0, params.load_torque)
-    safe = np.where(limited, 1.0, signed)
-    torque = np.where(limited, 0.0, inertia + load)
-    push = torque / safe * 1e3  # N on the left wall
-    if limited.any():
-        # θw''/sin φ tends to -θw'''/1 where both pass 0, and the lever to a b sin φ/D.
-        rate = params.load_inertia * np.abs(run.third) * omega**2 * run.speed / (m.axes * m.crank) * 1e3
-        before = np.where(run.third < 0, RIGHT, LEFT)
-        push = np.where(limited, before * rate, push)
+    middle = np.abs(np.sin(run.phi)) < _MIDDLE
+    torque = drive.inertia * run.second * drive.omega**2 + np.where(blocked, 0.0, drive.torque)
+    # At mid stroke the ratio of θw'' and sin φ tends to that of their derivatives, and the lever to
+    # a b sin φ/D.
+    limit = (
+        drive.inertia * np.abs(run.third) * drive.omega**2 * run.speed / (run.frame.axes * run.frame.crank)
+    )
+    push = torque / np.where(middle, 1.0, signed)
+    push = np.where(middle, np.where(run.third < 0, RIGHT, LEFT) * limit, push) * 1e3
     wall = np.where(push > 0, LEFT, RIGHT)
     # An undercut wall has no contact there; feasible designs have none.
-    radius = np.maximum(m.roller * (1 - wall * curvature * m.roller), _SHARPEST)
+    radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), _SHARPEST)
     force = np.abs(push)
-    pressure = np.sqrt(force * stiffness(m) / (math.pi * m.roller_length * radius))
-    return Contact(lever, delta, wall, force, pressure, (inertia + load) * run.first, blocked)
+    pressure = np.sqrt(force * drive.stiffness / (math.pi * drive.length * radius))
+    return Contact(lever, delta, wall, force, pressure, torque * run.first, blocked)
 
 
-def stiffness(mechanism: Mechanism) -> float:
-    """E* of wheel and roller, MPa."""
-    pair = (material(mechanism.params.material), material(mechanism.params.roller_material))
-    return 1 / sum((1 - one.poisson**2) / one.modulus for one in pair)
+def stiffness(wheel: str, roller: str) -> float:
+    """E* of two materials, MPa."""
+    return 1 / sum((1 - one.poisson**2) / one.modulus for one in (material(wheel), material(roller)))
 
 
-def strength(mechanism: Mechanism) -> float:
-    """Hertz pressure at which the softer of wheel and roller begins to yield, MPa."""
-    params = mechanism.params
-    return YIELD * min(material(params.material).strength, material(params.roller_material).strength)
+def strength(wheel: str, roller: str) -> float:
+    """Hertz pressure at which the softer of two materials begins to yield, MPa."""
+    return YIELD * min(material(wheel).strength, material(roller).strength)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mechwright.motion import Array
 from mechwright_geneva.limits import FINE_SAMPLES, SWEEP_SAMPLES
 from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.openings import driver_opening, driver_radius, hub_radius, reach
 from mechwright_geneva.sound import Walls, sound
 
 _FIRST, _SECOND = 161, 41
@@ -23,10 +24,9 @@ _STEP = 0.01
 
 def walls_of(mechanism: Mechanism) -> Walls:
     """What this design asks of its walls."""
-    from mechwright_geneva.openings import hub_radius
-
     params = mechanism.params
-    return Walls(params.least_wall, hub_radius(params), params.lock_clearance, params.rollers)
+    driver = driver_radius(reach(driver_opening(params)), params.least_wall, params.fixing)
+    return Walls(params.least_wall, hub_radius(params), driver, params.lock_clearance, params.rollers)
 
 
 def least_offset(mechanism: Mechanism) -> float | None:

@@ -1,16 +1,19 @@
 """The family ``geneva``."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
 from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.requirement import IndexingRequirement
 
 if TYPE_CHECKING:
     from mechwright.motion import Motion
     from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
 
 
 class Geneva(Family[GenevaParams]):
@@ -20,6 +23,7 @@ class Geneva(Family[GenevaParams]):
     title = "Geneva mechanism"
     summary = "An indexing wheel whose straight or curved slots give it a motion law, with its driver."
     Params = GenevaParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {"indexing": IndexingRequirement}
 
     def check(self, params: GenevaParams) -> Sequence[Finding]:
         """Law, angles, slots, islands, locking, driver, motion against the straight slot, contact."""
@@ -47,3 +51,13 @@ class Geneva(Family[GenevaParams]):
         for finding in errors(findings(params)):
             raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
         return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[GenevaParams]":
+        """Law, angles and roller for a number of stops, a time, a space and a load."""
+        from mechwright_geneva.synthesis import from_indexing
+
+        if not isinstance(requirement, IndexingRequirement):
+            return super().synthesise(kind, requirement, progress)
+        return from_indexing(requirement, progress)

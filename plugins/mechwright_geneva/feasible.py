@@ -6,9 +6,12 @@ from functools import lru_cache
 
 from mechwright.findings import Finding, Severity, errors
 from mechwright.laws.faults import LawFault, polynomial_faults, table_faults
-from mechwright_geneva.mechanism import frame_of
+from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_LOCKED
+
+LEAST_FLOOR = 0.5
+"""Least depth of a groove and length of a roller, mm."""
 
 ANGLE_SLACK = 1e-6
 """Degrees by which the angles of a straight slot may be off: rounding of the design file."""
@@ -24,7 +27,7 @@ def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
     found = list(_law(params))
     if not errors(found):
         found += _straight(params) if params.law == "straight" else _angles(params)
-        found += _rollers(params)
+        found += [*_rollers(params), *_floor(params)]
     return tuple(found)
 
 
@@ -130,3 +133,23 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
         "deg",
         cure if params.rollers == most else f"use at most {most} rollers, or {cure}",
     )
+
+
+def _floor(params: GenevaParams) -> Iterator[Finding]:
+    construction = construction_of(params)
+    length = roller_length_of(params)
+    if construction != "through" and length < LEAST_FLOOR:
+        most = params.thickness - params.axial_gap - LEAST_FLOOR
+        yield Finding(
+            "geneva.floor",
+            Severity.ERROR,
+            "floor",
+            f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
+            f"{length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",
+            params.floor,
+            most,
+            "mm",
+            f"make floor at most {math.floor(most * 100) / 100:g}"
+            if most >= 0.2
+            else "make thickness larger, or axial_gap smaller",
+        )

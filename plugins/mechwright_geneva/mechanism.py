@@ -17,6 +17,8 @@ OFFSET = 5.0
 """Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
 slots the crank then turns: both are those of the worked reference."""
 
+Construction = Literal["through", "blind", "backed"]
+
 _COARSE, _ZOOMS = 65, 4
 """Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
 parabola about the bend is flat to rounding."""
@@ -114,23 +116,19 @@ class Mechanism:
         return self.crank if self.straight else float(self.measures.nearest[0])
 
     @property
-    def construction(self) -> Literal["through", "blind", "backed"]:
+    def construction(self) -> Construction:
         """How the slots are made."""
-        if self.params.construction != "auto":
-            return self.params.construction
-        return "through" if self.straight else "blind"
+        return construction_of(self.params)
 
     @property
     def groove_depth(self) -> float:
         """Depth of the slots."""
-        through = self.construction == "through"
-        return self.params.thickness - (0.0 if through else self.params.floor)
+        return groove_depth_of(self.params)
 
     @property
     def roller_length(self) -> float:
         """Length of the roller in the slot."""
-        through = self.construction == "through"
-        return self.groove_depth - (0.0 if through else self.params.axial_gap)
+        return roller_length_of(self.params)
 
     @property
     def greatest_lock(self) -> float:
@@ -185,6 +183,23 @@ def _values(frame: Frame) -> tuple[float, float, float, float]:
         float(frame.offset),
         float(frame.entry_radius),
     )
+
+
+def construction_of(params: GenevaParams) -> Construction:
+    """How the slots are made."""
+    if params.construction != "auto":
+        return params.construction
+    return "through" if params.law == "straight" else "blind"
+
+
+def groove_depth_of(params: GenevaParams) -> float:
+    """Depth of the slots, mm."""
+    return params.thickness - (0.0 if construction_of(params) == "through" else params.floor)
+
+
+def roller_length_of(params: GenevaParams) -> float:
+    """Length of the roller in the slot, mm: over a floor it keeps the axial gap."""
+    return groove_depth_of(params) - (0.0 if construction_of(params) == "through" else params.axial_gap)
 
 
 @lru_cache(_CACHED)

@@ -48,6 +48,11 @@ def hub_radius(params: GenevaParams) -> float:
     return max(reach(wheel_opening(params)), params.hub_diameter / 2)
 
 
+def driver_radius(bore: float, least_wall: float, fixing: float) -> float:
+    """Radius about the crank's axis that opening (as far as it reaches), walls and dowels need, mm."""
+    return bore + (2 * least_wall + fixing if fixing > 0 else least_wall)
+
+
 def opening_findings(params: GenevaParams) -> Iterator[Finding]:
     """What is wrong with bores and keyways by themselves."""
     yield from _one(params, "bore", "keyway_width")

@@ -2,8 +2,8 @@
 
 Nothing of the program uses this module; ``docs/seeds/geneva.md`` and the tests compare with it.
 
-* Figure 6 gives a loop point that comes from the 3-4-5 law, though the text names the cycloid, and from a wall
-  in which θw' is taken as dθw/du: the factor 1/(2 θd0) of the chain rule is missing in equation (3).
+* Figure 6 gives a loop point that comes from the 3-4-5 law, though the text names the cycloid, and from a
+  wall in which θw' is taken as dθw/du: the factor 1/(2 θd0) of the chain rule is missing in equation (3).
 * Equations (28) to (30) leave the terms with θw'' out of ∂f/∂θd and exchange sin φ and cos φ.
 """
 

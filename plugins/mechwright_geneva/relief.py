@@ -24,16 +24,19 @@ z = -(z_fixed - a) exp(-iφ).
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Loop
+from mechwright.geometry import Arc, Line, Loop
 from mechwright.geometry.fit import fit_curves
 from mechwright.geometry.segments import Segment
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import Points
 from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.mirror import mirrored
 from mechwright_geneva.slot import FIT
 
 _SAMPLES = 400
@@ -44,6 +47,13 @@ _STEPS = 12
 
 _REST = 1e-9
 """Rate of the wheel below which its direction is rounding."""
+
+_MET = 1e-10
+"""Distance, mm, at which two curves have met: far below a closure gap."""
+
+_GRID, _ZOOMS = 257, 5
+"""Samples that bracket a place on the stroke, and how often: 256 to the fifth reaches the last bit but
+one."""
 
 _SLIVER = 1e-9
 """A share of the stroke below which a piece of the edge is not drawn."""
@@ -64,7 +74,7 @@ class _Half:
         run = self.mechanism.stroke(1 - u)
         return -run.phi, 2 * self.mechanism.wheel_half - run.theta, run.first
 
-    @property
+    @cached_property
     def horn_angle(self) -> float:
         """Polar angle ψ of the grown wheel's horn from the middle of its bite."""
         m = self.mechanism
@@ -95,12 +105,10 @@ class _Half:
     def passing(self) -> float:
         """The u at which the horn is on the line of centres."""
         low, high = 0.0, 1.0
-        for _ in range(60):
-            middle = (low + high) / 2
-            if float(self._motion(np.array(middle))[1]) < self.horn_angle:
-                low = middle
-            else:
-                high = middle
+        for _ in range(_ZOOMS):
+            u = np.linspace(low, high, _GRID)
+            before = int(np.searchsorted(self._motion(u)[1], self.horn_angle)) - 1
+            low, high = float(u[max(before, 0)]), float(u[min(before + 1, _GRID - 1)])
         return (low + high) / 2
 
     def crossing(self, last: float) -> tuple[float, float]:
@@ -116,9 +124,12 @@ class _Half:
         s = float(np.interp(np.angle(path[beyond[0]]), turned, u))
         step = 1e-6 * last
         for _ in range(_STEPS):
-            miss = complex(self.envelope(np.array(s)) - self.horn(np.array(t)))
-            ds = complex(self.envelope(np.array(s + step)) - self.envelope(np.array(s - step))) / (2 * step)
-            dt = complex(self.horn(np.array(t + step)) - self.horn(np.array(t - step))) / (2 * step)
+            first = self.envelope(np.array([s, s + step, s - step]))
+            second = self.horn(np.array([t, t + step, t - step]))
+            miss = complex(first[0] - second[0])
+            if abs(miss) < _MET:
+                break
+            ds, dt = ((curve[1] - curve[2]) / (2 * step) for curve in (first, second))
             matrix = np.array([[ds.real, -dt.real], [ds.imag, -dt.imag]])
             if abs(np.linalg.det(matrix)) == 0:
                 break
@@ -130,24 +141,46 @@ class _Half:
         """Segments from the disc to the deepest place, and their deviation."""
         last = self.passing()
         s, t = self.crossing(last)
-        segments: list[Segment] = []
-        deviation = 0.0
-        for function, start, end in ((self.envelope, 0.0, s), (self.horn, t, last)):
-            if abs(end - start) < _SLIVER:
-                continue
+        chain, one = self._along(self.envelope, 0.0, s)
+        if chain is None:
+            chain = self._step(s, complex(self.horn(np.array(t))))
+        path, two = self._along(self.horn, t, last)
+        if path is None:
+            raise GeometryError("the path of the wheel's horn is not smooth")
+        return [*chain, *path], max(one, two)
 
-            def curve(
-                share: Array, f: Callable[[Array], Points] = function, a: float = start, b: float = end
-            ) -> Array:
-                points = f((1 - share) * a + share * b)
-                if self.leaving:
-                    points = np.conj(points)
-                return np.stack((points.real, points.imag), axis=-1)[None]
+    def _along(
+        self, function: Callable[[Array], Points], start: float, end: float
+    ) -> tuple[list[Segment] | None, float]:
+        """The curve from one u to another, and its deviation; None if it is not smooth."""
+        if abs(end - start) < _SLIVER:
+            return [], 0.0
 
-            (chain,), error = fit_curves(curve, 1, FIT, "relief")
-            segments += chain
-            deviation = max(deviation, error)
-        return segments, deviation
+        def curve(share: Array) -> Array:
+            points = self._mirrored(function((1 - share) * start + share * end))
+            return np.stack((points.real, points.imag), axis=-1)[None]
+
+        try:
+            (chain,), deviation = fit_curves(curve, 1, FIT, "relief")
+        except GeometryError:
+            return None, 0.0
+        return list(chain), deviation
+
+    def _mirrored(self, points: Points) -> Points:
+        return np.conj(points) if self.leaving else points
+
+    def _step(self, s: float, horn: complex) -> list[Segment]:
+        """A step and an arc inside the envelope, for laws given by a table that ripples at its end."""
+        m = self.mechanism
+        deep = min(abs(horn), float(np.abs(self.envelope(np.linspace(0, s, _SAMPLES))).min()))
+        first, last = self._mirrored(np.array([np.exp(-1j * m.crank_half), horn]))
+        start, end = float(np.angle(first)), float(np.angle(last))
+        arc = Arc((0.0, 0.0), deep, start, end - start, "relief")
+        disc = complex(m.lock * first)
+        steps: list[Segment] = [Line((disc.real, disc.imag), arc.start, "relief"), arc]
+        if abs(horn) - deep > TOLERANCES.closure:
+            steps.append(Line(arc.end, (float(last.real), float(last.imag)), "relief"))
+        return steps
 
 
 def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
@@ -161,8 +194,11 @@ def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
     m = mechanism
     deep = m.axes - m.rim - m.params.lock_clearance
     entry, one = _Half(m, leaving=False).edge()
-    leave, two = _Half(m, leaving=True).edge()
-    out: list[Segment] = [segment.reversed() for segment in leave[::-1]]
+    if m.law.symmetric:
+        out, two = [mirrored(segment, 0.0) for segment in entry[::-1]], one
+    else:
+        leave, two = _Half(m, leaving=True).edge()
+        out = [segment.reversed() for segment in leave[::-1]]
     start, end = math.atan2(*entry[-1].end[::-1]), math.atan2(*out[0].start[::-1])
     relief: list[Segment] = [*entry, Arc((0.0, 0.0), deep, start, end - start, "relief"), *out]
     free = m.pitch - 2 * m.crank_half

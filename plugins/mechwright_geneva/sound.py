@@ -31,6 +31,8 @@ class Walls:
         Thinnest wall anywhere.
     hub
         Radius of shaft opening or hub, around which that wall stays.
+    driver
+        Radius about the crank's axis that the relief must leave to the locking disc.
     clearance
         Of the locking disc.
     rollers
@@ -39,16 +41,13 @@ class Walls:
 
     least: float
     hub: float
+    driver: float
     clearance: float
     rollers: int
 
 
-CONDITIONS = ("angles", "rollers", "bottom", "mouth", "undercut", "tip", "loop", "island", "web", "lock")
-"""Names of the conditions, in the order in which they are worth asking."""
-
-
 def conditions(frame: Frame, radius: Array, found: Measures, walls: Walls) -> dict[str, NDArray[np.bool_]]:
-    """Which of the :data:`CONDITIONS` m designs satisfy, (m,) each; ``radius`` (m, 1): half a slot's width."""
+    """Condition to which of m designs satisfy it, (m,) each; ``radius`` is (m, 1)."""
     r = np.broadcast_to(radius, (found.reach.size, 1))[:, 0]
     half = np.broadcast_to(frame.crank_half, (found.reach.size, 1))[:, 0]
     greatest_lock = found.nearest - r - walls.clearance - walls.least
@@ -64,6 +63,7 @@ def conditions(frame: Frame, radius: Array, found: Measures, walls: Walls) -> di
         "loop": found.width > 0,
         "island": 2 * found.neck >= walls.least,
         "web": found.web >= walls.least,
+        "driver": axes - rim - walls.clearance >= walls.driver,
         "lock": greatest_lock + walls.clearance >= axes - rim + LEAST_BITE,
     }
 
@@ -121,6 +121,7 @@ def _possible(frame: Frame, radius: Array, walls: Walls) -> NDArray[np.bool_]:
     """The conditions that need no stroke."""
     able = (frame.entry_angle + frame.crank_half / 2 < math.pi / 2) & (frame.entry_angle > 0)
     able = able & (frame.bottom - radius >= walls.hub + walls.least)
+    able = able & (frame.axes - frame.entry_radius - walls.clearance >= walls.driver)
     able = able & (frame.crank_half <= math.pi / walls.rollers - LEAST_LOCKED / 2)
     able = able & (
         frame.entry_radius * np.sin(np.abs(frame.offset))

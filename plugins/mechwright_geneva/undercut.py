@@ -8,8 +8,8 @@ Equations (21) to (30) ask where a point of the wall has no tangent: with N = a/
     Δ2 = -M cos α fθ - ((1 + θw') (1 + M cos α) - N θw' cos φ) fα
     F = Δ1² + Δ2² = (D/b)⁴ (1 ∓ κ r)²
 
-F is a square: it touches 0 without changing its sign, and it is 0 as well at a cusp of the roller's way (D = 0),
-which is no undercut. The checks therefore ask for the sign of 1 ∓ κ r
+F is a square: it touches 0 without changing its sign, and it is 0 as well at a cusp of the roller's way (D =
+0), which is no undercut. The checks therefore ask for the sign of 1 ∓ κ r
 (:meth:`mechwright_geneva.kinematics.Stroke.regularity`); F is here for comparison.
 """
 

@@ -1,16 +1,19 @@
 """The family ``slider-crank``."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.errors import DesignError
 from mechwright.family import Family
 from mechwright.findings import Finding, errors
+from mechwright.parameters import Parameters
 from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
     from mechwright.motion import Motion
     from mechwright.part import Part
+    from mechwright.synthesis import Progress, Synthesis
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -20,6 +23,10 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     title = "Slider-crank"
     summary = "A crank and a rod move a slider on a straight guide, central or offset, with a quick return."
     Params = SliderCrankParams
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {
+        "stroke": StrokeRequirement,
+        "poles": PolesRequirement,
+    }
 
     def check(self, params: SliderCrankParams) -> Sequence[Finding]:
         """Full turn, transmission angle, walls, widths, layers, pins, and the figures worth knowing."""
@@ -47,3 +54,15 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         for finding in errors(findings(params)):
             raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
         return parts_of(params)
+
+    def synthesise(
+        self, kind: str, requirement: Parameters, progress: "Progress"
+    ) -> "Synthesis[SliderCrankParams]":
+        """From stroke and time ratio, or from prescribed acceleration poles."""
+        from mechwright_slider_crank.synthesis import from_poles, from_stroke
+
+        if isinstance(requirement, StrokeRequirement):
+            return from_stroke(requirement)
+        if isinstance(requirement, PolesRequirement):
+            return from_poles(requirement, progress)
+        return super().synthesise(kind, requirement, progress)

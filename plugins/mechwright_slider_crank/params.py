@@ -64,7 +64,7 @@ class SliderCrankParams(Parameters):
     material: MaterialName = Field("aluminium", description="Material of the plates.")
     crank_shape: Literal["disc", "arm"] = Field("disc", description="Whether the crank is a disc or an arm.")
     pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
-        None, description="Diameter of both joint pins; left out, a fifth of the crank, 2 to 20."
+        None, description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20."
     )
     shaft: Annotated[float, Field(ge=1, le=300), Unit("mm")] | None = Field(
         None, description="Diameter of the crank's shaft; left out, one and a half pins."
@@ -73,7 +73,7 @@ class SliderCrankParams(Parameters):
         1.0, ge=0, le=20, description="Wall of the bushings in rod and base; 0 for none."
     )
     wall: Annotated[float, Field(ge=0.5, le=200), Unit("mm")] | None = Field(
-        None, description="Material around the bores; left out, 0.6 pins, at least 2."
+        None, description="Material around the bores; left out, half a pin, at least 2."
     )
     rod_width: Annotated[float, Field(ge=0.5, le=400), Unit("mm")] | None = Field(
         None, description="Width of the rod between its bosses; left out, as wide as they are."
@@ -85,10 +85,10 @@ class SliderCrankParams(Parameters):
         None, description="Length of the slider along the guide; left out, one and a half times its width."
     )
     slider_width: Annotated[float, Field(ge=1, le=LONGEST), Unit("mm")] | None = Field(
-        None, description="Width of the slider between the rails; left out, three pins and two walls."
+        None, description="Width of the slider between the rails; left out, a pin and four walls."
     )
     rail: Annotated[float, Field(ge=1, le=400), Unit("mm")] | None = Field(
-        None, description="Width of the guide's rails; left out, a pin and two walls."
+        None, description="Width of the guide's rails; left out, a dowel of 0.6 pins and two walls."
     )
     play: Millimetres = Field(0.05, ge=0, le=2, description="Play of the slider on each side.")
     gap: Millimetres = Field(0.3, ge=0, le=20, description="Air between plates of neighbouring layers.")

@@ -175,7 +175,7 @@ def _rails(
     middle = complex((low + high) / 2, params.offset)
     dowel = half - sizes.rail / 2
     corner = complex(half, sizes.rail / 2)
-    holes = tuple(Boss(complex(x), 0, sizes.pin, "dowel") for x in (-dowel, dowel))
+    holes = tuple(Boss(complex(x), 0, sizes.dowel, "dowel") for x in (-dowel, dowel))
     outline = rectangle(-corner, corner, _corner(corner), holes)
     places = (middle - 1j * apart, middle + 1j * apart)
     return outline, places, tuple(place + hole.centre for place in places for hole in holes)
@@ -193,7 +193,7 @@ def _base_outline(
     xs = [-reach, reach, *(place.real + x for place in rails for x in (x0, x1))]
     ys = [-reach, reach, *(place.imag + y for place in rails for y in (y0, y1))]
     low, high = complex(min(xs), min(ys)), complex(max(xs), max(ys))
-    holes = (Boss(0j, 0, sizes.base_bore, "shaft"), *(Boss(at, 0, sizes.pin, "dowel") for at in dowels))
+    holes = (Boss(0j, 0, sizes.base_bore, "shaft"), *(Boss(at, 0, sizes.dowel, "dowel") for at in dowels))
     return rectangle(low, high, CORNER, holes)
 
 
@@ -279,12 +279,12 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
         parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
     low, high = spans["dowel-1"]
     dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
-    parts.append(pin_part("dowel", sizes.pin, high - low, dowels))
+    parts.append(pin_part("dowel", sizes.dowel, high - low, dowels))
     under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
     if heights.layer["rail-1"] > 1:
         spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
         parts.append(
-            bushing_part("spacer", sizes.pin, 2 * sizes.spacer, over - under, spacers, params.material)
+            bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)
         )
     if params.bushing > 0:
         rod = tuple(Instance(name, heights.bottom("rod")) for name in ("rod", "rod-end"))

@@ -4,14 +4,16 @@ from dataclasses import dataclass
 
 from mechwright_slider_crank.params import SliderCrankParams
 
-PIN_SHARE = 0.2
-"""Pin diameter over crank: half the crank then stays between the bores of shaft and pin."""
+PIN_SHARE = 0.125
+"""Pin diameter over crank: slender enough that slider and rails keep out of the crank's way."""
 PIN_RANGE = (2.0, 20.0)
 """mm: the smallest and the largest dowel pin that is easy to get."""
 SHAFT_SHARE = 1.5
 """Shaft diameter over pin diameter: the shaft is twisted as well as bent."""
-WALL_SHARE = 0.6
-"""Wall around a bore over the pin's diameter: common for pressed joints in aluminium."""
+WALL_SHARE = 0.5
+"""Wall around a bore over the pin's diameter: the least for pressed joints in aluminium."""
+DOWEL_SHARE = 0.6
+"""Diameter of the rails' dowels over that of the joint pins: there are four, and they hardly move."""
 LEAST_WALL = 2.0
 """mm, so that the wall of a small bore survives clamping."""
 CORNER = 2.0
@@ -33,6 +35,11 @@ class Sizes:
     slider_length: float
     slider_width: float
     rail: float
+
+    @property
+    def dowel(self) -> float:
+        """Diameter of the rails' dowels."""
+        return DOWEL_SHARE * self.pin
 
     @property
     def rod_bore(self) -> float:
@@ -57,7 +64,7 @@ class Sizes:
     @property
     def spacer(self) -> float:
         """Radius of the spacers under rails that stand high."""
-        return self.pin / 2 + min(self.wall, (self.rail - self.pin) / 2)
+        return min(self.dowel / 2 + self.wall, self.rail / 2)
 
     @property
     def head(self) -> tuple[float, float]:
@@ -74,7 +81,7 @@ def sizes_of(params: SliderCrankParams) -> Sizes:
     least, most = PIN_RANGE
     pin = given(params.pin, min(max(round(PIN_SHARE * params.crank), least), most))
     wall = given(params.wall, max(LEAST_WALL, WALL_SHARE * pin))
-    width = given(params.slider_width, 3 * pin + 2 * wall)
+    width = given(params.slider_width, pin + 4 * wall)
     return Sizes(
         pin,
         given(params.shaft, SHAFT_SHARE * pin),
@@ -82,5 +89,5 @@ def sizes_of(params: SliderCrankParams) -> Sizes:
         params.bushing,
         given(params.slider_length, 1.5 * width),
         width,
-        given(params.rail, pin + 2 * wall),
+        given(params.rail, DOWEL_SHARE * pin + 2 * wall),
     )

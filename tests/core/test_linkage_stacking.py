@@ -65,7 +65,7 @@ def test_a_spindle_needs_its_way():
     found = stack([GROUND, ARM, lid], [SHAFT], {"ground": STILL, "crank": crank()}, 0.5, 0.3)
     assert found.layer == {"base": 0, "arm": 1, "lid": 2}
     long = Spindle("shaft", "crank", 0j, 2.0, ("base", "arm"), head=4.0)
-    with pytest.raises(GeometryError, match="lid runs into the shaft"):
+    with pytest.raises(GeometryError, match="the shaft hits lid"):
         stack([GROUND, ARM, lid], [long], {"ground": STILL, "crank": crank()}, 0.5, 0.3)
 
 

@@ -18,7 +18,7 @@ from mechwright_geneva.slot import Slot
 from mechwright_geneva.sound import Walls, sound
 
 LAW_NAMES = list(LAWS)
-FREE = Walls(0.0, 0.0, 0.0, 1)
+FREE = Walls(0.0, 0.0, -1e3, 0.0, 1)
 
 
 def columns(slots, half, offset, rim):

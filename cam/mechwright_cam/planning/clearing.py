@@ -62,11 +62,15 @@ class Run:
         The start is clear of stock, so the cutter may be sunk there.
     linked
         The cutter may go straight from the end of the run before to the start of this one at depth.
+    beside
+        Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
+        centre may be plunged through that, slowly, which is shorter than a ramp.
     """
 
     path: Path
     open: bool
     linked: bool
+    beside: bool = False
 
 
 @dataclass(frozen=True)
@@ -105,7 +109,7 @@ class Roughing:
         climb: bool,
         only: shapely.Geometry | None = None,
     ) -> None:
-        self.zone, self.tool, self.climb = zone, tool, climb
+        self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
@@ -169,8 +173,13 @@ class Roughing:
         swept: shapely.Geometry = shapely.Polygon()
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
-        runs = [Run(paths[0], bool(is_open[0]), False)]
-        for last, path, clear in zip(paths, paths[1:], is_open[1:].tolist(), strict=False):
+        beside = np.zeros(len(paths), dtype=bool)
+        if self.only is not None and self.tool.centre_cutting:
+            thick = grow(self.only, radius - CLEAR, ROUGH)
+            beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
+        runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
+        entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
+        for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
             linked = _inside(free, last.end, path.start, radius)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
@@ -179,7 +188,7 @@ class Roughing:
                 way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
-            runs.append(Run(path, clear, linked))
+            runs.append(Run(path, clear, linked, thin))
         return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start, radius))
 
     def _pieces(self) -> list[Piece]:
@@ -274,6 +283,9 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
                     pen.above(run.path.start)
                 if run.open:
                     pen.sink(z)
+                elif run.beside:
+                    pen.sink(above)
+                    pen.sink(z, pen.rates.plunge)
                 else:
                     pen.sink(above)
                     pen.ramp(run.path, z)

@@ -12,6 +12,8 @@ from mechwright_cam.toolpath.path import Path, rounded
 
 APPROACH = 1.0
 """Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
+AIR = 2.0
+"""Feed through cleared ground in feeds of the cut."""
 TINY = 0.5
 """A way shorter than this many diameters is too short to ramp along: the cutter plunges."""
 
@@ -34,6 +36,11 @@ class Pen:
         self.moves: list[Move] = []
         self.place: Point | None = None
         self.z = math.inf
+
+    @property
+    def air(self) -> float:
+        """Feed through what is cleared, at depth, mm/min: faster than in the cut."""
+        return min(AIR * self.rates.feed, self.rates.fastest)
 
     def above(self, point: Point) -> None:
         """Retract, rapid over a point and down to just over the stock."""

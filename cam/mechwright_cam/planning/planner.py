@@ -13,7 +13,7 @@ from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place
-from mechwright_cam.planning.clearing import SLIVER, Roughing
+from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.holes import (
     BorePlan,
@@ -38,6 +38,9 @@ Cut = tuple[str, Tool, tuple[Move, ...]]
 
 WORTH_A_TOOL = 0.25
 """An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""
+
+NEARLY = 0.9
+"""Share of the heavy stock from which on a rough path through narrow places is worth its time."""
 
 
 def plan(job: Job) -> Program:
@@ -120,15 +123,22 @@ class _Planner:
         ]
         holes += [(drill, place, name) for name, (drill, place) in entries.items() if drill is not None]
         drilled = self._drilled(holes)
-        for plan in bores:
-            self._bore(plan, drilled)
-        for zone in zones:
-            drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
-            if drill is not None:
-                hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
-                zone.left = shapely.difference(zone.left, hole)
-            self._wall([zone], drilled, zone.mills)
-        return frozenset(range(len(self.steps)))
+        after = drilled
+        # What starts on the floor of a recess waits until all recesses above are cut.
+        for top in sorted({*(zone.top for zone in zones), *(-plan.bore.top for plan in bores)}, reverse=True):
+            for plan in bores:
+                if -plan.bore.top == top:
+                    self._bore(plan, after)
+            for zone in zones:
+                if zone.top != top:
+                    continue
+                drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
+                if drill is not None:
+                    hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
+                    zone.left = shapely.difference(zone.left, hole)
+                self._wall([zone], after, zone.mills)
+            after = frozenset(range(len(self.steps)))
+        return after
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)
@@ -172,6 +182,9 @@ class _Planner:
         allowance = self.job.settings.stock_to_leave
         finest = zones[0].finisher
         zones[0].rough_keep(allowance)  # what the layers share, before they ask for it at once
+        for zone in zones:
+            for written in self._cleared(zone, self._clearing_mill(zone, mills)):
+                after = self._step(*written, after)
         for mill in [m for m in mills if m.diameter > finest.diameter]:
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
@@ -182,6 +195,14 @@ class _Planner:
             # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             for written in layer:
                 after = self._step(*written, after)
+
+    def _clearing_mill(self, zone: Zone, mills: list[Tool]) -> Tool:
+        """The largest mill that has room to turn, else the one that finishes."""
+        from mechwright_cam.planning.adaptive import HELIX
+
+        widest = max(entry_place(part)[1] for part in polygons(zone.clear))
+        fit = [m for m in mills if m.radius >= zone.finisher.radius and HELIX * m.diameter <= 2 * widest]
+        return fit[0] if fit else zone.finisher
 
     def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
         data = mill.cutting[self.job.part.material]
@@ -197,6 +218,30 @@ class _Planner:
             zone.forget_waste(mill, self.job.settings.stock_to_leave)
             zone.begun = True
         return f"{zone.name}: {what}", mill, moves
+
+    def _cleared(self, zone: Zone, mill: Tool) -> list[Cut]:
+        """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
+        settings = self.job.settings
+        if settings.clearing != "adaptive" or zone.kind == "outside":
+            return []
+        from mechwright_cam.planning import adaptive
+
+        area = shapely.difference(zone.clear, zone.rough_keep(max(settings.stock_to_leave, COARSE_FROM)))
+        limit = math.radians(settings.engagement)
+        wanted = [part for part in polygons(area) if shapely.intersects(part, zone.left)]
+        area = shapely.union_all(wanted)
+        before = zone.left.area
+        cavities = adaptive.clear(area, mill, limit, settings.climb)
+        reached = shapely.union_all([cavity.cleared for cavity in cavities])
+        if before - shapely.difference(zone.left, reached).area < WORTH_A_TOOL * before:
+            return []
+        depth = min(settings.adaptive_depth * mill.diameter, mill.flute_length)
+        moves = self._moves(
+            mill, lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom, depth, settings.climb)
+        )
+        zone.left = shapely.difference(zone.left, reached)
+        zone.begun = True
+        return [(f"{zone.name}: clear", mill, moves)]
 
     def _finished(self, zone: Zone, mill: Tool) -> list[Cut]:
         """The last cuts of one layer."""
@@ -214,21 +259,35 @@ class _Planner:
         return [*cuts, (f"{zone.name}: finish", zone.finisher, moves)]
 
     def _rough_heavy(self, zone: Zone, mill: Tool) -> list[Cut]:
-        """Where the allowance kept the mill out of narrow places, rough up to the wall."""
+        """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
+
+        First as near as a path of roughing accuracy may come; up to the wall itself, with a path as exact and
+        as long in the program as that of finishing, only where even that does not fit in.
+        """
+        data = mill.cutting[self.job.part.material]
+        cuts: list[Cut] = []
+        for allowance in (COARSE_FROM, 0.0):
+            thick = self._heavy(zone, mill)
+            if not polygons(thick):
+                break
+            cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
+            if allowance > 0 and cut.take.area < NEARLY * thick.area:
+                continue  # the exact one has to go there anyway
+            moves = self._moves(mill, partial(cut.write, step_down=data.step_down * mill.diameter))
+            cuts.append((f"{zone.name}: rough the narrow places", mill, moves))
+            zone.left = shapely.difference(
+                zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
+            )
+        return cuts
+
+    def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:
+        """What is left in front of a wall that is too thick for the finishing cut."""
         allowance = self.job.settings.stock_to_leave
         thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
         if zone.tabs is not None:
             # The corners at the tabs are as low as the tabs: no load worth a pass.
             thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))
-        if not polygons(opened(thick, SLIVER)):
-            return []
-        data = mill.cutting[self.job.part.material]
-        cut = Roughing(zone, mill, 0.0, data.step_over, self.job.settings.climb, only=thick)
-        moves = self._moves(mill, lambda pen: cut.write(pen, data.step_down * mill.diameter))
-        zone.left = shapely.difference(
-            zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
-        )
-        return [(f"{zone.name}: rough the narrow places", mill, moves)]
+        return opened(thick, SLIVER)
 
     def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
         """The wanted steps in runs of one tool; steps outside count as done."""

@@ -20,6 +20,8 @@ class Rates:
     feed: float
     ramp: float
     plunge: float
+    fastest: float
+    """The machine's limit."""
 
     def inside(self, path_radius: float, cutter_radius: float) -> float:
         """Feed of the centre on a circle inside a wall, so that the cutting edge has the planned feed."""
@@ -45,4 +47,10 @@ def rates(tool: Tool, material: str, machine: Machine) -> Rates:
     spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
     feed = min(spindle * tool.flutes * data.chip_load, machine.max_feed)
     feed = max(1.0, math.floor(feed))
-    return Rates(spindle, feed, max(1.0, round(feed * RAMP_SHARE)), max(1.0, round(feed * PLUNGE_SHARE)))
+    return Rates(
+        spindle,
+        feed,
+        max(1.0, round(feed * RAMP_SHARE)),
+        max(1.0, round(feed * PLUNGE_SHARE)),
+        machine.max_feed,
+    )

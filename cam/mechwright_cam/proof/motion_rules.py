@@ -1,10 +1,12 @@
 """Rules about where the tool goes: each looks at one thing, and gives one check."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.tooling import ToolKind
+from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.bands import stock_shape
@@ -189,8 +191,50 @@ def entries(scene: Scene) -> Check:
     )
 
 
+def holder(scene: Scene) -> Check:
+    """Shank and holder stay out of the stock and of finished walls, where the tool library knows them."""
+    paths, run = scene.paths, scene.run
+    for body in _bodies(scene):
+        low = np.minimum(paths.start[:, 2], paths.end[:, 2]) + body.lift
+        steps = paths.steps[(run.tool[paths.steps] == body.tool.number) & (low[paths.steps] < -NEAR)]
+        # The deepest first: if they pass where material may still be, the others nearly always do.
+        for step in steps[np.argsort(low[steps], kind="stable")].tolist():
+            if scene.stock.meets(step, lift=body.lift, radius=body.radius):
+                return scene.bad(
+                    "holder",
+                    step,
+                    f"the {body.name} of T{body.tool.number} ({body.tool.name}), {2 * body.radius:g} mm wide "
+                    f"from {body.lift:g} mm above the tip, goes {-low[step]:.2f} mm deep into material; "
+                    "let the tool stick out further",
+                    float(-low[step]),
+                    0.0,
+                    "mm",
+                )
+    return Check("holder", True, "shank and holder stay out of stock and walls")
+
+
+@dataclass(frozen=True)
+class _Body:
+    """What is above a tool's flutes: a cylinder from ``lift`` above the tip."""
+
+    tool: Tool
+    name: str
+    lift: float
+    radius: float
+
+
+def _bodies(scene: Scene) -> list[_Body]:
+    bodies = []
+    for tool in scene.tools.values():
+        if tool.shank_diameter is not None and tool.shank_diameter > tool.diameter:
+            bodies.append(_Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
+        if tool.stick_out is not None:
+            bodies.append(_Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
+    return bodies
+
+
 def clamp(scene: Scene) -> Check:
-    """The cutter stays clear of the clamp, from the stop on at which the operator sets it."""
+    """Cutter, shank and holder stay clear of the clamp, from the stop on at which the operator sets it."""
     run, held, paths = scene.run, scene.job.clamp, scene.paths
     if held is None:
         return Check("clamp", True, "there is no clamp in the way")
@@ -210,6 +254,25 @@ def clamp(scene: Scene) -> Check:
                 int(pieces.step[worst]),
                 f"the cutter goes {-room[worst]:.2f} mm into the clamp (diameter {held.diameter:g} mm, "
                 f"up to Z{held.top:g})",
+                float(room[worst]),
+                0.0,
+                "mm",
+            )
+    after = paths.steps[paths.steps > (stops[0] if stops.size else -1)]
+    for body in _bodies(scene):
+        own = after[run.tool[after] == body.tool.number]
+        pieces = paths.below(held.top - body.lift - NEAR, steps=own)
+        if len(pieces) == 0:
+            continue
+        room = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
+        room = room - body.radius - held.diameter / 2
+        worst = int(np.argmin(room))
+        if room[worst] < 0:
+            return scene.bad(
+                "clamp",
+                int(pieces.step[worst]),
+                f"the {body.name} of T{body.tool.number} goes {-room[worst]:.2f} mm into the clamp (diameter "
+                f"{held.diameter:g} mm, up to Z{held.top:g}); let the tool stick out further",
                 float(room[worst]),
                 0.0,
                 "mm",

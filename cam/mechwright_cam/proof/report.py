@@ -50,12 +50,13 @@ class Spot:
 
 @dataclass(frozen=True, slots=True)
 class OperationTime:
-    """Time and path of one operation, s and mm."""
+    """Time and path of one operation, s and mm; ``cutting_s`` is what of the time is spent at a feed."""
 
     name: str
     tool: int
     time_s: float
     cutting_mm: float
+    cutting_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -119,6 +120,14 @@ class Proof:
             times[operation.tool] = times.get(operation.tool, 0.0) + operation.time_s
         return times
 
+    @property
+    def tool_cutting_s(self) -> dict[int, float]:
+        """T number to its time at a feed, s: what wears its edges."""
+        times: dict[int, float] = {}
+        for operation in self.operations:
+            times[operation.tool] = times.get(operation.tool, 0.0) + operation.cutting_s
+        return times
+
     def require(self) -> None:
         """Do nothing if the program is proven.
 
@@ -147,6 +156,7 @@ class Proof:
             for name, check in self.checks.items()
         }
         data["tool_times_s"] = self.tool_times_s
+        data["tool_cutting_s"] = self.tool_cutting_s
         plain: dict[str, Any] = _plain({"ok": self.ok, **data})
         return plain
 

@@ -34,15 +34,20 @@ class Stock:
         lines: Geometries = self.paths.lines(pieces)
         return shapely.STRtree(lines)
 
-    def meets(self, step: int) -> bool:
-        """Whether the tool, moving straight as this step does, meets material that earlier steps left."""
+    def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
+        """Whether the tool, moving straight as this step does, meets material that earlier steps left.
+
+        With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
+        which begins so far above the cutter's tip: shank or holder.
+        """
         paths = self.paths
         start, end = paths.start[step], paths.end[step]
-        z = float(min(start[2], end[2]))
+        z = float(min(start[2], end[2])) + lift
         if z >= -NEAR:
             return False
-        pieces = paths.below(-NEAR, steps=np.array([step]))
-        shape = grow(paths.lines(pieces)[0], float(paths.radius_at(pieces, 0.0)[0]), ACCURACY)
+        pieces = paths.below(-NEAR - lift, steps=np.array([step]))
+        reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
+        shape = grow(paths.lines(pieces)[0], reach, ACCURACY)
         body = shapely.intersection(shape, self.plate)
         if body.is_empty:
             return False

@@ -13,8 +13,8 @@ ENDS = 1e-6
 """How far s and ds/du may be off at the ends: a thousandth of a degree on the largest stroke there is."""
 
 REST = 0.05
-"""Velocity ds/du at an end of a table that still counts as rest: 5 % of the mean velocity. The slope of eleven
-rows of a usual law is known no better."""
+"""Velocity ds/du at an end of a table that still counts as rest: 5 % of the mean velocity. The slope of
+eleven rows of a usual law is known no better."""
 
 BACKWARDS = 1e-9
 """Negative velocity ds/du that is rounding."""

@@ -37,7 +37,8 @@ class Table(Law):
         u, s = np.asarray(rows, dtype=float).T
         free = make_interp_spline(u, s, DEGREE)
         self.end_velocities = tuple(float(free(end, 1)) for end in (0.0, 1.0))
-        bends = [float(free(end, 2)) for end in (0.0, 1.0)]
+        # From rest a law can only speed up, and only slow down to rest: anything else is a ripple.
+        bends = [sign * max(0.0, sign * float(free(end, 2))) for end, sign in ((0.0, 1), (1.0, -1))]
         conditions = tuple([(1, 0.0), (2, bend if abs(bend) > JUMP else 0.0)] for bend in bends)
         spline = make_interp_spline(u, s, DEGREE, bc_type=conditions)
         self._pieces = [PPoly.from_spline(spline)]

@@ -12,7 +12,7 @@ at every instant.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 COARSE = 0.05
 """Chord error, mm, of the outlines that are compared; it is added to the clearance."""
+
+_SAID = 6
+"""Conflicts that a message names; a list of all helps nobody."""
 
 _BEND = 1.1
 """A path between two samples is at most so much longer than its chord; an arc of 80 degrees still is."""
@@ -193,7 +196,7 @@ def stack(
             continue
         best = (cost, layer)
     if best is None:
-        raise GeometryError(_reason(clashes, blocked))
+        raise GeometryError(_reason(plates, spindles, clashes, blocked))
     return _heights(plates, spindles, best[1], gap)
 
 
@@ -217,10 +220,23 @@ def _heights(
     return Stack(layer, tuple(layers), spans)
 
 
-def _reason(clashes: set[frozenset[str]], blocked: Mapping[str, set[str]]) -> str:
-    said = [" and ".join(sorted(pair)) + " meet in plan" for pair in clashes]
-    said += [f"{plate} runs into the {name}" for name, found in blocked.items() for plate in sorted(found)]
-    return f"no order of layers keeps all plates apart over a turn: {', '.join(sorted(said))}"
+def _reason(
+    plates: Sequence[Plate],
+    spindles: Sequence[Spindle],
+    clashes: set[frozenset[str]],
+    blocked: Mapping[str, set[str]],
+) -> str:
+    """What stands in the way; not what is joined, which meets by design, nor the ground plate below all."""
+    below = {plate.name for plate in plates if plate.layers == (0,)}
+    joined = {frozenset(pair) for spindle in spindles for pair in combinations(spindle.plates, 2)}
+    said = [
+        " and ".join(sorted(pair)) + " meet in plan"
+        for pair in sorted(clashes - joined, key=sorted)
+        if not pair & below
+    ]
+    said += [f"the {name} hits {plate}" for name in blocked for plate in sorted(blocked[name] - below)]
+    more = f" and {len(said) - _SAID} more" if len(said) > _SAID else ""
+    return f"no order of layers keeps the plates apart over a turn: {', '.join(said[:_SAID])}{more}"
 
 
 class _Closeness:

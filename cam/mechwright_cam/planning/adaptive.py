@@ -1,0 +1,344 @@
+"""Adaptive clearing: the cutter's engagement stays below an angle, however the stock is shaped.
+
+Glossary
+--------
+engagement
+    Angle of the cutter's leading half that stands in stock: 90 degrees against a wall as high as the cutter
+    is wide, 180 in a slot.
+cleared
+    What is cut so far, all of it wide enough for a disc of the bend radius.
+bend radius
+    No edge of what is cleared bends more tightly, so that a thin layer on it never lies around half of the
+    cutter. The tighter the bend, the thinner the layers: wide areas are cleared with a large bend radius,
+    then their corners with smaller ones. What is tighter than the last stays for the contour passes that
+    follow.
+front
+    The edge of what is cleared, where stock stands behind it.
+
+A helix opens a hole, a spiral widens it to the largest disc at that place. Then each front is moved on by a
+layer at a time: the cleared region is grown by the layer, cut to the area, and opened with the bend radius.
+The cutter runs along the new front from wall to wall, always in one direction, and returns through what is
+cleared. How thick a layer may be depends on the bend of the front: the straight-front value R (1 - cos φ) is
+tried first, the engagement is measured along the whole pass against what is cleared, and the layer is thinned
+until it holds.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mechwright.geometry.segments import Point
+from mechwright.motion import Array
+from mechwright.tooling import Tool
+from mechwright_cam.planning.choice import entry_place
+from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.toolpath.offsets import ROUGH, densified, grow, opened, polygons
+from mechwright_cam.toolpath.path import Path, circle
+
+BENDS = (2.2, 1.5, 1.2)
+"""Bend radii in cutter radii, in the order of work: below the last, layers are too thin to pay."""
+HELIX = 1.7
+"""Radius of the hole that the helix opens, in cutter radii, or less: below 2 no core stays."""
+THINNEST = 0.03
+"""Thinnest layer in cutter radii: what asks for thinner ones is left to the contour passes."""
+THINNER = 0.7
+"""A layer that engages too much is thinned by this factor."""
+MARGIN = math.radians(2.0)
+"""A pass is planned to engage this much less than asked, rad: arcs and flakes on walls add as much."""
+FRONT_ANGLES = np.radians(np.arange(-90.0, 91.0, 2.0))
+"""Directions from that of motion in which the cutter's edge is looked at, rad."""
+EDGE = 0.998
+"""The edge is looked at this little inside the cutter, in radii: a wall it only touches is no stock."""
+COARSE = 2 * ROUGH
+"""Chord error of what is cleared, mm; with the fit it is less than the allowance that keeps it off walls."""
+FITTING = 2 * ROUGH
+"""How far the arcs of a pass may stand off its points, mm: it keeps the roughing allowance off the walls."""
+SAMPLE = 0.12
+"""Distance at which engagement is measured along a pass, in cutter radii."""
+CRUMB = 0.02
+"""Stock of less area than this, in cutter radii squared, is no front of its own."""
+MOST_LAYERS = 4000
+"""Bounds the work in one cavity; no plate has a hundredth of it."""
+RUN_UP = 0.4
+"""How far, in cutter radii, a pass starts and ends in the clear."""
+
+
+@dataclass(frozen=True)
+class Pass:
+    """One way through stock; ``linked``: it may be reached straight from the end of the pass before."""
+
+    path: Path
+    linked: bool
+
+
+@dataclass(frozen=True)
+class Cavity:
+    """All ways of one connected area, from its helix on; shapes and lengths in mm."""
+
+    centre: Point
+    helix: float
+    """Radius of the helix's path."""
+    passes: tuple[Pass, ...]
+    cleared: shapely.Geometry
+
+
+def straight_layer(radius: float, engagement: float) -> float:
+    """Thickness of a layer on a straight front that engages a cutter by ``engagement``, rad.
+
+    >>> round(straight_layer(3.0, math.pi / 3), 9)
+    1.5
+    """
+    return radius * (1 - math.cos(engagement))
+
+
+def engagements(points: Array, cleared: shapely.Geometry, radius: float) -> Array:
+    """Engagement (n - 1,), rad, of a cutter in the middle of each edge of a path (n, 2), mm.
+
+    Only the leading half of the cutter counts: what is behind has been cut by the pass itself.
+    """
+    step = np.diff(points, axis=0)
+    heading = np.arctan2(step[:, 1], step[:, 0])
+    middle = (points[:-1] + points[1:]) / 2
+    angle = heading[:, None] + FRONT_ANGLES
+    edge = middle[:, None] + EDGE * radius * np.stack((np.cos(angle), np.sin(angle)), axis=2)
+    shapely.prepare(cleared)
+    x, y = edge.reshape(-1, 2).T
+    stock = ~shapely.contains_xy(cleared, x, y).reshape(angle.shape)
+    found: Array = stock.sum(axis=1) * (FRONT_ANGLES[1] - FRONT_ANGLES[0])
+    return found
+
+
+def clear(area: shapely.Geometry, tool: Tool, engagement: float, climb: bool) -> list[Cavity]:
+    """Plan the clearing of an area.
+
+    Parameters
+    ----------
+    area
+        Where the cutter's edge may be, mm.
+    tool
+        An end mill.
+    engagement
+        Greatest angle, rad.
+    climb
+        Stock on the right of the path; on the left if false.
+
+    Returns
+    -------
+    cavities
+        One for each part of the area that is wide enough; none if the cutter has no room to turn.
+    """
+    radius = tool.radius
+    bend = BENDS[-1] * radius
+    roomy = grow(grow(area, -bend, COARSE), bend - COARSE, COARSE)
+    found = []
+    for part in polygons(roomy):
+        cavity = _Clearing(part, radius, engagement, climb).cavity()
+        if cavity is not None:
+            found.append(cavity)
+    return found
+
+
+class _Clearing:
+    """The clearing of one connected area."""
+
+    def __init__(self, area: shapely.Polygon, radius: float, engagement: float, climb: bool) -> None:
+        self.area, self.radius, self.engagement, self.climb = area, radius, engagement, climb
+        self.bend = BENDS[-1] * radius
+        self.thickness = straight_layer(radius, engagement)
+        self.passes: list[Pass] = []
+        self.cleared: shapely.Geometry = shapely.Polygon()
+        self.end: Point | None = None
+
+    def cavity(self) -> Cavity | None:
+        centre, widest = entry_place(self.area)
+        if widest < self.bend - 2 * COARSE:
+            return None
+        hole = min(HELIX * self.radius, widest)
+        self.end = (centre[0] + hole - self.radius, centre[1])
+        self.cleared = _disc(centre, hole)
+        self._spiral(centre, hole, widest)
+        for bend in BENDS:
+            self.bend = bend * self.radius
+            wide = grow(grow(self.area, -self.bend, COARSE), self.bend - COARSE / 2, COARSE)
+            if self.bend <= widest + COARSE:
+                self._fronts(shapely.intersection(wide, self.area))
+        return Cavity(centre, hole - self.radius, tuple(self.passes), self.cleared)
+
+    def _spiral(self, centre: Point, hole: float, widest: float) -> None:
+        """Widen the helix's hole to the largest disc there, a layer per turn."""
+        if widest - hole < THINNEST * self.radius:
+            return
+        points = [np.array([[centre[0] + hole - self.radius, centre[1]]])]
+        side, reached = (1 if self.climb else -1), hole
+        while widest - reached > 1e-9:
+            layer = min(self._ring_layer(reached), widest - reached)
+            t = np.linspace(0, 1, 97)[1:]
+            way = reached + layer * t - self.radius
+            turn = side * math.tau * t
+            points.append(np.column_stack((centre[0] + way * np.cos(turn), centre[1] + way * np.sin(turn))))
+            reached += layer
+        turn = side * np.linspace(0, math.tau, 97)[1:]
+        last = reached - self.radius
+        points.append(np.column_stack((centre[0] + last * np.cos(turn), centre[1] + last * np.sin(turn))))
+        self._add(np.concatenate(points))
+        self.cleared = _disc(centre, reached)
+
+    def _ring_layer(self, hole: float) -> float:
+        """Layer that engages a cutter in a round hole by the angle asked for: the cosine rule."""
+        radius, angle = self.radius, self.engagement
+        # The centre stands d off the middle, where circles of radius hole and cutter cross at that angle from
+        # the outward direction: hole² = d² + radius² + 2 d radius cos(angle).
+        d = -radius * math.cos(angle) + math.sqrt(hole**2 - (radius * math.sin(angle)) ** 2)
+        # Along a spiral the heading leans outwards, by about layer / (2 π d).
+        return max(THINNEST * radius, 0.85 * (d + radius - hole))
+
+    def _fronts(self, area: shapely.Geometry) -> None:
+        """Move all fronts of an area on; each as far as it goes before the next."""
+        waiting = self._stock(area)
+        layers = 0
+        while waiting and layers < MOST_LAYERS:
+            stock = waiting.pop()
+            layers += 1
+            if self._layer(stock):
+                waiting += self._stock(stock)
+
+    def _stock(self, within: shapely.Geometry) -> list[shapely.Polygon]:
+        """What is not cleared yet, the nearest to the cutter last."""
+        rest = shapely.difference(within, grow(self.cleared, COARSE / 2, COARSE))
+        parts = [part for part in polygons(rest) if part.area > CRUMB * self.radius**2]
+        here = shapely.Point(self.end)
+        return sorted(parts, key=lambda part: -float(shapely.distance(part, here)))
+
+    def _layer(self, stock: shapely.Polygon) -> bool:
+        """Take one layer off a piece of stock; whether it could be done."""
+        # A little more than the layer before could be: fronts bend alike from one layer to the next.
+        thickness = min(straight_layer(self.radius, self.engagement), self.thickness / THINNER)
+        before = self.cleared.area
+        fat = grow(stock, COARSE, COARSE)
+        while thickness >= THINNEST * self.radius:
+            layer = shapely.intersection(grow(self.cleared, thickness, COARSE), fat)
+            if shapely.is_empty(layer):
+                return False
+            # A disc that covers a point of the layer is within two bend radii: no need to look further.
+            here = _window(self.cleared, layer, 2.1 * self.bend)
+            grown = shapely.simplify(shapely.union(here, layer), COARSE / 5)
+            wider = grow(grow(grown, -self.bend, COARSE), self.bend, COARSE)
+            wider = shapely.union(shapely.intersection(wider, fat), self.cleared)
+            if wider.area - before < CRUMB * self.radius**2 / 4:
+                self.thickness = straight_layer(self.radius, self.engagement)
+                return False
+            ways = self._ways(wider, stock, layer)
+            if ways and all(self._holds(way) for way in ways):
+                for way in ways:
+                    self._add(way)
+                # Flakes on the walls are for finishing: without them the walls keep their few corners.
+                rest = opened(shapely.difference(self.area, wider), COARSE)
+                self.cleared = shapely.difference(self.area, shapely.simplify(rest, COARSE / 5))
+                self.thickness = thickness
+                return True
+            thickness *= THINNER
+        self.thickness = straight_layer(self.radius, self.engagement)
+        return False
+
+    def _holds(self, way: Array) -> bool:
+        dense = densified(way, SAMPLE * self.radius)
+        return bool(engagements(dense, self.cleared, self.radius).max() <= self.engagement - MARGIN)
+
+    def _ways(
+        self, wider: shapely.Geometry, stock: shapely.Polygon, layer: shapely.Geometry
+    ) -> list[Array]:
+        """The centre's ways along the new front of a piece of stock, in cutting direction."""
+        radius = self.radius
+        # Edges that the window makes lie in what was clear before, so they are no cuts.
+        centres = grow(_window(wider, layer, 2.5 * radius), COARSE - radius, COARSE)
+        old = grow(_window(self.cleared, layer, 4 * radius), 2 * COARSE - radius, COARSE)
+        near = grow(stock, radius + COARSE, COARSE)
+        shapely.prepare(near)
+        shapely.prepare(old)
+        found = []
+        for part in polygons(centres):
+            for loop in (part.exterior, *part.interiors):
+                ring = densified(shapely.get_coordinates(loop), SAMPLE * radius)
+                # Along the edge of what is cleared, stock on the right for climb.
+                if (
+                    shapely.is_ccw(loop) != self.climb
+                    if loop is part.exterior
+                    else shapely.is_ccw(loop) == self.climb
+                ):
+                    ring = ring[::-1]
+                x, y = ring.T
+                cuts = (~shapely.contains_xy(old, x, y) & shapely.contains_xy(near, x, y))[:-1]
+                found += self._runs(ring, cuts)
+        return found
+
+    def _runs(self, ring: Array, cuts: NDArray[np.bool_]) -> list[Array]:
+        """The stretches of a ring that cut, with a run-up at both ends."""
+        if not cuts.any():
+            return []
+        count = len(cuts)
+        more = max(1, math.ceil(RUN_UP / SAMPLE))
+        if cuts.all():
+            return [np.concatenate((ring, ring[1 : more + 1]))]
+        shift = int(np.flatnonzero(~cuts)[0])
+        turned, flags = np.roll(ring[:-1], -shift, axis=0), np.roll(cuts, -shift)
+        edges = np.diff(np.concatenate(([False], flags, [False])).astype(int))
+        runs = []
+        for first, last in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
+            index = np.arange(first - more, min(last + more, first - more + count)) % count
+            runs.append(turned[index])
+        return runs
+
+    def _add(self, points: Array) -> None:
+        path = fit(points, FITTING)
+        if not path.cuts:
+            return
+        linked = False
+        if self.end is not None:
+            way = shapely.LineString([self.end, path.start])
+            free = grow(self.cleared, 3 * COARSE - self.radius, COARSE)
+            linked = bool(way.length == 0 or shapely.covers(free, way))
+        self.passes.append(Pass(path, linked))
+        self.end = path.end
+
+
+def _window(shape: shapely.Geometry, around: shapely.Geometry, margin: float) -> shapely.Geometry:
+    """The part of a shape in a box around another."""
+    x0, y0, x1, y1 = around.bounds
+    return shapely.intersection(shape, shapely.box(x0 - margin, y0 - margin, x1 + margin, y1 + margin))
+
+
+def _disc(centre: Point, radius: float) -> shapely.Polygon:
+    return grow(shapely.Point(centre), radius, COARSE / 5)
+
+
+def write(cavities: list[Cavity], pen: Pen, top: float, bottom: float, step_down: float, climb: bool) -> None:
+    """Write the moves of all cavities, each level by level from ``top`` to ``bottom``, z in mm."""
+    for cavity in cavities:
+        above = top
+        for z in levels(top, bottom, step_down):
+            _enter(pen, cavity, above, z, climb)
+            for one in cavity.passes:
+                if one.linked:
+                    pen.straight(one.path.start, pen.air)
+                else:
+                    pen.above(one.path.start)
+                    pen.sink(z)
+                pen.follow(one.path)
+            above = z
+    pen.retract()
+
+
+def _enter(pen: Pen, cavity: Cavity, above: float, z: float, climb: bool) -> None:
+    """Down along a helix, and once round at the bottom."""
+    x, y = cavity.centre
+    turn = circle(cavity.centre, cavity.helix, (x + cavity.helix, y), climb)
+    pen.above(turn.start)
+    pen.sink(above)
+    pitch = math.tau * cavity.helix * pen.slope * 0.999  # a little less than the steepest, for rounding
+    for height in levels(above, z, pitch):
+        pen.descend(turn, height)
+    pen.follow(turn)

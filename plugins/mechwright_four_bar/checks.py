@@ -1,0 +1,264 @@
+"""What an engineer would object to in a four-bar, and the figures worth knowing.
+
+The checks run from the lengths to the forces. Each group needs what the groups before it have found to be
+sound, so the first group with an error ends the list.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from itertools import combinations
+
+from mechwright.errors import GeometryError
+from mechwright.findings import Finding, Severity, errors
+from mechwright_four_bar.dimensions import FourBar, Kind
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
+
+LEAST_ROOM = 1e-6
+"""Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
+which way the linkage goes through the line-up is left to chance."""
+
+GOOD_TRANSMISSION = 40.0
+"""Degrees below which the coupler mainly presses the follower into its bearing (VDI 2127: 40 to 50)."""
+
+LEAST_TRANSMISSION = 1.0
+"""Degrees below which play and bending let the linkage change its branch."""
+
+BEARING_PRESSURE = 10.0
+"""N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
+
+_CACHED = 64
+"""Designs whose findings are kept: parts and motion ask for them again."""
+
+
+@lru_cache(_CACHED)
+def findings(params: FourBarParams) -> tuple[Finding, ...]:
+    """Everything that is to be said about a design. No error among it means that the parts can be built."""
+    found: list[Finding] = []
+    groups: tuple[Callable[[FourBarParams], Iterator[Finding]], ...] = (
+        _turning,
+        _transmission,
+        _room,
+        _layers,
+        _figures,
+        _bearings,
+    )
+    for group in groups:
+        found += group(params)
+        if errors(found):
+            break
+    return tuple(found)
+
+
+def _turning(params: FourBarParams) -> Iterator[Finding]:
+    """Whether the loop closes and the crank turns fully."""
+    bar = bar_of(params)
+    if not bar.closes:
+        name, longest = max(
+            zip(("crank", "coupler", "follower", "ground"), bar.lengths, strict=True),
+            key=lambda pair: pair[1],
+        )
+        limit = sum(bar.lengths) - longest
+        yield Finding(
+            "four-bar.closure",
+            Severity.ERROR,
+            name,
+            f"the links cannot be joined: the {name} of {longest:g} mm is longer than the others together, "
+            f"{limit:g} mm",
+            longest,
+            limit,
+            "mm",
+            f"make {name} at most {_below(limit)}",
+        )
+        return
+    least = LEAST_ROOM * max(bar.lengths)
+    if bar.crank_room >= least:
+        return
+    change = bar.kind is Kind.CHANGE_POINT or bar.crank_room >= 0
+    parameter, value, near, remedy = _nearest_turning(bar, least)
+    yield Finding(
+        "four-bar.change-point" if change else "four-bar.rotation",
+        Severity.ERROR,
+        parameter,
+        "all links line up once a turn, and nothing decides how the linkage goes on"
+        if change
+        else f"the crank of {bar.crank:g} mm cannot turn fully ({bar.kind.value})",
+        value,
+        near,
+        "mm",
+        remedy,
+    )
+
+
+def _nearest_turning(bar: FourBar, room: float) -> tuple[str, float, float, str]:
+    """The parameter to change, its value, the nearest one with which the crank turns, and how to say so."""
+    a, c, b, f = bar.lengths
+    ranges = (
+        ("crank", a, 0.0, min(b + c - f, f - abs(b - c))),
+        ("crank", a, f + abs(b - c), b + c - f),
+        ("ground", f, a + abs(b - c), b + c - a),
+    )
+    options: list[tuple[float, str, float, float]] = []
+    for name, value, low, high in ranges:
+        if high - low > 2 * room:
+            near = min(max(value, low + room), high - room)
+            options.append((abs(near - value) / value, name, value, near))
+    if not options:
+        # Equal and long enough, coupler and follower let any crank turn.
+        wanted = (a + f) / 2 + room
+        return "coupler", c, wanted, f"make coupler and follower alike, and longer than {_above(wanted)}"
+    _, name, value, near = min(options)
+    side = f"at most {_below(near)}" if near < value else f"at least {_above(near)}"
+    return name, value, near, f"make {name} {side}"
+
+
+def _below(value: float) -> str:
+    """A length rounded down, as a remedy says it."""
+    return f"{math.floor(value * 1e4) / 1e4:g}" if value < 1e3 else f"{math.floor(value * 100) / 100:.2f}"
+
+
+def _above(value: float) -> str:
+    return f"{math.ceil(value * 1e4) / 1e4:g}" if value < 1e3 else f"{math.ceil(value * 100) / 100:.2f}"
+
+
+def _transmission(params: FourBarParams) -> Iterator[Finding]:
+    angle = math.degrees(bar_of(params).least_transmission_angle())
+    if angle >= GOOD_TRANSMISSION:
+        return
+    jams = angle < LEAST_TRANSMISSION
+    yield Finding(
+        "four-bar.transmission",
+        Severity.ERROR if jams else Severity.WARNING,
+        "follower",
+        f"the transmission angle falls to {angle:.3g} degrees",
+        angle,
+        LEAST_TRANSMISSION if jams else GOOD_TRANSMISSION,
+        "deg",
+        "make the crank shorter, or change coupler and follower",
+    )
+
+
+def _room(params: FourBarParams) -> Iterator[Finding]:
+    """Whether the bores of each plate leave material between them."""
+    for name, bosses in bosses_of(params).items():
+        for one, two in combinations(bosses, 2):
+            distance = abs(one.centre - two.centre)
+            needed = (one.bore + two.bore) / 2 + params.rim
+            if distance >= needed:
+                continue
+            point = "coupler-point" in (one.tag, two.tag)
+            yield Finding(
+                "four-bar.bores",
+                Severity.ERROR,
+                "coupler_point_x" if point else name,
+                f"the bores of the {name} are {distance:.4g} mm apart and leave less than the rim of "
+                f"{params.rim:g} mm",
+                distance,
+                needed,
+                "mm",
+                f"move the point at least {_above(needed)} mm from A and B, or take smaller pins"
+                if point
+                else f"make {name} at least {_above(needed)}, or take smaller pins, bushings or rims",
+            )
+    try:
+        outlines_of(params)
+    except GeometryError as error:
+        yield Finding(
+            "four-bar.bend",
+            Severity.ERROR,
+            "coupler_bend",
+            str(error),
+            params.coupler_bend,
+            None,
+            "mm",
+            "make coupler_bend or web_width smaller, or rim larger",
+        )
+
+
+def _layers(params: FourBarParams) -> Iterator[Finding]:
+    try:
+        layers = stack_of(params)
+    except GeometryError as error:
+        yield Finding(
+            "four-bar.layers",
+            Severity.ERROR,
+            "clearance",
+            str(error),
+            params.clearance,
+            None,
+            "mm",
+            "make pins, rims, webs or clearance smaller, or bend the coupler",
+        )
+        return
+    order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
+    height = max(high for _, high in layers.spans.values())
+    yield Finding(
+        "four-bar.stack",
+        Severity.NOTE,
+        "",
+        f"{len(layers.layers)} layers, {height:.4g} mm high: "
+        + ", ".join(f"{name} in {number}" for name, number in order),
+        height,
+        None,
+        "mm",
+    )
+
+
+def _figures(params: FourBarParams) -> Iterator[Finding]:
+    bar = bar_of(params)
+    limits = bar.limits()
+    motion = (
+        "the follower turns fully"
+        if limits is None
+        else f"the follower swings by {math.degrees(limits.swing):.4f} degrees with a time ratio of "
+        f"{limits.time_ratio:.5f}"
+    )
+    least, most = bar.least_transmission_angle(), bar.greatest_transmission_angle()
+    yield Finding(
+        "four-bar.motion",
+        Severity.NOTE,
+        "",
+        f"{bar.kind.value}, {motion}; transmission angle {math.degrees(least):.3f} to "
+        f"{math.degrees(most):.3f} degrees",
+        math.degrees(least),
+        None,
+        "deg",
+    )
+
+
+def _bearings(params: FourBarParams) -> Iterator[Finding]:
+    from mechwright_four_bar.motion import peaks_of, speed_of
+
+    peaks = peaks_of(params, bar_of(params), speed_of(params))
+    widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
+    joint, pressure = max(
+        (
+            (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))
+            for joint, width in widths.items()
+        ),
+        key=lambda pair: pair[1],
+    )
+    force = peaks[f"force_{joint}"].value
+    if pressure > BEARING_PRESSURE:
+        yield Finding(
+            "four-bar.bearing-pressure",
+            Severity.WARNING,
+            "pin_diameter",
+            f"joint {joint} carries up to {force:.4g} N, {pressure:.4g} N/mm² on its bearing",
+            pressure,
+            BEARING_PRESSURE,
+            "N/mm^2",
+            "take thicker pins or plates, a smaller load or a lower speed",
+        )
+    yield Finding(
+        "four-bar.forces",
+        Severity.NOTE,
+        "",
+        f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to "
+        f"{force:.4g} N, and the moving masses shake the ground with up to "
+        f"{peaks['shaking_force'].value:.4g} N",
+        peaks["drive_torque"].value,
+        None,
+        "N*m",
+    )

@@ -1,0 +1,134 @@
+"""Masses of the links from their real parts, forces in the joints, and the balance of the shaking force."""
+
+import cmath
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from mechwright.linkage import Mass, cylinder_mass, plate_mass, together
+from mechwright.motion import Array
+from mechwright.planar import BodyMotion
+from mechwright.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.loop import Loop
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.plates import (
+    HEAD,
+    HEAD_HEIGHT,
+    joints_of,
+    outlines_of,
+    pin_length,
+    stack_of,
+    turning_bore,
+)
+
+PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
+"""Those of the shared turned parts."""
+
+MILLI = 1e-3
+"""Forces are computed in mN, from kg, mm and s."""
+
+MICRO = 1e-6
+"""Moments are computed in mN mm."""
+
+
+@lru_cache(16)
+def masses_of(params: FourBarParams) -> dict[str, Mass]:
+    """Mass of crank, coupler and follower with what is pressed into them, in their own frames."""
+    outlines, layers = outlines_of(params), stack_of(params)
+    found = {
+        name: [plate_mass(outlines[name], params.thickness, params.material)]
+        for name in ("crank", "coupler", "follower")
+    }
+    diameter = params.pin_diameter
+    for name, joint in joints_of(params).items():
+        if joint.body == "ground":
+            continue
+        pin = [cylinder_mass(diameter, pin_length(params, layers, name), PIN_MATERIAL, joint.place)]
+        if name != "shaft":
+            pin.append(cylinder_mass(HEAD * diameter, HEAD_HEIGHT * diameter, PIN_MATERIAL, joint.place))
+        found[joint.body] += pin
+    if params.bushing_wall > 0:
+        for body, place in (("coupler", 0j), ("coupler", complex(params.coupler)), ("follower", 0j)):
+            found[body].append(
+                cylinder_mass(
+                    turning_bore(params),
+                    params.thickness,
+                    BUSHING_MATERIAL,
+                    place,
+                    diameter + params.running_fit,
+                )
+            )
+    return {name: together(parts) for name, parts in found.items()}
+
+
+def joint_forces(
+    bar: FourBar,
+    loop: Loop,
+    bodies: dict[str, BodyMotion],
+    masses: dict[str, Mass],
+    load_torque: Array | float,
+) -> Forces:
+    """Forces in the joints and torque of the drive, mN and mN mm.
+
+    Parameters
+    ----------
+    bar, loop, bodies
+        The linkage, its positions (n,), and their motion over time.
+    masses
+        Of the moving bodies, in their frames.
+    load_torque
+        Torque of the load on the follower, mN mm, counter-clockwise.
+
+    ``joints`` holds A0 (ground on crank), A (crank on coupler), B (coupler on follower), B0 (ground on
+    follower).
+    """
+    links = [
+        Link(name, body, masses[name].mass, masses[name].centre, masses[name].inertia)
+        for name, body in bodies.items()
+    ]
+    ones = np.ones(loop.phi.shape, dtype=complex)
+    pivot = bar.ground * cmath.exp(1j * bar.ground_angle)
+    joints = [
+        Pin("A0", GROUND, "crank", 0 * ones),
+        Pin("A", "crank", "coupler", loop.joint_a),
+        Pin("B", "coupler", "follower", loop.joint_b),
+        Pin("B0", GROUND, "follower", pivot * ones),
+    ]
+    load = Load("follower", 0 * ones, pivot * ones, load_torque)
+    return forces(links, joints, "crank", [load])
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """Counterweights that make the shaking force vanish at any speed.
+
+    Parameters
+    ----------
+    crank, follower
+        What is to be added to each: mass times place in its own frame, kg mm, x + i y.
+    """
+
+    crank: complex
+    follower: complex
+
+
+def force_balance(bar: FourBar, masses: dict[str, Mass]) -> Balance:
+    """Full force balance by counterweights on crank and follower (Berkof and Lowen 1969).
+
+    The common centre of mass rests where m2 r2 = -m3 a (1 - r3/c) and m4 r4 = -m3 r3 b/c, with r3 the centre
+    of the coupler from A, along A-B and across.
+    """
+    crank, coupler, follower = masses["crank"], masses["coupler"], masses["follower"]
+    share = coupler.centre / bar.coupler
+    return Balance(
+        -coupler.mass * bar.crank * (1 - share) - crank.mass * crank.centre,
+        -coupler.mass * bar.follower * share - follower.mass * follower.centre,
+    )
+
+
+def degrees_of(moment: complex) -> float:
+    """Direction of a counterweight in its link's frame, deg, 0 to 360."""
+    return math.degrees(cmath.phase(moment)) % 360

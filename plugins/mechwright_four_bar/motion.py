@@ -1,0 +1,145 @@
+"""The motion of a design: channels, poses and figures over one turn of the crank."""
+
+import math
+
+import numpy as np
+
+from mechwright.errors import DesignError, KinematicsError
+from mechwright.findings import errors
+from mechwright.motion import Array, Channel, Motion, Scalar
+from mechwright.planar import BodyMotion, PointMotion, acceleration_pole
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.loop import close
+from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
+
+PEAK_SAMPLES = 1441
+"""Positions at which peaks are sought: four a degree."""
+
+
+def speed_of(params: FourBarParams) -> float:
+    """Angular velocity of the crank, rad/s, positive counter-clockwise."""
+    return (1.0 if params.direction == "ccw" else -1.0) * params.speed * math.tau / 60
+
+
+def motion_of(params: FourBarParams, samples: int) -> Motion:
+    """Sample one turn of the crank at constant speed, both ends included.
+
+    Raises
+    ------
+    DesignError
+        Fewer than two samples.
+    KinematicsError
+        ``check`` finds an error; the message is that of the first one.
+    """
+    from mechwright_four_bar.checks import findings
+
+    if samples < 2:
+        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
+    for finding in errors(findings(params)):
+        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    bar, omega = bar_of(params), speed_of(params)
+    phi = crank_angles(params, samples)
+    loop = close(bar, phi)
+    bodies = loop.bodies(bar, omega)
+    channels = {
+        "phi": Channel(phi, "rad"),
+        "time": Channel(phi / omega, "s"),
+        "omega_a": Channel(np.full(samples, omega), "rad/s"),
+    }
+    for name, letter in (("coupler", "c"), ("follower", "b")):
+        turning = bodies[name].turning
+        channels |= {
+            "sigma" if letter == "c" else "psi": Channel(turning.theta, "rad"),
+            f"omega_{letter}": Channel(turning.omega, "rad/s"),
+            f"alpha_{letter}": Channel(turning.alpha, "rad/s^2"),
+            f"jerk_{letter}": Channel(turning.jerk, "rad/s^3"),
+        }
+    cosine = (loop.coupler.direction * np.conj(loop.follower.direction)).real
+    channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
+    pivot = pivot_of(params)
+    if params.coupler_point is not None:
+        channels |= _point_channels("P", bodies["coupler"].point(params.coupler_point), pivot)
+    pole = acceleration_pole(bodies["coupler"])
+    channels |= {
+        "xG": Channel((pole.fixed + pivot).real, "mm"),
+        "yG": Channel((pole.fixed + pivot).imag, "mm"),
+        "xG_coupler": Channel(pole.moving.real, "mm"),
+        "yG_coupler": Channel(pole.moving.imag, "mm"),
+    }
+    masses = masses_of(params)
+    carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
+    for joint, force in carried.joints.items():
+        channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
+    channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
+    channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+    return Motion("phi", channels, frames_of(params, bodies), _figures(params, bar, omega))
+
+
+def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:
+    """Place, velocity, acceleration and jerk of a point, by coordinates."""
+    found = {}
+    for prefix, value, unit in (
+        ("", point.position + pivot, "mm"),
+        ("v", point.velocity, "mm/s"),
+        ("a", point.acceleration, "mm/s^2"),
+        ("j", point.jerk, "mm/s^3"),
+    ):
+        found[f"{prefix}x{name}"] = Channel(value.real, unit)
+        found[f"{prefix}y{name}"] = Channel(value.imag, unit)
+    return found
+
+
+def _figures(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
+    figures = {
+        "least_transmission_angle": Scalar(bar.least_transmission_angle(), "rad"),
+        "greatest_transmission_angle": Scalar(bar.greatest_transmission_angle(), "rad"),
+        "grashof_excess": Scalar(bar.grashof_excess, "mm"),
+    }
+    limits = bar.limits()
+    if limits is not None:
+        figures |= {
+            "swing": Scalar(limits.swing, "rad"),
+            "time_ratio": Scalar(limits.time_ratio, ""),
+            "limit_extended": Scalar((limits.extended + bar.ground_angle) % math.tau, "rad"),
+            "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
+        }
+    for name, value in peaks_of(params, bar, omega).items():
+        figures[f"{name}_max"] = value
+    masses = masses_of(params)
+    for name, mass in masses.items():
+        figures[f"mass_{name}"] = Scalar(mass.mass, "kg")
+    balance = force_balance(bar, masses)
+    return figures | _balance_figures(balance)
+
+
+def _balance_figures(balance: Balance) -> dict[str, Scalar]:
+    return {
+        f"balance_{name}_{axis}": Scalar(value, "kg*mm")
+        for name, moment in (("crank", balance.crank), ("follower", balance.follower))
+        for axis, value in (("x", moment.real), ("y", moment.imag))
+    }
+
+
+def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
+    """Largest sizes over a turn of rates, joint forces and drive torque."""
+    phi = np.linspace(0, math.tau, PEAK_SAMPLES)
+    loop = close(bar, phi)
+    bodies: dict[str, BodyMotion] = loop.bodies(bar, omega)
+    carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
+    turning = bodies["follower"].turning
+
+    def most(values: Array, unit: str) -> Scalar:
+        return Scalar(float(np.abs(values).max()), unit)
+
+    return {
+        "omega_b": most(turning.omega, "rad/s"),
+        "alpha_b": most(turning.alpha, "rad/s^2"),
+        "drive_torque": most(carried.drive * MICRO, "N*m"),
+        "shaking_force": most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
+        **{
+            f"force_{joint}": most(np.asarray(np.abs(force)) * MILLI, "N")
+            for joint, force in carried.joints.items()
+        },
+    }

@@ -1,0 +1,55 @@
+"""What a user asks of a Geneva mechanism that is still to be found."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mechwright.parameters import Parameters
+from mechwright.units import Millimetres, RevPerMin, Seconds, Unit
+from mechwright_geneva.params import MaterialName
+
+SmoothLaw = Literal["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"]
+
+
+class IndexingRequirement(Parameters):
+    """A wheel with a number of stops that has to move within a time, in a given space, under a given load.
+
+    Examples
+    --------
+    >>> IndexingRequirement(slots=6, index_time="300 ms").index_time
+    0.3
+    """
+
+    slots: int = Field(4, ge=3, le=12, description="Number of stops n.")
+    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Speed of the driver, one roller.")
+    index_time: Seconds = Field(
+        0.3, gt=0, le=1e5, description="Longest time that a movement may take; the rest of the turn is dwell."
+    )
+    overall_length: Millimetres = Field(
+        300.0, ge=20, le=5000, description="Longest side of the mechanism: wheel and crank along their axes."
+    )
+    load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
+        0.01, description="Moment of inertia that turns with the wheel."
+    )
+    load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
+        0.0, description="Constant torque against the wheel's turning."
+    )
+    pressure_limit: Annotated[float, Field(gt=0, le=1e5), Unit("MPa")] | None = Field(
+        None, description="Greatest Hertz pressure; left out, the one at which the softer material yields."
+    )
+    acceleration_limit: Annotated[float, Field(gt=0, le=1e9), Unit("rad/s^2")] | None = Field(
+        None, description="Greatest acceleration of the wheel; left out, any."
+    )
+    laws: tuple[SmoothLaw, ...] = Field(
+        ("cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"),
+        min_length=1,
+        description="Laws that come into question.",
+    )
+    least_wall: Millimetres = Field(2.0, ge=0.2, le=50, description="Thinnest wall that may stay anywhere.")
+    thickness: Millimetres = Field(12.0, ge=1, le=200, description="Thickness of the wheel, floor included.")
+    floor: Millimetres = Field(3.0, ge=0.2, le=100, description="Thickness of the floor under the grooves.")
+    bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the wheel; 0 for none.")
+    driver_bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the driver; 0 for none.")
+    material: MaterialName = Field("steel", description="Material of the plates.")
+    roller_material: MaterialName = Field("steel", description="Material of rollers and pins.")
+    designs: int = Field(5, ge=1, le=50, description="Number of designs wanted.")

@@ -1,0 +1,177 @@
+"""From a requirement to designs: lengths, plates that can be built, and the simulated proof."""
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from mechwright.findings import Finding, Severity, errors
+from mechwright.motion import Scalar
+from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright_slider_crank.checks import findings
+from mechwright_slider_crank.figures import least_transmission_angle
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, through_poles
+from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
+from mechwright_slider_crank.simulate import simulated
+from mechwright_slider_crank.sizes import sizes_of
+from mechwright_slider_crank.stroke import bounds, lengths_of
+
+Design = SliderCrankParams
+
+_PIN_SHARES = (1.0, 0.75, 0.5)
+"""Pins that are tried, over the usual ones: where the parts are in each other's way, slender ones may do."""
+
+LEAST_PIN = 1.5
+"""mm, the thinnest pin that a synthesis chooses by itself."""
+
+
+def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
+    """The first design of these lengths that has no error: the stoutest pins, and a disc before an arm.
+
+    Without one, the text says why.
+    """
+    try:
+        usual = Design.model_validate(lengths)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
+    pin, why = sizes_of(usual).pin, ""
+    for share, shape in product(_PIN_SHARES, ("disc", "arm")):
+        thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * pin, 1))}
+        params = Design.model_validate({**lengths, **thinner, "crank_shape": shape})
+        found = errors(findings(params))
+        if not found:
+            return params, ""
+        why = why or f"{found[0].parameter}: {found[0].message}"
+    return None, why
+
+
+def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
+    """Both mirror images of the slider-crank with this stroke and time ratio."""
+    refused = tuple(bounds(wanted))
+    if refused:
+        return Synthesis((), refused)
+    lengths = lengths_of(wanted)
+    candidates: list[Candidate[Design]] = []
+    why = ""
+    for offset in (lengths.offset, -lengths.offset):
+        params, why = buildable(
+            {
+                "crank": lengths.crank,
+                "rod": lengths.rod,
+                "offset": offset,
+                "slide_direction": wanted.slide_direction,
+            }
+        )
+        if params is None:
+            continue
+        stroke, ratio = simulated(params.linkage)
+        figures = {
+            "mu_min": Scalar(_transmission(params), "deg"),
+            "stroke_simulated": Scalar(stroke, "mm"),
+            "time_ratio_simulated": Scalar(ratio, ""),
+            **_lengths(params),
+        }
+        candidates.append(Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures))
+    if candidates:
+        return Synthesis(tuple(candidates))
+    fault = Finding(
+        "slider-crank.not-buildable",
+        Severity.ERROR,
+        "crank",
+        f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this "
+        f"stroke and time ratio, but cannot be built: {why}",
+        remedy="choose another length inside its range, or a larger stroke",
+    )
+    return Synthesis((), (fault,))
+
+
+def _lengths(params: Design) -> dict[str, Scalar]:
+    return {
+        "crank": Scalar(params.crank, "mm"),
+        "rod": Scalar(params.rod, "mm"),
+        "offset": Scalar(params.offset, "mm"),
+    }
+
+
+def _transmission(params: Design) -> float:
+    return math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
+
+
+def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design]:
+    """Slider-cranks through the poles, by transmission angle."""
+    turn = np.exp(-1j * math.radians(wanted.slide_direction))
+    places = np.array([complex(x, y) for x, y in wanted.poles]) * turn
+    solutions, best = through_poles(
+        places, np.radians(np.array(wanted.rotations, dtype=float)), wanted.starts, wanted.seed, progress
+    )
+    candidates: list[Candidate[Design]] = []
+    notes: list[Finding] = []
+    for found in solutions:
+        params, why = buildable(
+            {
+                "crank": found.crank,
+                "rod": found.rod,
+                "offset": found.offset,
+                "assembly": _side(found),
+                "slide_direction": wanted.slide_direction,
+            }
+        )
+        if params is None:
+            notes.append(_left_out(found, why))
+            continue
+        if any(params == other.params for other in candidates):
+            continue  # the same linkage meets the poles at other crank angles as well
+        angles = {
+            f"phi_{number}": Scalar((math.degrees(angle) + wanted.slide_direction) % 360, "deg")
+            for number, angle in enumerate(found.angles, start=1)
+        }
+        figures = {"mu_min": Scalar(_transmission(params), "deg"), **_lengths(params), **angles}
+        candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
+    if not candidates:
+        notes.insert(0, _none_found(notes, best, wanted))
+    return Synthesis(tuple(candidates), tuple(notes))
+
+
+def _side(found: Found) -> str:
+    return "ahead" if found.branch > 0 else "behind"
+
+
+def _left_out(found: Found, why: str) -> Finding:
+    return Finding(
+        "slider-crank.left-out",
+        Severity.NOTE,
+        "",
+        f"crank {found.crank:.6g}, rod {found.rod:.6g}, offset {found.offset:.6g} mm, {_side(found)}, has "
+        f"the poles as well, but cannot be built: {why}",
+        found.residual,
+        None,
+        "mm",
+    )
+
+
+def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequirement) -> Finding:
+    if left_out:
+        return Finding(
+            "slider-crank.not-buildable",
+            Severity.ERROR,
+            "poles",
+            f"{len(left_out)} slider-cranks have these poles, but none can be built: {left_out[0].message}",
+            remedy="scale the poles up, or move them",
+        )
+    nearest = f"the best residual found is {best:.4g} mm" if math.isfinite(best) else "none came near"
+    return Finding(
+        "slider-crank.no-solution",
+        Severity.ERROR,
+        "poles",
+        f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; "
+        f"{nearest}",
+        best if math.isfinite(best) else None,
+        ACCURACY * max(math.hypot(*place) for place in wanted.poles),
+        "mm",
+        "move a pole, change the rotation, or give more starts",
+    )

@@ -1,0 +1,120 @@
+"""Adaptive clearing: engagement, coverage, and the proof of what it makes part of."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from engagement import engagements
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from planning_parts import LIBRARY, job, plate, rounded_box
+from planning_simulation import check_rules
+
+from mechwright.part import Pocket, Profile
+from mechwright.program import FeedArc
+from mechwright_cam.planning import plan
+from mechwright_cam.planning.adaptive import BENDS, clear, straight_layer
+from mechwright_cam.planning.adaptive import engagements as planned
+from mechwright_cam.planning.clearing import COARSE_FROM
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+MILL = LIBRARY.get("mill-8")
+BOX = shapely.Polygon(rounded_box(32, 26, 6).flatten())
+RING = BOX.difference(shapely.box(-2, -1, 2, 1))
+TEE = shapely.union_all([shapely.box(-18, -6.5, 18, 6.5), shapely.box(-7, -15, 7, 0)])
+BOUND = 5.0
+"""Degrees by which the simulated engagement may exceed the set one."""
+
+
+def recess(**changes):
+    pocket = Pocket("recess", rounded_box(26, 18, 4), (), 0, 4)
+    outside = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6)
+    return job(plate(machined=(pocket, outside)), "mill-6", "mill-4", **changes)
+
+
+def test_engagement_on_a_straight_front_is_the_closed_form():
+    cleared = shapely.box(-50, -50, 50, 0)
+    for angle in (30, 60, 90, 120):
+        layer = straight_layer(4.0, math.radians(angle))
+        way = np.array([[-1.0, layer - 4.0], [1.0, layer - 4.0]])
+        # Stock above the way: on the left, from the outward normal forwards to where the front is crossed.
+        found = math.degrees(planned(way, cleared, 4.0)[0])
+        assert found == pytest.approx(min(angle, 90) if angle <= 90 else angle, abs=4)
+
+
+def test_engagement_in_a_slot_is_a_half_turn():
+    assert math.degrees(planned(np.array([[0, 0], [1, 0]]), shapely.Polygon(), 4.0)[0]) >= 178
+
+
+@pytest.mark.parametrize("area", [BOX, RING, TEE], ids=["box", "ring", "tee"])
+@pytest.mark.parametrize(("angle", "climb"), [(60, True), (100, False)])
+def test_engagement_stays_below_the_angle(area, angle, climb):
+    for cavity in clear(area, MILL, math.radians(angle), climb):
+        found = engagements(cavity, MILL.radius, area.bounds)
+        assert found.max() <= angle + BOUND
+        assert found.max() > angle / 2  # and is used
+
+
+@settings(max_examples=4, deadline=None, suppress_health_check=list(HealthCheck))
+@given(seed=st.integers(0, 10**6), angle=st.sampled_from([60, 80, 100]))
+def test_engagement_in_random_areas(seed, angle):
+    rng = np.random.default_rng(seed)
+    turn = np.sort(rng.uniform(0, math.tau, 7))
+    far = rng.uniform(9, 15, 7)
+    area = shapely.Polygon(np.column_stack((far * np.cos(turn), far * np.sin(turn)))).buffer(0)
+    area = max(shapely.get_parts(area.union(shapely.Point(0, 0).buffer(9))), key=lambda p: p.area)
+    cavities = clear(area, MILL, math.radians(angle), True)
+    assert cavities
+    for cavity in cavities:
+        assert engagements(cavity, MILL.radius, area.bounds, 32).max() <= angle + BOUND
+        for one in cavity.passes:
+            assert shapely.covers(
+                area.buffer(COARSE_FROM), shapely.LineString(one.path.points(0.5)).buffer(MILL.radius)
+            )
+
+
+def test_all_that_is_roomy_is_cleared():
+    bend = BENDS[-1] * MILL.radius
+    for area in (BOX, TEE):
+        cleared = shapely.union_all([cavity.cleared for cavity in clear(area, MILL, math.radians(60), True)])
+        roomy = area.buffer(-bend).buffer(bend)
+        assert roomy.difference(cleared.buffer(0.05)).area < 0.02 * area.area
+
+
+def test_an_area_too_narrow_to_turn_in_is_left():
+    assert clear(shapely.box(0, 0, 40, 2.1 * MILL.radius), MILL, math.radians(60), True) == []
+
+
+def test_adaptive_recess_is_proven():
+    of = recess(clearing="adaptive")
+    program = plan(of)
+    names = [o.name for s in program.sections for o in s.operations]
+    assert (
+        names.index("recess: clear") < names.index("recess: rough the rest") < names.index("recess: finish")
+    )
+    proof = prove(LinuxCncPost().write(program), of)
+    assert proof.ok, [check.message for check in proof.failures]
+    check_rules(of, program)
+
+
+@pytest.mark.parametrize(
+    "change", [{"engagement": 100}, {"adaptive_depth": 0.4}, {"clearing": "contour"}, {"climb": False}]
+)
+def test_every_key_of_adaptive_clearing_counts(change):
+    base = {"clearing": "adaptive", "engagement": 80}
+    assert plan(recess(**base)).sections != plan(recess(**base | change)).sections
+
+
+def test_climb_turns_the_passes_round():
+    def turns(climb):
+        (moves,) = [
+            o.moves
+            for s in plan(recess(clearing="adaptive", engagement=90, climb=climb)).sections
+            for o in s.operations
+            if o.name == "recess: clear"
+        ]
+        return sum((1 if m.ccw else -1) for m in moves if isinstance(m, FeedArc))
+
+    assert turns(True) * turns(False) < 0

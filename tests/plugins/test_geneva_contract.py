@@ -1,0 +1,92 @@
+"""The built-in family under the kit that third parties use."""
+
+from typing import ClassVar
+
+from hypothesis import strategies as st
+
+from mechwright.laws import LAWS
+from mechwright.testing import FamilyContract
+from mechwright_geneva.family import Geneva
+
+
+def rows(name, count=21):
+    law = LAWS[name]()
+    return [[k / (count - 1), float(law.at(k / (count - 1)).s)] for k in range(count)]
+
+
+SMALL = {
+    "entry_radius": 60,
+    "roller_radius": 3,
+    "pin_diameter": 4,
+    "thickness": 8,
+    "driver_bore": 6,
+    "fixing": 3,
+}
+
+
+class TestGeneva(FamilyContract):
+    family = Geneva
+    examples = (
+        {"hub_diameter": 36, "keyway_width": 4, "keyway_relief": 2, "thickness": 8},
+        {"slots": 6, "law": "straight", "rollers": 2, "driver_keyway_width": 2, **SMALL, "entry_radius": 80},
+        {"law": "table", "table": rows("modified-sine"), "construction": "backed", "fixing": 2.5},
+        {
+            "law": "polynomial",
+            "polynomial": [0, 0, 0, 10, -15, 6],
+            "offset_angle": -12.5,
+            "crank_half_angle": 45,
+            **SMALL,
+        },
+    )
+    refused = (
+        ({"crank_half_angle": 80}, "crank_half_angle"),
+        ({"offset_angle": 0}, "offset_angle"),
+        ({"roller_radius": 7}, "roller_radius"),
+        ({"bore": 60}, "roller_radius"),
+        ({"construction": "through"}, "construction"),
+        ({"law": "polynomial", "polynomial": [0, 1]}, "polynomial"),
+        ({"law": "table", "table": [[0, 0], [1, 1]]}, "table"),
+        ({"law": "table"}, "table"),
+        ({"lock_radius": 90}, "lock_radius"),
+        ({"floor": 9.8}, "floor"),
+        ({"rollers": 4}, "rollers"),
+    )
+    variations: ClassVar = {
+        "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],
+        "table": [rows("cycloidal")],
+        "load_torque": [0.5],
+    }
+    requirements: ClassVar = {"indexing": ({"laws": ["cycloidal"], "designs": 2},)}
+    max_examples = 15
+
+    def strategy(self):
+        """Random tables near designs that can be built, and any others."""
+        near = st.fixed_dictionaries(
+            {
+                "slots": st.integers(3, 8),
+                "law": st.sampled_from([*LAWS, "straight"]),
+                "roller_radius": st.floats(0.5, 8),
+                "entry_radius": st.floats(40, 150),
+                "pin_diameter": st.floats(0.5, 8),
+                "bore": st.floats(0, 20),
+                "driver_bore": st.floats(0, 12),
+            },
+            optional={
+                "groove_clearance": st.floats(0, 0.5),
+                "rollers": st.integers(1, 3),
+                "lock_radius": st.floats(5, 150),
+                "lock_clearance": st.floats(0.01, 0.5),
+                "least_wall": st.floats(0.5, 4),
+                "thickness": st.floats(1, 30),
+                "construction": st.sampled_from(["auto", "blind", "backed", "through"]),
+                "floor": st.floats(0.5, 6),
+                "keyway_width": st.sampled_from([0, 3, 4, 5]),
+                "hub_diameter": st.floats(0, 60),
+                "fixing": st.floats(0, 6),
+                "load_torque": st.floats(0, 10),
+            },
+        )
+        angles = st.fixed_dictionaries(
+            {}, optional={"crank_half_angle": st.floats(20, 75), "offset_angle": st.floats(-20, 20)}
+        )
+        return st.builds(lambda one, two: {**one, **({} if one["law"] == "straight" else two)}, near, angles)

@@ -1,0 +1,32 @@
+"""The family under the kit that third parties use."""
+
+from mechwright.testing import FamilyContract
+from mechwright_slider_crank.family import SliderCrankFamily
+
+
+class TestSliderCrank(FamilyContract):
+    family = SliderCrankFamily
+    examples = (
+        {},
+        {"crank": 40, "rod": 150, "offset": -20, "assembly": "behind", "rod_width": 8, "clockwise": True},
+        {"coupler_bore": 6, "coupler_x": 60, "coupler_y": 30, "crank_shape": "arm", "slide_direction": 30},
+    )
+    refused = (
+        ({"rod": 39}, "rod"),
+        ({"crank": 6, "rod": 60, "pin": 8}, "crank"),
+        ({"rod": 110, "rod_width": 30}, "rod_width"),
+        ({"rod_bend": 60}, "rod_bend"),
+    )
+    derivatives = (
+        ("phi", "omega"),
+        ("s", "v"),
+        ("v", "a"),
+        ("a", "jerk"),
+        ("sigma", "omega_rod"),
+        ("omega_rod", "alpha_rod"),
+        ("alpha_rod", "jerk_rod"),
+        ("xP", "vxP"),
+        ("vyP", "ayP"),
+        ("axP", "jxP"),
+    )
+    input_rate = "omega"
