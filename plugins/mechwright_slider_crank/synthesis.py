@@ -41,12 +41,8 @@ def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
         return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
     pin, why = sizes_of(usual).pin, ""
     for share, shape in product(_PIN_SHARES, ("disc", "arm")):
-        choice = (
-            {"crank_shape": shape} if share == 1 else {"crank_shape": shape, "pin": round(share * pin, 1)}
-        )
-        if choice.get("pin", LEAST_PIN) < LEAST_PIN:
-            break
-        params = Design.model_validate({**lengths, **choice})
+        thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * pin, 1))}
+        params = Design.model_validate({**lengths, **thinner, "crank_shape": shape})
         found = errors(findings(params))
         if not found:
             return params, ""

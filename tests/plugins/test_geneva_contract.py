@@ -1,5 +1,7 @@
 """The built-in family under the kit that third parties use."""
 
+from typing import ClassVar
+
 from hypothesis import strategies as st
 
 from mechwright.laws import LAWS
@@ -49,14 +51,13 @@ class TestGeneva(FamilyContract):
         ({"floor": 9.8}, "floor"),
         ({"rollers": 4}, "rollers"),
     )
-    variations = {
+    variations: ClassVar = {
         "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],
         "table": [rows("cycloidal")],
         "load_torque": [0.5],
     }
-    derivatives = (("theta_w", "omega_w"),)
-    input_rate = "omega_d"
-    samples = 1441
+    requirements: ClassVar = {"indexing": ({"laws": ["cycloidal"], "designs": 2},)}
+    max_examples = 15
 
     def strategy(self):
         """Random tables near designs that can be built, and any others."""

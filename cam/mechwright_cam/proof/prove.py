@@ -52,7 +52,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     ProgramError
         The text cannot be read; the message names the line.
     """
-    run = _run(text, job, dialect)
+    run = read(text, job, dialect)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
     scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
@@ -104,14 +104,16 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     return left, held, loose
 
 
-def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+def read(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+    """Run a program on the machine of a job; raises ProgramError that names file and line."""
     upper_end = job.settings.machine.retract_z
+    diameters = {tool.number: tool.diameter for tool in job.tools}
     if isinstance(text, str):
-        return interpret(text, dialect, upper_end=upper_end)
+        return interpret(text, dialect, upper_end=upper_end, diameters=diameters)
     runs = []
     for name, one in text.items():
         try:
-            runs.append(interpret(one, dialect, upper_end=upper_end))
+            runs.append(interpret(one, dialect, upper_end=upper_end, diameters=diameters))
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
@@ -119,7 +121,7 @@ def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
 
 def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
     """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
-    paths = Paths(_run(text, job, dialect), {tool.number: tool for tool in job.tools})
+    paths = Paths(read(text, job, dialect), {tool.number: tool for tool in job.tools})
     cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
     gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
     rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)

@@ -1,14 +1,17 @@
 """What the setup sheet says about tools, operations and proof, as plain rows."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.tooling import Tool, ToolKind
+from mechwright_cam.interpreter.arcs import sweep_of
 from mechwright_cam.job import Job
 from mechwright_cam.picture import tool_colours
-from mechwright_cam.trace import Traced
+from mechwright_cam.trace import Stroke, Traced
 
 HOLDER_GAP = 3.0
 """Air between the holder and the highest thing below it, mm: chips pack in less."""
@@ -149,6 +152,43 @@ def spot_rows(proof: Mapping[str, Any]) -> list[dict[str, float | None]]:
         for row in rows
         if _figure(row, "x") is not None and _figure(row, "y") is not None
     ]
+
+
+def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
+    """Least x, least y, greatest x and greatest y that cutters reach at a feed, mm; None without any."""
+    boxes = []
+    for item in traced:
+        radius = item.section.tool.radius
+        for stroke in item.strokes:
+            if stroke.feed <= 0:
+                continue
+            points = [stroke.start[:2], stroke.end[:2], *_turning_points(stroke)]
+            xs, ys = zip(*points, strict=True)
+            boxes.append((min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius))
+    if not boxes:
+        return None
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return min(x0), min(y0), max(x1), max(y1)
+
+
+def _turning_points(stroke: Stroke) -> list[Point]:
+    """Where an arc passes the directions of the axes: there it reaches out furthest."""
+    if stroke.centre is None:
+        return []
+    (x, y), r = stroke.centre, math.dist(stroke.centre, stroke.start[:2])
+    sweep = sweep_of(stroke.start[:2], stroke.end[:2], stroke.centre, stroke.ccw)
+    first = math.atan2(stroke.start[1] - y, stroke.start[0] - x)
+    passed = [
+        quarter * math.pi / 2
+        for quarter in range(4)
+        if (quarter * math.pi / 2 - first) * math.copysign(1, sweep) % math.tau <= abs(sweep)
+    ]
+    return [(x + r * math.cos(angle), y + r * math.sin(angle)) for angle in passed]
+
+
+def load_rows(proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """What the simulation says of each tool."""
+    return list((proof.get("simulation") or {}).get("tools") or ())
 
 
 def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:
