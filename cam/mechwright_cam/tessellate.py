@@ -79,15 +79,15 @@ def triangle_count(shape: cq.Shape) -> int:
     return sum(mesh.NbTriangles() for mesh in meshes if mesh is not None)
 
 
-def mesh_of(solid: cq.Solid, *, ruled: bool) -> Mesh:
-    """Triangulate a solid and join the faces' triangles along the edges.
+def mesh_of(solid: cq.Solid, *, ruled: bool, tolerance: float = LINEAR) -> Mesh:
+    """Triangulate a solid within ``tolerance``, mm, and join the faces' triangles along the edges.
 
     Raises
     ------
     GeometryError
         The triangles leave a hole.
     """
-    triangulate(solid.wrapped, ruled=ruled)
+    triangulate(solid.wrapped, tolerance, ruled=ruled)
     points: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, ...]] = []
     for face in solid.Faces():

@@ -118,6 +118,8 @@ def test_a_bump_of_a_fiftieth_of_a_millimetre_is_found_between_samples(phase):
     wheel = plate("wheel", bump(0.03))
     stop = plate("stop", Loop.polygon([(20.01, 0), (25, -1), (25, 1)]))
     turning = motion(wheel=spin(phase=math.radians(phase)), stop=STILL)
+    (hit,) = interference([stop, wheel], turning).collisions
+    assert hit.depth == pytest.approx(0.02, abs=0.001)
     (hit,) = interference([wheel, stop], turning).collisions
     assert {hit.first, hit.second} == {"wheel", "stop"}
     assert hit.depth == pytest.approx(0.02, abs=0.001)

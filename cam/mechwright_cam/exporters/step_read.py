@@ -74,7 +74,7 @@ def read_step_outline(source: bytes | Path, tolerance: float = READING) -> list[
             path = Path(folder) / "part.step"
             path.write_bytes(source)
             found = read_step_solids(path)
-    return [_plan(solid, tolerance) for solid in found]
+    return [plan_of(solid, tolerance) for solid in found]
 
 
 def top_face(solid: cq.Solid) -> cq.Face:
@@ -89,7 +89,8 @@ def top_face(solid: cq.Solid) -> cq.Face:
     return max(faces, key=lambda face: face.Center().z)
 
 
-def _plan(solid: cq.Solid, tolerance: float) -> shapely.Polygon:
+def plan_of(solid: cq.Solid, tolerance: float = READING) -> shapely.Polygon:
+    """The plan view of a plate, mm: its uppermost plane face; the outside runs counter-clockwise."""
     face = top_face(solid)
     polygon = shapely.Polygon(
         _ring(face.outerWire(), tolerance), [_ring(wire, tolerance) for wire in face.innerWires()]

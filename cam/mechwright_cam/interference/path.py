@@ -16,8 +16,8 @@ STILL = 1e-9
 """Two bodies that move less than this against each other over the whole motion, mm and rad, are at rest."""
 
 PARALLEL = 1e-9
-"""Most by which the third direction cosine of two plates' normals may miss ±1: an angle of 45 µrad, with which
-a plate of 100 mm leans out of its plane by less than half of the contact tolerance."""
+"""Most by which the third direction cosine of two plates' normals may miss ±1: an angle of 45 µrad, with
+which a plate of 100 mm leans out of its plane by less than what passes as contact."""
 
 LEVEL = 1e-6
 """Plates whose relative height changes less than this over the motion, mm, stay at their heights."""

@@ -1,16 +1,18 @@
 """Plates that stay parallel: an exact comparison in the plane, over the whole motion.
 
-One plate is at rest and the other one moves. The fixed one has lost a skin of ``TOUCH``, so that a fit without
-clearance and the errors of chords are no collision. Two circles are compared in closed form, a pin moves as one
-ball, and everything else edge by edge (see :mod:`mechwright_cam.interference.sweep`).
+One plate is at rest and the other one moves. The fixed one has lost a skin of ``TOUCH``, so that a fit
+without clearance and the errors of chords are no collision. Two circles are compared in closed form, a pin
+moves as one ball, and everything else edge by edge (see :mod:`mechwright_cam.interference.sweep`).
 """
+
+from itertools import product
 
 import numpy as np
 import shapely
 
 from mechwright.motion import Array
 from mechwright_cam.interference.path import Path
-from mechwright_cam.interference.slabs import TOUCH, Ring, Slab
+from mechwright_cam.interference.slabs import TOUCH, Circle, Ring, Slab
 from mechwright_cam.interference.sweep import FLOOR, SAG, Found, sweep
 from mechwright_cam.interference.tree import Tree, ring_edges
 
@@ -34,27 +36,26 @@ def meetings(fixed: Slab, moving: Slab, path: Path) -> Found:
     if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, 0.0)):
         # Whatever follows, they collide: some instants are enough to look for the deepest.
         times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
-        meet = [
-            time for time in times if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, time))
-        ]
-        return Found(np.array(meet), None, 0.0)
+        there = [placed(moving.polygon, path, float(time)) for time in times]
+        return Found(times[shapely.intersects(fixed.core_shape, there)], None, 0.0)
     if path.still:
         return Found(np.empty(0), 0.0, 0.0)
     results = []
-    round_fixed = [ring for ring in fixed.core if ring.centre is not None]
-    round_moving = [ring for ring in moving.rings if ring.centre is not None]
-    for one in round_fixed:
-        results += [_circles(one, two, path) for two in round_moving]
-    edgy_fixed = [ring for ring in fixed.core if ring.centre is None]
-    edgy_moving = [ring for ring in moving.rings if ring.centre is None]
+    round_fixed = [ring.circle for ring in fixed.core if ring.circle is not None]
+    round_moving = [ring for ring in moving.rings if ring.circle is not None]
+    results += [_circles(a, b.circle, path) for a, b in product(round_fixed, round_moving) if b.circle]
+    edgy_fixed = [ring for ring in fixed.core if ring.circle is None]
+    edgy_moving = [ring for ring in moving.rings if ring.circle is None]
     if moving.disc is not None and edgy_fixed:
-        assert moving.disc.centre is not None  # noqa: S101 - a disc is a circle
         ball = Tree.of(moving.disc.centre[None, None], moving.disc.radius)
         results.append(sweep(_edges(edgy_fixed), ball, path))
     elif edgy_fixed and round_moving:
         results.append(sweep(_edges(edgy_fixed), _edges(round_moving), path))
     if edgy_moving:
         results.append(sweep(_edges(list(fixed.core)), _edges(edgy_moving), path))
+    if fixed.points.size and moving.core:
+        # A point loses more than TOUCH with the skin, so it is taken as it is against the other one's core.
+        results.append(sweep(_edges(list(moving.core)), Tree.of(fixed.points), _inverse(path)))
     if not results:  # nothing is left of the fixed slab without its skin
         return Found(np.empty(0), None, np.inf)
     best = min(results, key=lambda found: found.gap)
@@ -69,11 +70,10 @@ def placed(polygon: shapely.Polygon, path: Path, time: float) -> shapely.Polygon
 
 def _far(fixed: Slab, moving: Slab, path: Path) -> bool:
     """Whether circles about the two never come together; samples, and what may lie between two of them."""
-    (here, one), (there, two) = fixed.circle, moving.circle
-    rotation, position = path.at(np.arange(path.samples, dtype=float))
-    centre = rotation @ there + position
+    one, two = fixed.around, moving.around
+    centre = _centre(two, path, np.arange(path.samples, dtype=float))
     steps = np.hypot(*np.diff(centre, axis=0).T) if len(centre) > 1 else np.zeros(1)
-    gap = float(np.hypot(*(centre - here).T).min()) - one - two
+    gap = float(np.hypot(*(centre - one.centre).T).min()) - one.radius - two.radius
     return gap > float(steps.max())
 
 
@@ -87,7 +87,7 @@ def _inverse(path: Path) -> Path:
     return Path(back, -path.attitude)
 
 
-def _circles(one: Ring, two: Ring, path: Path) -> Found:
+def _circles(one: Circle, two: Circle, path: Path) -> Found:
     """When two circles meet: the distance of their centres is between difference and sum of the radii."""
     low, high = abs(one.radius - two.radius), one.radius + two.radius
     start, step = np.arange(path.samples - 1, dtype=float), 1.0
@@ -111,10 +111,9 @@ def _circles(one: Ring, two: Ring, path: Path) -> Found:
     return Found(np.unique(np.concatenate(hits)), closest, gap)
 
 
-def _centre(ring: Ring, path: Path, times: Array) -> Array:
+def _centre(circle: Circle, path: Path, times: Array) -> Array:
     rotation, position = path.at(times)
-    assert ring.centre is not None  # noqa: S101 - asked for circles only
-    centre: Array = rotation @ ring.centre + position
+    centre: Array = rotation @ circle.centre + position
     return centre
 
 

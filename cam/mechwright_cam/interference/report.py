@@ -94,8 +94,8 @@ class Report:
                 "interference.collision",
                 Severity.ERROR,
                 "",
-                f"{hit.first} and {hit.second} stand in each other, {hit.depth:.3f} mm deep at {hit.instant}, "
-                f"near X{x:.2f} Y{y:.2f} Z{z:.2f}{more}",
+                f"{hit.first} and {hit.second} stand in each other, {hit.depth:.3f} mm deep at "
+                f"{hit.instant}, near X{x:.2f} Y{y:.2f} Z{z:.2f}{more}",
                 hit.depth,
                 0.0,
                 "mm",

@@ -17,7 +17,7 @@ _NONE = 1e-30
 """A squared axis this short is no direction."""
 
 
-def separation(fixed: Array, moving: Array, middle: Array) -> Array:
+def separation(fixed: Array, moving: Array, middle: Array, enough: Array | float) -> Array:
     """The best gap (n,), mm, that any axis shows; negative where none separates.
 
     Parameters
@@ -28,14 +28,29 @@ def separation(fixed: Array, moving: Array, middle: Array) -> Array:
         (j, d, n) all points that the moving pieces come to.
     middle
         (i, d, n) corners of the moving pieces in the middle of the interval, which give the axes.
+    enough
+        Gap, mm, one or (n,), above which no better one is looked for.
     """
-    best = np.full(fixed.shape[2], -np.inf)
-    for axis in _plane_axes(fixed, middle) if fixed.shape[1] == 2 else _space_axes(fixed, middle):
-        np.maximum(best, _gap(fixed, moving, axis), out=best)
+    if fixed.shape[1] == 2:
+        return _best(fixed, moving, _plane_axes(fixed, middle))
+    # Most pairs lie before each other's faces; only the others need the many axes between edges.
+    best = _best(fixed, moving, _normals(fixed, middle))
+    left = np.flatnonzero(best <= enough)
+    if left.size:
+        some = fixed[..., left], moving[..., left]
+        best[left] = np.maximum(best[left], _best(*some, _space_axes(some[0], middle[..., left])))
     return best
 
 
-def _gap(fixed: Array, moving: Array, axis: Array) -> Array:
+def _best(fixed: Array, moving: Array, axes: Iterator[Array]) -> Array:
+    best = np.full(fixed.shape[2], -np.inf)
+    for axis in axes:
+        np.maximum(best, gap_along(fixed, moving, axis), out=best)
+    return best
+
+
+def gap_along(fixed: Array, moving: Array, axis: Array) -> Array:
+    """Gap (n,), mm, of the projections of points (k, d, n) and (j, d, n) on axes (d, n) of any length."""
     square = dot(axis, axis)
     low, high = _reach(fixed, axis)
     least, most = _reach(moving, axis)
@@ -78,16 +93,19 @@ def _normal(vector: Array) -> Array:
     return np.stack((-vector[1], vector[0]))
 
 
+def _normals(fixed: Array, middle: Array) -> Iterator[Array]:
+    for corners in (fixed, middle):
+        yield _cross(corners[1] - corners[0], corners[2] - corners[0])
+
+
 def _space_axes(fixed: Array, middle: Array) -> Iterator[Array]:
     one = [fixed[(i + 1) % 3] - fixed[i] for i in range(3)]
     two = [middle[(i + 1) % 3] - middle[i] for i in range(3)]
-    first, second = _cross(one[0], one[1]), _cross(two[0], two[1])
-    yield first
-    yield second
     for a in one:
         for b in two:
             yield _cross(a, b)
     # In one plane the crosses of edges are all normal to it: the edges' own normals separate there.
+    first, second = _cross(one[0], one[1]), _cross(two[0], two[1])
     for a in one:
         yield _cross(first, a)
     for b in two:

@@ -33,22 +33,34 @@ own deviation."""
 _LEAST_ROUND = 8
 """Corners of a circle, at least: fewer are a polygon that happens to have a circle through its corners."""
 
+_SHARP = 0.01
+"""Cosine of a corner's angle from which it is sharper than a right one."""
+
+_NO_EDGES = np.empty((0, 2, 2))
+
 _THIN = 1e-6
 """Layers thinner than this are rounding, mm."""
 
 
 @dataclass(frozen=True)
+class Circle:
+    """A circle: centre (2,) and radius, mm."""
+
+    centre: Array
+    radius: float
+
+
+@dataclass(frozen=True)
 class Ring:
-    """A loop of a slab: its corners (n, 2), mm, and its centre and radius, mm, if it is a whole circle."""
+    """A loop of a slab: its corners (n, 2), mm, whether it is a hole, and the circle that it is, if any."""
 
     points: Array
     hole: bool
-    centre: Array | None = None
-    radius: float = 0.0
+    circle: Circle | None = None
 
     @classmethod
     def of(cls, points: Array, hole: bool) -> "Ring":
-        """Look at a closed polygon (n, 2) with fine chords, the first corner not repeated, and thin it out."""
+        """Look at a closed polygon (n, 2) with fine chords, the first not repeated, and thin it out."""
         slim = shapely.simplify(shapely.Polygon(points), CHORD - TOLERANCES.flatten)
         few = shapely.get_coordinates(slim.exterior)[:-1]
         if len(points) < _LEAST_ROUND:
@@ -59,18 +71,18 @@ class Ring:
         edge = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
         sagitta = float(edge.max()) ** 2 / (8 * radius)
         if np.ptp(reach) < _ROUND and sagitta < CHORD:
-            return cls(few, hole, middle, radius)
+            return cls(few, hole, Circle(middle, radius))
         return cls(few, hole)
 
     def shrunk(self) -> list["Ring"]:
-        """The loop moved into the material by ``TOUCH``; nothing is left of a body thinner than twice that."""
+        """The loop moved into the material by ``TOUCH``; of a thinner body nothing is left."""
         inwards = TOUCH if self.hole else -TOUCH
-        if self.centre is not None:
-            radius = self.radius + inwards
+        if self.circle is not None:
+            centre, radius = self.circle.centre, self.circle.radius + inwards
             if radius <= 0:
                 return []
-            points = self.centre + (self.points - self.centre) * (radius / self.radius)
-            return [Ring(points, self.hole, self.centre, radius)]
+            points = centre + (self.points - centre) * (radius / self.circle.radius)
+            return [Ring(points, self.hole, Circle(centre, radius))]
         moved = shapely.buffer(shapely.Polygon(self.points), inwards, join_style="mitre")
         return [
             Ring(shapely.get_coordinates(piece.exterior)[:-1], self.hole)
@@ -109,27 +121,44 @@ class Slab:
         return tuple(piece for ring in self.rings for piece in ring.shrunk())
 
     @cached_property
+    def points(self) -> Array:
+        """The edges (n, 2, 2), mm, at corners that are sharper than a right angle."""
+        return np.concatenate(
+            [_sharp(ring.points) for ring in self.rings if ring.circle is None] or [_NO_EDGES]
+        )
+
+    @cached_property
     def core_shape(self) -> shapely.Geometry:
         """The cross-section without its skin of ``TOUCH``."""
         return shapely.buffer(self.polygon, -TOUCH)
 
     @cached_property
-    def disc(self) -> Ring | None:
+    def disc(self) -> Circle | None:
         """The outside of a round slab without openings."""
-        ring = self.rings[0]
-        return ring if len(self.rings) == 1 and ring.centre is not None else None
+        return self.rings[0].circle if len(self.rings) == 1 else None
 
     @cached_property
-    def circle(self) -> tuple[Array, float]:
-        """A circle about the slab: centre and radius, mm."""
+    def around(self) -> Circle:
+        """A circle about the slab."""
         x0, y0, x1, y1 = self.polygon.bounds
         middle = np.array(((x0 + x1) / 2, (y0 + y1) / 2))
-        return middle, float(np.hypot(*(self.rings[0].points - middle).T).max()) + CHORD
+        return Circle(middle, float(np.hypot(*(self.rings[0].points - middle).T).max()) + CHORD)
 
     def face_down(self) -> "Slab":
         """The slab turned over about x."""
         turned = shapely.transform(self.polygon, lambda points: points * (1.0, -1.0))
         return Slab(shapely.orient_polygons(turned), -self.top, -self.bottom)
+
+
+def _sharp(points: Array) -> Array:
+    """The edges (n, 2, 2) at sharp corners of a polygon that has the material on its left or on its right."""
+    into = points - np.roll(points, 1, axis=0)
+    out = np.roll(points, -1, axis=0) - points
+    cosine = (into * out).sum(axis=1) / np.maximum(np.hypot(*into.T) * np.hypot(*out.T), 1e-300)
+    at = np.flatnonzero(cosine < -_SHARP)
+    before = np.stack((np.roll(points, 1, axis=0)[at], points[at]), axis=1)
+    after = np.stack((points[at], np.roll(points, -1, axis=0)[at]), axis=1)
+    return np.concatenate((before, after))
 
 
 def _circle_centre(points: Array) -> Array:

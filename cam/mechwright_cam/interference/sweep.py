@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright_cam.interference.path import Path
-from mechwright_cam.interference.separation import dot, separation
-from mechwright_cam.interference.tree import Tree
+from mechwright_cam.interference.separation import dot, gap_along, separation
+from mechwright_cam.interference.tree import Boxes, Tree
 
 SAG = 0.25
 """Sag of a corner's path under its chords, per second difference: twice that of a parabola (1/8), so that it
@@ -32,6 +32,8 @@ _LEVELS = 40
 """Most halvings of an interval; the floor comes first in every real case."""
 
 Ints = NDArray[np.int64]
+
+_ROOT: Ints = np.ones(1, dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -79,14 +81,20 @@ class _Poses:
     def move(self, points: Array, when: Ints) -> Array:
         """Points (d, n) at the three poses: (3, d, n)."""
         turn, shift = self.rotation[..., when], self.position[..., when]
-        moved = turn[:, :, 0] * points[0]
+        moved: Array = turn[:, :, 0] * points[0]
         for axis in range(1, len(points)):
             moved += turn[:, :, axis] * points[axis]
         moved += shift
         return moved
 
+    def turn(self, vectors: Array, when: Ints) -> Array:
+        """Directions (d, n) in the middle of the intervals: (d, n)."""
+        rotation = self.rotation[1][..., when]
+        turned: Array = np.einsum("ijn,jn->in", rotation, vectors)
+        return turned
 
-def sweep(fixed: Tree, moving: Tree, path: Path) -> Found:
+
+def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] = (_ROOT, _ROOT)) -> Found:
     """Find when the boundaries meet.
 
     Parameters
@@ -97,20 +105,23 @@ def sweep(fixed: Tree, moving: Tree, path: Path) -> Found:
         The other one, in its own frame; edges, triangles or balls.
     path
         How the moving frame moves.
+    start_with
+        Pairs of nodes that are looked at, by number; by default the roots.
     """
     count = path.samples - 1
     hit = np.zeros(count, dtype=bool)
     found: list[Array] = []
     closest: tuple[float, float | None] = (np.inf, None)
-    one = np.ones(count, dtype=np.int64)
-    pairs = _Pairs(one, one, np.arange(count))
+    every = np.arange(count)
+    one, two = (np.tile(nodes, count) for nodes in start_with)
+    pairs = _Pairs(one, two, np.repeat(every, len(start_with[0])))
     for level in range(_LEVELS):
         pairs = pairs.take(~hit[pairs.when >> level])
         if not len(pairs):
             break
         number, when = np.unique(pairs.when, return_inverse=True)
         step = 0.5**level
-        start = number * step
+        start: Array = number * np.float64(step)
         poses = _poses(path, start, step)
         later: list[_Pairs] = []
         stack = [_Pairs(pairs.one, pairs.two, when)]
@@ -124,7 +135,7 @@ def sweep(fixed: Tree, moving: Tree, path: Path) -> Found:
             if len(split):
                 stack.append(split)
             undecided, met, seen = _pieces(fixed, moving, poses, leaves)
-            times = start[met.when] + step / 2
+            times: Array = start[met.when] + step / 2
             if len(met):
                 found.append(times)
                 hit[number[met.when] >> level] = True
@@ -160,6 +171,9 @@ def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pai
     path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
     one, two = fixed.radius[pairs.one], moving.radius[pairs.two]
     near = _distance(here, path) <= one + two + SAG * _second(path)
+    if fixed.box is not None and moving.box is not None:
+        some = np.flatnonzero(near & ((pairs.one < fixed.leaves) | (pairs.two < moving.leaves)))
+        near[some[_boxes_part(fixed.box, moving.box, poses, pairs.take(some))]] = False
     pairs, path, one, two = pairs.take(near), path[..., near], one[near], two[near]
     large_one = np.where(pairs.one < fixed.leaves, one, -np.inf)
     large_two = np.where(pairs.two < moving.leaves, two, -np.inf)
@@ -179,6 +193,23 @@ def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pai
     return split, pairs.take(leaf), pairs.take(~leaf & ~slow)
 
 
+def _boxes_part(fixed: Boxes, moving: Boxes, poses: _Poses, pairs: _Pairs) -> NDArray[np.bool_]:
+    """Whether (n,) boxes stay apart across the surface of either node."""
+    if not len(pairs):
+        return np.zeros(0, dtype=bool)
+    here = fixed.corners[pairs.one].transpose(1, 2, 0)
+    corners = moving.corners[pairs.two].transpose(1, 2, 0)
+    path = np.stack([poses.move(corner, pairs.when) for corner in corners], axis=1)
+    swept = path.reshape(-1, *path.shape[2:])
+    across = poses.turn(moving.normal[pairs.two].T, pairs.when)
+    apart = np.maximum(
+        gap_along(here, swept, fixed.normal[pairs.one].T),
+        gap_along(here, swept, across),
+    )
+    parts: NDArray[np.bool_] = apart > SAG * _second(path).max(axis=0)
+    return parts
+
+
 def _pieces(
     fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs
 ) -> tuple[_Pairs, _Pairs, tuple[float, int] | None]:
@@ -188,13 +219,13 @@ def _pieces(
     here = fixed.points[pairs.one - fixed.leaves].transpose(1, 2, 0)
     corners = moving.points[pairs.two - moving.leaves].transpose(1, 2, 0)
     path = np.stack([poses.move(corner, pairs.when) for corner in corners], axis=1)
-    apart = separation(here, path.reshape(-1, *path.shape[2:]), path[1])
-    sag = SAG * _second(path).max(axis=0)
-    near = apart <= sag + moving.ball
+    needed = SAG * _second(path).max(axis=0) + moving.ball
+    apart = separation(here, path.reshape(-1, *path.shape[2:]), path[1], needed)
+    near = apart <= needed
     seen = int(np.argmin(np.where(near, np.inf, apart)))
     closest = None if near[seen] else (float(apart[seen]) - moving.ball, int(pairs.when[seen]))
     pairs, here, path = pairs.take(near), here[..., near], path[..., near]
-    meet = separation(here, path[1], path[1]) <= moving.ball
+    meet = separation(here, path[1], path[1], moving.ball) <= moving.ball
     moves = _travel(path).max(axis=0) > FLOOR
     return pairs.take(~meet & moves), pairs.take(meet), closest
 

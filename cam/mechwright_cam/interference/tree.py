@@ -15,8 +15,8 @@ import numpy as np
 
 from mechwright.motion import Array
 
-_MORTON_BITS = 16
-"""Bits per axis of the order along a space-filling curve: 65,000 steps across a body."""
+_TURN = 0.1
+"""What a difference of normals counts, in sizes of the body: a quarter turn as a seventh of the whole."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,8 @@ class Tree:
         (2 p, d) and (2 p,): the spheres of the nodes, mm; what is no node has the radius -inf.
     leaves
         p, the number of the first leaf.
+    box
+        Boxes of the nodes, if there are any.
     """
 
     points: Array
@@ -40,10 +42,15 @@ class Tree:
     centre: Array
     radius: Array
     leaves: int
+    box: "Boxes | None" = None
 
     @classmethod
-    def of(cls, points: Array, ball: float = 0.0) -> "Tree":
-        """Build the tree of some pieces (m, k, d), mm, in the order in which they are given."""
+    def of(cls, points: Array, ball: float = 0.0, *, boxes: bool = False) -> "Tree":
+        """Build the tree of some pieces (m, k, d), mm, in the order in which they are given.
+
+        ``boxes`` adds boxes along the surface to the spheres; they pay in space, where wide surfaces slide
+        past each other at a small distance.
+        """
         m, k, d = points.shape
         leaves = 1 << max(m - 1, 0).bit_length()
         centre = np.zeros((2 * leaves, d))
@@ -66,7 +73,43 @@ class Tree:
             low = np.minimum(low[:, ::2], low[:, 1::2])
             high = np.maximum(high[:, ::2], high[:, 1::2])
             size *= 2
-        return cls(points, ball, centre, radius, leaves)
+        return cls(points, ball, centre, radius, leaves, Boxes.of(filled, leaves) if boxes else None)
+
+
+@dataclass(frozen=True)
+class Boxes:
+    """Boxes of nodes in space, each along its own surface.
+
+    Parameters
+    ----------
+    corners
+        (2 p, 8, 3) mm.
+    normal
+        (2 p, 3): the unit vector across the thinnest side.
+    """
+
+    corners: Array
+    normal: Array
+
+    @classmethod
+    def of(cls, filled: Array, leaves: int) -> "Boxes":
+        """Boxes along the principal axes of the corners of runs of pieces (leaves, k, 3), mm."""
+        corners = np.zeros((2 * leaves, 8, 3))
+        normal = np.zeros((2 * leaves, 3))
+        signs = np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)], dtype=float)
+        size = 1
+        while size <= leaves:
+            first = leaves // size
+            runs = filled.reshape(first, -1, 3)
+            away = runs - runs.mean(axis=1, keepdims=True)
+            _, axes = np.linalg.eigh(np.einsum("nki,nkj->nij", away, away))
+            along = np.einsum("nki,nij->nkj", runs, axes)
+            low, high = along.min(axis=1), along.max(axis=1)
+            local = ((low + high) / 2)[:, None] + signs * ((high - low) / 2)[:, None]
+            corners[first : 2 * first] = np.einsum("nkj,nij->nki", local, axes)
+            normal[first : 2 * first] = axes[:, :, 0]
+            size *= 2
+        return cls(corners, normal)
 
 
 def ring_edges(points: Array) -> Array:
@@ -74,14 +117,29 @@ def ring_edges(points: Array) -> Array:
     return np.stack((points, np.roll(points, -1, axis=0)), axis=1)
 
 
-def along_curve(pieces: Array) -> Array:
-    """Pieces (m, k, 3) in the order of a space-filling curve, so that neighbours are near each other."""
-    centre = pieces.mean(axis=1)
-    low, size = centre.min(axis=0), max(float(np.ptp(centre, axis=0).max()), 1e-9)
-    cell = ((centre - low) / size * (2**_MORTON_BITS - 1)).astype(np.int64)
-    key = np.zeros(len(pieces), dtype=np.int64)
-    for bit in range(_MORTON_BITS):
-        for axis in range(3):
-            key |= ((cell[:, axis] >> bit) & 1) << (3 * bit + axis)
-    ordered: Array = pieces[np.argsort(key, kind="stable")]
+def by_place_and_direction(triangles: Array) -> Array:
+    """Triangles (m, 3, 3) in an order in which the runs of the tree lie together and look one way.
+
+    A run is divided across the longest spread of its centres and normals, so that nodes become flat pieces of
+    surface. The first part takes a power of two of them, as the tree does.
+    """
+    centre = triangles.mean(axis=1)
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    size = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
+    features = np.column_stack((centre, _TURN * size * normal))
+    count = len(triangles)
+    run = 1 << max(count - 1, 0).bit_length()
+    order = np.arange(run)
+    while run > 1:
+        # What is not there counts as the last triangle in the spread, and comes last in the order.
+        there = order < count
+        near = features[np.minimum(order, count - 1)].reshape(-1, run, features.shape[1])
+        axis = np.ptp(near, axis=1).argmax(axis=1)
+        key = np.take_along_axis(near, axis[:, None, None], axis=2)[:, :, 0]
+        key = np.where(there.reshape(-1, run), key, np.inf)
+        place = np.argsort(key, axis=1, kind="stable")
+        order = np.take_along_axis(order.reshape(-1, run), place, axis=1).ravel()
+        run //= 2
+    ordered: Array = triangles[order[order < count]]
     return ordered
