@@ -144,17 +144,17 @@ def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
         "phi_near": Scalar(ends.near, "rad"),
         "s_far": Scalar(ends.far_position, "mm"),
         "s_near": Scalar(ends.near_position, "mm"),
-        "transmission_angle_min": Scalar(
+        "least_transmission_angle": Scalar(
             least_transmission_angle(params.crank, params.rod, params.offset), "rad"
         ),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
         "mass_crank": Scalar(masses["crank"].mass, "kg"),
         "mass_rod": Scalar(masses["rod"].mass, "kg"),
         "mass_slider": Scalar(masses["slider"].mass, "kg"),
-        "balance_rod": Scalar(weights.rod.real, "kg*mm"),
-        "balance_rod_across": Scalar(weights.rod.imag, "kg*mm"),
-        "balance_crank": Scalar(weights.crank.real, "kg*mm"),
-        "balance_crank_across": Scalar(weights.crank.imag, "kg*mm"),
+        "balance_rod_x": Scalar(weights.rod.real, "kg*mm"),
+        "balance_rod_y": Scalar(weights.rod.imag, "kg*mm"),
+        "balance_crank_x": Scalar(weights.crank.real, "kg*mm"),
+        "balance_crank_y": Scalar(weights.crank.imag, "kg*mm"),
         "balance_rod_weight": Scalar(weights.rod_weight, "kg"),
     }
 

@@ -71,7 +71,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
             continue
         stroke, ratio = simulated(params.linkage)
         figures = {
-            "transmission_angle_min": Scalar(_transmission(params), "deg"),
+            "least_transmission_angle": Scalar(_transmission(params), "deg"),
             "stroke_simulated": Scalar(stroke, "mm"),
             "time_ratio_simulated": Scalar(ratio, ""),
             **_lengths(params),
@@ -131,7 +131,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
             for number, angle in enumerate(found.angles, start=1)
         }
         figures = {
-            "transmission_angle_min": Scalar(_transmission(params), "deg"),
+            "least_transmission_angle": Scalar(_transmission(params), "deg"),
             **_lengths(params),
             **angles,
         }
