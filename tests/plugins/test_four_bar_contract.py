@@ -14,7 +14,8 @@ class TestFourBars(FamilyContract):
         {"coupler_bend": 25, "bushing_wall": 0, "ground_angle": 30, "load_torque": 2, "speed": 300},
     )
     refused = (
-        ({"crank": 60}, "crank"),
+        ({"crank": 70}, "crank"),
+        ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
         ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "coupler"),
         ({"crank": 8}, "crank"),
