@@ -4,13 +4,20 @@ import math
 from pathlib import Path
 
 import numpy as np
+from shapely import Polygon
 
+from mechwright.geometry import Loop
+from mechwright.part import Pocket
 from mechwright_cam.svg import path, place
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_geneva.family import Geneva
 
 IMAGES = Path(__file__).parent / "images"
 SAMPLE = 40
 """Of 361: gear 2 at 40 degrees, where the speed ratio is near 1 and the ellipses stand askew."""
+
+GENEVA_SAMPLE = 33
+"""Of 361: the roller well inside a groove."""
 
 
 def elliptic_pair() -> str:
@@ -89,7 +96,46 @@ def figure_eight() -> str:
     )
 
 
-PICTURES = {"elliptic-pair.svg": elliptic_pair, "figure-eight.svg": figure_eight}
+def geneva() -> str:
+    """The reference design at 33 degrees of the crank: grooves, roller, locking disc, crank."""
+    family = Geneva()
+    params = family.Params(lock_radius=70)
+    motion = family.solve(params, 361)
+    parts = {part.name: part for part in family.parts(params)}
+    fills = {"wheel": "#e8d9bd", "locking-disc": "#c9d6e3", "crank": "#9fb6cf"}
+    drawn = []
+    for name, fill in fills.items():
+        part = parts[name]
+        poses = motion.poses[part.instances[0].body]
+        angle = math.atan2(poses.rotation[GENEVA_SAMPLE, 1, 0], poses.rotation[GENEVA_SAMPLE, 0, 0])
+        x, y = poses.position[GENEVA_SAMPLE, :2]
+        loops = part.outline.moved(x, y, angle).loops
+        data = "".join(path(loop.flatten(0.02), close=True) for loop in loops)
+        opacity = ' fill-opacity=".75"' if name == "crank" else ""
+        drawn.append(
+            f'<path d="{data}" fill="{fill}" fill-rule="evenodd"{opacity} stroke="#234" stroke-width=".6"/>'
+        )
+        if name == "wheel":
+            disc = Polygon(part.outline.outer.flatten())
+            for pocket in (feature for feature in part.features if isinstance(feature, Pocket)):
+                groove = Polygon(pocket.boundary.flatten(0.02)).intersection(disc)
+                ring = Loop.polygon(list(groove.exterior.coords)[:-1]).moved(x, y, angle).flatten()
+                drawn.append(
+                    f'<path d="{path(ring, close=True)}" fill="#bfa878" stroke="#22303c" stroke-width=".4"/>'
+                )
+    cx, cy = place(*motion.poses["roller-1"].position[GENEVA_SAMPLE, :2]).split(",")
+    drawn.append(f'<circle cx="{cx}" cy="{cy}" r="5" fill="none" stroke="#b3261e" stroke-width="1.2"/>')
+    return "\n".join(
+        [
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-108 -108 314 216" width="720">',
+            "<title>A Geneva wheel with curved grooves, its locking disc and its crank</title>",
+            *drawn,
+            "</svg>\n",
+        ]
+    )
+
+
+PICTURES = {"elliptic-pair.svg": elliptic_pair, "figure-eight.svg": figure_eight, "geneva.svg": geneva}
 """File to what draws it."""
 
 

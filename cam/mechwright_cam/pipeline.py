@@ -22,9 +22,11 @@ from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
 from mechwright_cam.limits import check_machine
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.proof import Proof, cut_through, prove
+from mechwright_cam.proof import Proof, cut_through, prove, read
+from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.reach import cut_outline
 from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet.raster import simulated_view
 from mechwright_cam.setups import lay_out_setups, sides, turned_shape
 
 
@@ -190,10 +192,19 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     table, text = post.tool_table([tools[number] for number in sorted(tools)])
     if table:
         output.add(table, text)
-    proofs = {item.program.name: item.proof.as_dict() for item in made}
+    seen = {
+        item.program.name: simulate(read(item.proven, item.job, dialect_of(post)), item.job) for item in made
+    }
+    proofs = {
+        item.program.name: {**item.proof.as_dict(), "simulation": seen[item.program.name].as_dict()}
+        for item in made
+    }
     output.add("proof.json", json.dumps(proofs, indent=2) + "\n")
     sheets = [(item.job, item.program, proofs[item.program.name]) for item in made]
-    page = setup_html(sheets, suffix=post.suffix, tool_table=table, design=design.path.name)
+    pictures = {item.program.name: simulated_view(seen[item.program.name], item.job) for item in made}
+    page = setup_html(
+        sheets, suffix=post.suffix, tool_table=table, design=design.path.name, pictures=pictures
+    )
     output.add("setup.html", page)
     return findings
 

@@ -11,8 +11,11 @@ from mechwright.motion import Array
 _SAMPLES = 4096
 """Grid that finds the hill: two steps on the narrowest one, that of a train with γ = 0 and e = 0.9."""
 
-_FINE, _ROUNDS = 128, 3
-"""Finer grids around the best point: the last has 1e-9 of a turn, and the height is flat there."""
+_FINE, _ROUNDS = 48, 3
+"""Finer grids around the best point: the last has 2e-9 of a turn, and the height is flat there."""
+
+_NEAR = 0.9
+"""Share of the highest sample below which a hill cannot be the highest: samples miss less of it."""
 
 _ROUNDING = 1e-7
 """rad. A hill is flat to the last digit within this of its top."""
@@ -38,8 +41,9 @@ def peak(function: Callable[[Array], Array]) -> Peak:
     """
     at = math.tau * np.arange(_SAMPLES) / _SAMPLES
     values = function(at)
-    # A mirror image of the hill may lie anywhere between its samples.
     hills = np.flatnonzero((values >= np.roll(values, 1)) & (values > np.roll(values, -1)))
+    hills = hills[values[hills] >= values.max() - (1 - _NEAR) * abs(values.max())]
+    # A mirror image of the highest hill may lie anywhere between its samples.
     hills = hills[np.argsort(-values[hills], kind="stable")[:2]] if hills.size else np.array([0])
     found = [_climb(function, float(at[hill])) for hill in np.sort(hills)]
     top = max(one.value for one in found)

@@ -26,7 +26,7 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
         remedy = "use a smaller dedendum or a larger pressure_angle"
         most = greatest_eccentricity(params)
         if most is not None:
-            remedy = f"make eccentricity at most {most:g}, which some number of teeth can have, or {remedy}"
+            remedy = f"make eccentricity at most {most:g}, with {_finest(params)} teeth, or {remedy}"
     else:
         remedy = f"use {better.teeth} teeth, the least number that works"
         if params.semi_major is not None:
@@ -50,9 +50,7 @@ def greatest_eccentricity(params: EllipticGearParams) -> float | None:
 
     Finer teeth are cut less deeply into an ellipse of the same size, so the greatest number decides.
     """
-    teeth = MOST_TEETH
-    while params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
-        teeth -= 1
+    teeth = _finest(params)
 
     def works(thousandths: int) -> bool:
         finest = params.model_copy(update={"teeth": teeth, "eccentricity": thousandths / 1000})
@@ -65,6 +63,13 @@ def greatest_eccentricity(params: EllipticGearParams) -> float | None:
         middle = (good + bad) // 2
         good, bad = (middle, bad) if works(middle) else (good, middle)
     return good / 1000
+
+
+def _finest(params: EllipticGearParams) -> int:
+    """The greatest number of teeth that the tooth offset allows."""
+    if params.tooth_offset is None or offset_miss(params.tooth_offset, MOST_TEETH) == 0:
+        return MOST_TEETH
+    return MOST_TEETH - 1
 
 
 def is_undercut(params: EllipticGearParams) -> bool:

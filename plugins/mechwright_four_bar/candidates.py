@@ -62,7 +62,7 @@ class Found:
 def buildable(
     found: Iterable[Found], most: int, progress: Callable[[float], None]
 ) -> tuple[list[Candidate[FourBarParams]], str]:
-    """The first ``most`` of the linkages whose design has no error, and why the first other one was left out."""
+    """The first ``most`` linkages whose design has no error, and why the first other one was left out."""
     from mechwright_four_bar.checks import findings
 
     candidates: list[Candidate[FourBarParams]] = []

@@ -47,7 +47,8 @@ def pole_ball(lengths: Sequence[arb], theta: arb, phi: arb, branch: int) -> acb:
 def certain_residual(bar: FourBar, phi: Sequence[float] | Array, targets: Plane) -> float:
     """A distance, mm, that no pole of this very linkage exceeds from its target (n,).
 
-    The doubles of ``bar`` and ``phi`` (n,) are taken as exact; infinite where the loop does not certainly close.
+    The doubles of ``bar`` and ``phi`` (n,) are taken as exact; infinite where the loop does not certainly
+    close.
     """
     with ctx.workprec(BITS):
         errors = _errors(_balls([*bar.lengths, bar.ground_angle, *phi]), bar.branch, targets)
@@ -56,7 +57,7 @@ def certain_residual(bar: FourBar, phi: Sequence[float] | Array, targets: Plane)
             bound = error.abs_upper()
             if not bound.is_finite():
                 return float("inf")
-            worst = max(worst, float(bound) * (1 + 4 * np.finfo(float).eps))
+            worst = max(worst, float(bound) * (1 + 4 * float(np.finfo(float).eps)))
         return worst
 
 

@@ -16,11 +16,11 @@ from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
 
 LEAST_ROOM = 1e-6
-"""Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and which
-way the linkage goes through the line-up is left to chance."""
+"""Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
+which way the linkage goes through the line-up is left to chance."""
 
 GOOD_TRANSMISSION = 40.0
-"""Degrees below which the coupler mainly presses the follower into its bearing (VDI 2127 asks for 40 to 50)."""
+"""Degrees below which the coupler mainly presses the follower into its bearing (VDI 2127: 40 to 50)."""
 
 LEAST_TRANSMISSION = 1.0
 """Degrees below which play and bending let the linkage change its branch."""
@@ -76,7 +76,7 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
     if bar.crank_room >= least:
         return
     change = bar.kind is Kind.CHANGE_POINT or bar.crank_room >= 0
-    parameter, value, limit, remedy = _nearest_turning(bar, least)
+    parameter, value, near, remedy = _nearest_turning(bar, least)
     yield Finding(
         "four-bar.change-point" if change else "four-bar.rotation",
         Severity.ERROR,
@@ -85,13 +85,13 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
         if change
         else f"the crank of {bar.crank:g} mm cannot turn fully ({bar.kind.value})",
         value,
-        limit,
+        near,
         "mm",
         remedy,
     )
 
 
-def _nearest_turning(bar: FourBar, room: float) -> tuple[str, float, float | None, str]:
+def _nearest_turning(bar: FourBar, room: float) -> tuple[str, float, float, str]:
     """The parameter to change, its value, the nearest one with which the crank turns, and how to say so."""
     a, c, b, f = bar.lengths
     ranges = (
@@ -99,11 +99,10 @@ def _nearest_turning(bar: FourBar, room: float) -> tuple[str, float, float | Non
         ("crank", a, f + abs(b - c), b + c - f),
         ("ground", f, a + abs(b - c), b + c - a),
     )
-    options = []
+    options: list[tuple[float, str, float, float]] = []
     for name, value, low, high in ranges:
-        low, high = low + room, high - room
-        if high > low:
-            near = min(max(value, low), high)
+        if high - low > 2 * room:
+            near = min(max(value, low + room), high - room)
             options.append((abs(near - value) / value, name, value, near))
     if not options:
         # Equal and long enough, coupler and follower let any crank turn.
@@ -256,8 +255,9 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
         "four-bar.forces",
         Severity.NOTE,
         "",
-        f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to {force:.4g} N, "
-        f"and the moving masses shake the ground with up to {peaks['shaking_force'].value:.4g} N",
+        f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to "
+        f"{force:.4g} N, and the moving masses shake the ground with up to "
+        f"{peaks['shaking_force'].value:.4g} N",
         peaks["drive_torque"].value,
         None,
         "N*m",

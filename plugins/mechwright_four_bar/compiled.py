@@ -3,9 +3,18 @@
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import njit
+njit: Any
+try:
+    import numba
+except ImportError:  # pragma: no cover - a tool that comes with the installation
+    njit = None
+else:
+    njit = numba.njit
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+AVAILABLE = njit is not None
+"""Whether there is a compiler; without it the same functions run as plain Python, a hundred times slower."""
 
 
 def compiled(function: F) -> F:
@@ -14,8 +23,11 @@ def compiled(function: F) -> F:
     The machine code is kept beside the module, or in the user's cache folder. Where both are read-only it is
     compiled anew in every process. Division by zero gives infinity or NaN, as in numpy.
     """
+    if njit is None:  # pragma: no cover
+        return function
     try:
-        kernel: F = njit(cache=True, error_model="numpy")(function)
+        kernel: Any = njit(cache=True, error_model="numpy")(function)
     except RuntimeError:  # numba found no place to write to
         kernel = njit(error_model="numpy")(function)
-    return kernel
+    found: F = kernel
+    return found

@@ -122,7 +122,7 @@ class FourBar:
     def crank_room(self) -> float:
         """By how much, mm, the dyad clears both ends of the diagonal; 0 or more: the crank turns fully.
 
-        The diagonal A-B0 runs from \\|f - a\\| to f + a, and the dyad of c and b spans \\|c - b\\| to c + b.
+        The diagonal A-B0 runs from abs(f - a) to f + a, and the dyad of c and b spans abs(c - b) to c + b.
         """
         a, c, b, f = self.lengths
         return min(b + c - a - f, abs(f - a) - abs(b - c))

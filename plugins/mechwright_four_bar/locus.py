@@ -11,8 +11,8 @@ The null vectors of many primes are put together by the Chinese remainder theore
 by rational reconstruction. What comes out is then put to the test at positions over the rational numbers, in
 exact arithmetic.
 
-Nothing here depends on the dimensions: degree and circular points of the special cases (equal links, lines-up,
-kites) come out by themselves.
+Nothing here depends on the dimensions: degree and circular points of the special cases (equal links, kites,
+links that line up) come out by themselves.
 """
 
 from collections.abc import Iterator
@@ -333,7 +333,7 @@ def _holds(terms: dict[tuple[int, int], Fraction], lengths: tuple[int, ...], pla
 
 
 def _exact_poles(lengths: tuple[int, ...], plane: Plane, t: fmpq) -> list[tuple[_Quadratic, _Quadratic]]:
-    """ρ and X of the pole with tan(φ/2) = t: over the numbers u + v W, or on both branches if W is rational."""
+    """ρ and X of the pole with tan(φ/2) = t: over numbers u + v W, or on both branches if W is rational."""
     a, c, b, f = (fmpq(length) for length in lengths)
     cos = (1 - t * t) / (1 + t * t)
     square = a * a + f * f - 2 * a * f * cos

@@ -99,4 +99,5 @@ def close(bar: FourBar, phi: ArrayLike) -> Loop:
         w2, v2 = coupler * (r * np.conj(p)).real, follower * (r * np.conj(s)).real
         r = 1j * a * crank + c * (3 * w1 * w2 + 1j * w1**3) * s - b * (3 * v1 * v2 + 1j * v1**3) * p
         w3, v3 = coupler * (r * np.conj(p)).real, follower * (r * np.conj(s)).real
-    return Loop(phi, a * crank, a * crank + c * s, Rates(s, w1, w2, w3), Rates(p, v1, v2, v3))
+    joint_a = np.asarray(a * crank, dtype=np.complex128)
+    return Loop(phi, joint_a, joint_a + c * s, Rates(s, w1, w2, w3), Rates(p, v1, v2, v3))

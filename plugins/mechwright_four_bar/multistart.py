@@ -18,7 +18,7 @@ DIFFERENCE = 1e-7
 """Step of the forward differences, for unknowns of the order of one: half the digits of a double."""
 
 FIRST_DAMPING = 1e-2
-"""Marquardt's λ at the start, relative to the diagonal: far enough from a solution for Newton's step to lie."""
+"""Marquardt's λ at the start, relative to the diagonal: there, Newton's step would lie."""
 
 MOST_DAMPING = 1e9
 """λ at which a start has given up: its steps no longer move."""

@@ -5,8 +5,8 @@ With the ground line as unit the coupler point at the crank angle φ from it is
     P = X + s a e^{iφ} + q e^{iσ},   s = f e^{iθ},   q = s (coupler point in its own frame),
 
 X being A0. X, s and q are complex and enter linearly; three shape unknowns and the crank angles do not.
-The shape is ln a, x = ln((b + c)/(1 + a) - 1) and y = artanh((b - c)/\\|1 - a\\|): any values of them give a
-linkage whose crank turns fully, so that all positions lie on one branch and in one circuit.
+The shape is ln a, x = ln((b + c)/(1 + a) - 1) and y = artanh((b - c)/abs(1 - a)): any values of them give
+a linkage whose crank turns fully, so that all positions lie on one branch and in one circuit.
 
 Angles are (n,) rad from the ground line. A solution is (9,) shape, X, s, q, each complex as two numbers.
 """
@@ -15,6 +15,8 @@ import math
 
 import numpy as np
 
+from mechwright.motion import Array
+from mechwright.planar import Plane
 from mechwright_four_bar.compiled import compiled
 
 SHAPE, LINEAR = 3, 6
@@ -31,13 +33,13 @@ STILL, STILL_STEPS = 1e-6, 12
 
 
 @compiled
-def _square(z):  # type: ignore[no-untyped-def]
-    """The square of \\|z\\|, without a root."""
+def _square(z: complex) -> float:
+    """The square of the absolute value, without a root."""
     return z.real * z.real + z.imag * z.imag
 
 
 @compiled
-def lengths(z):  # type: ignore[no-untyped-def]
+def lengths(z: Array) -> tuple[float, float, float, Array]:
     """Crank, follower, coupler over the ground, and the derivatives of the last two by the shape (2, 3)."""
     a = math.exp(z[0])
     excess, stretch = math.exp(z[1]), math.tanh(z[2])
@@ -54,7 +56,7 @@ def lengths(z):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def directions(a, b, c, branch, phi):  # type: ignore[no-untyped-def]
+def directions(a: float, b: float, c: float, branch: int, phi: float) -> tuple[complex, complex, complex]:
     """exp(iφ), exp(iσ), exp(iψ) at one crank angle."""
     u = complex(math.cos(phi), math.sin(phi))
     d = 1 - a * u
@@ -67,7 +69,7 @@ def directions(a, b, c, branch, phi):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def screen(targets, shapes, angles, branch):  # type: ignore[no-untyped-def]
+def screen(targets: Plane, shapes: Array, angles: Array, branch: int) -> Array:
     """Least sums of squares (m,) over X, s and q for shapes (m, 3) and crank angles (m, n)."""
     n = targets.size
     mean = targets.sum() * (1 / n)
@@ -102,7 +104,7 @@ def screen(targets, shapes, angles, branch):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def linear(targets, z, phi, branch):  # type: ignore[no-untyped-def]
+def linear(targets: Plane, z: Array, phi: Array, branch: int) -> Array:
     """The solution (9,) of a shape (3,) and crank angles (n,): shape, X, s, q."""
     n = targets.size
     a, b, c, _ = lengths(z)
@@ -134,8 +136,10 @@ def linear(targets, z, phi, branch):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _row(solution, a, b, c, slope, branch, phi, out):  # type: ignore[no-untyped-def]
-    """Coupler point at one crank angle; its derivatives by the solution and, last, by the angle into ``out``."""
+def _row(
+    solution: Array, a: float, b: float, c: float, slope: Array, branch: int, phi: float, out: Plane
+) -> complex:
+    """Coupler point at one crank angle; its derivatives by solution and, last, angle go into ``out``."""
     s = complex(solution[5], solution[6])
     q = complex(solution[7], solution[8])
     u, v, p = directions(a, b, c, branch, phi)
@@ -156,7 +160,7 @@ def _row(solution, a, b, c, slope, branch, phi, out):  # type: ignore[no-untyped
 
 
 @compiled
-def _cost(targets, solution, phi, branch):  # type: ignore[no-untyped-def]
+def _cost(targets: Plane, solution: Array, phi: Array, branch: int) -> float:
     a, b, c, _ = lengths(solution)
     x, s = complex(solution[3], solution[4]), complex(solution[5], solution[6])
     q = complex(solution[7], solution[8])
@@ -169,7 +173,7 @@ def _cost(targets, solution, phi, branch):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _solve(matrix, right):  # type: ignore[no-untyped-def]
+def _solve(matrix: Array, right: Array) -> bool:
     """Solve a symmetric positive definite system in place by Cholesky; False where it is not."""
     n = len(right)
     for i in range(n):
@@ -195,11 +199,13 @@ def _solve(matrix, right):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def polish(targets, solution, phi, branch, timed, steps, arrived):  # type: ignore[no-untyped-def]
-    """Levenberg and Marquardt's steps on ``solution`` (9,) and ``phi`` (n,), both changed; the sum of squares.
+def polish(
+    targets: Plane, solution: Array, phi: Array, branch: int, timed: bool, steps: int, arrived: float
+) -> float:
+    """Levenberg and Marquardt's steps on ``solution`` (9,) and ``phi`` (n,), both changed.
 
-    Timed, all crank angles turn together. Else each turns by itself: it touches one point only, and leaves the
-    normal equations by its Schur complement.
+    Timed, all crank angles turn together. Else each turns by itself: it touches one point only, and leaves
+    the normal equations by its Schur complement. The result is the sum of squares.
     """
     n = targets.size
     size = SHAPE + LINEAR + (1 if timed else 0)

@@ -17,14 +17,14 @@ SPREAD = 100.0
 """Starts have cranks and excess lengths of dyads up to so many ground lines, and down to so many parts."""
 
 STRETCH = 4.0
-"""Most of \\|y\\| in the starts: tanh(4) leaves a thousandth of the diagonal."""
+"""Largest y in the starts: tanh(4) leaves a thousandth of the diagonal."""
 
 LEAST_EXCESS = 1e-4
 """Least share by which the dyads of the starts are longer than the diagonal."""
 
-POLISHED = 400
-"""Best starts of each branch and sense that are followed to the end: the global optimum of the benchmarks is
-reached by every third of them."""
+POLISHED, ONE_IN = 400, 50
+"""Best starts of each branch and sense that are followed to the end, and at most one in so many: the global
+optimum of the benchmarks is reached by every third of them."""
 
 STEPS = 300
 """Most steps of a start."""
@@ -82,6 +82,7 @@ def search(
     sense: Literal["ccw", "cw", "any"],
     count: int,
     seed: int,
+    least_angle: float,
     progress: Callable[[float], None],
 ) -> list[PathSolution]:
     """Linkages near the points, the nearest first; several are the same up to rounding.
@@ -98,6 +99,8 @@ def search(
         Random shapes on each branch, and in each sense where both are searched.
     seed
         Of the random numbers.
+    least_angle
+        Least transmission angle of the shapes to start from, rad: the search keeps near to it.
     progress
         Told the part that is done, 0 to 1.
     """
@@ -111,7 +114,9 @@ def search(
         rng = np.random.default_rng([seed, number])
         shapes, angles = _starts(unit, turns, way, count, rng)
         costs = screen(unit, shapes, angles, branch)
-        best = np.argsort(costs, kind="stable")[:POLISHED]
+        costs[_worst_cosine(shapes) > math.cos(least_angle)] = np.inf
+        most = min(POLISHED, count // ONE_IN)
+        best = np.argsort(costs, kind="stable")[:most]
         for step, index in enumerate(best[np.isfinite(costs[best])]):
             phi = angles[index].copy()
             solution = linear(unit, shapes[index], phi, branch)
@@ -120,7 +125,7 @@ def search(
             if one is not None:
                 found.append(one)
             if step % 20 == 0:
-                progress((number + step / POLISHED) / len(rooms))
+                progress((number + step / most) / len(rooms))
     return sorted(found, key=lambda one: one.squares)
 
 
@@ -141,6 +146,17 @@ def _starts(
     mix = rng.uniform(0, 1, (count, 1))
     span = rng.uniform(LEAST_SPAN, MOST_SPAN, (count, 1))
     return shapes, first + way * span * (mix * even + (1 - mix) * chords / chords[-1])
+
+
+def _worst_cosine(shapes: Array) -> Array:
+    """Cosines (m,) of the least transmission angles of shapes (m, 3); see the kernels for the shape."""
+    a = np.exp(shapes[:, 0])
+    total = (1 + a) * (1 + np.exp(shapes[:, 1]))
+    difference = np.abs(1 - a) * np.tanh(shapes[:, 2])
+    b, c = (total + difference) / 2, (total - difference) / 2
+    ends = [(b * b + c * c - diagonal**2) / (2 * b * c) for diagonal in (1 - a, 1 + a)]
+    worst: Array = np.abs(ends).max(axis=0)
+    return worst
 
 
 def _solution(

@@ -8,6 +8,7 @@ from mechwright.findings import Finding, Severity
 from mechwright.motion import Scalar
 from mechwright.synthesis import Progress, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
+from mechwright_four_bar.checks import GOOD_TRANSMISSION
 from mechwright_four_bar.multistart import distinct
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.path_search import PathSolution, search
@@ -15,6 +16,12 @@ from mechwright_four_bar.requirements import PathRequirement
 
 SAME = 1e-3
 """Linkages whose lengths agree to this share of themselves are one: nobody would choose between them."""
+
+EXACT = 1e-11
+"""Mean distance, as a share of the path's size, that is rounding: the points are met."""
+
+GOOD_ANGLE = math.radians(GOOD_TRANSMISSION)
+"""Transmission angle from which a larger one is not worth longer links."""
 
 SEARCH = 0.9
 """Part of the work that is the search; the rest looks whether the designs can be built."""
@@ -24,8 +31,9 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     """Linkages whose coupler point runs through the points in their order, within one turn of the crank.
 
     The crank turns fully and the linkage is never taken apart: there is no branch, circuit or order defect.
-    Designs that meet the tolerance come first, those with the best transmission angle leading; then the
-    others, the nearest first.
+    Designs that meet the points exactly or within the tolerance come first: those with a good transmission
+    angle, the smallest leading, then the others, the best transmission angle leading. Then come the designs
+    that do not, the nearest first.
     """
     targets = np.array([complex(x, y) for x, y in wanted.points])
     turns = None if wanted.crank_turns is None else np.radians(wanted.crank_turns)
@@ -35,13 +43,15 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
         wanted.sense,
         wanted.starts,
         wanted.seed,
+        math.radians(wanted.least_transmission_angle) / 2,
         lambda part: progress(SEARCH * part, "linkages through the points"),
     )
     good = [one for one in found if _fits(one, wanted)]
     features = np.log([[*one.bar.lengths, abs(one.point)] for one in good]) if good else np.empty((0, 5))
     ways = np.array([[one.bar.branch, one.sense] for one in good]).reshape(len(good), 2)
     good = [good[index] for index in distinct(np.hstack((features, ways)), SAME)]
-    good.sort(key=lambda one: _rank(one, wanted.tolerance))
+    met = max(wanted.tolerance, EXACT * float(np.ptp(targets.real) + np.ptp(targets.imag)))
+    good.sort(key=lambda one: _rank(one, met))
     candidates, reason = buildable(
         (_found(one) for one in good),
         wanted.designs,
@@ -49,10 +59,9 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     )
     if not candidates:
         return Synthesis((), (_refusal(wanted, found, bool(good), reason),))
-    missed = candidates[0].residual.value - wanted.tolerance
-    return Synthesis(
-        tuple(candidates), (_missed(wanted, candidates[0].residual.value),) if missed > 0 else ()
-    )
+    best = candidates[0].residual.value
+    findings = (_missed(wanted, best),) if best > met and wanted.tolerance > 0 else ()
+    return Synthesis(tuple(candidates), findings)
 
 
 def mean_distance(one: PathSolution) -> float:
@@ -60,10 +69,10 @@ def mean_distance(one: PathSolution) -> float:
     return math.sqrt(one.squares / one.phi.size)
 
 
-def _rank(one: PathSolution, tolerance: float) -> tuple[float, float]:
+def _rank(one: PathSolution, met: float) -> tuple[float, float, float]:
     mean = mean_distance(one)
-    angle = one.bar.least_transmission_angle()
-    return (0.0, -angle) if mean <= tolerance else (mean, -angle)
+    angle = min(one.bar.least_transmission_angle(), GOOD_ANGLE)
+    return (0.0, -angle, one.longest) if mean <= met else (mean, -angle, one.longest)
 
 
 def _fits(one: PathSolution, wanted: PathRequirement) -> bool:
@@ -123,8 +132,8 @@ def _refusal(wanted: PathRequirement, found: list[PathSolution], good: bool, rea
         Severity.ERROR,
         "crank",
         "no linkage through the points keeps the limits: the nearest one misses the points by "
-        f"{mean_distance(best):.3g} mm, its links are {min(best.bar.lengths):.4g} to {best.longest:.4g} mm long "
-        f"and its transmission angle is {angle:.3g} degrees",
+        f"{mean_distance(best):.3g} mm, its links are {min(best.bar.lengths):.4g} to {best.longest:.4g} mm "
+        f"long and its transmission angle is {angle:.3g} degrees",
         angle,
         wanted.least_transmission_angle,
         "deg",

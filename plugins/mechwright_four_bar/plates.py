@@ -141,21 +141,22 @@ def outlines_of(params: FourBarParams) -> dict[str, Outline]:
         The bend of the coupler does not fit.
     """
     bosses = bosses_of(params)
-    outlines = {name: _straight(*bosses[name], params.web_width) for name in ("crank", "follower")}
+    outlines = {name: _straight(bosses[name], params.web_width) for name in ("crank", "follower")}
     if params.coupler_bend != 0:
         one, two = bosses["coupler"]
         elbow = complex(params.coupler / 2, params.coupler_bend)
         outlines["coupler"] = bent_link(one, two, elbow, params.web_width, FILLET, BEND * params.web_width)
     elif params.coupler_point is None:
-        outlines["coupler"] = _straight(*bosses["coupler"], params.web_width)
+        outlines["coupler"] = _straight(bosses["coupler"], params.web_width)
     else:
         outlines["coupler"] = hull_link(bosses["coupler"])
     outlines["ground"] = _base(params, bosses["ground"])
     return outlines
 
 
-def _straight(one: Boss, two: Boss, width: float) -> Outline:
+def _straight(bosses: tuple[Boss, ...], width: float) -> Outline:
     """A web between two bosses, or the hull where there is no room for its fillets."""
+    one, two = bosses
     half, least = width / 2, min(one.radius, two.radius)
     if half < least:
         taken = sum(math.sqrt((boss.radius + FILLET) ** 2 - (half + FILLET) ** 2) for boss in (one, two))

@@ -4,17 +4,17 @@ With the ground line as unit (A0 = 0, B0 = 1) and the crank at angle φ from it,
 
     γ(a, b, c, φ) = a e^{iφ} (1 + 1/(i α - w²)),
 
-w and α being the coupler's first and second derivative by the crank angle. The true pole is s γ, s = f e^{iθ}:
-length and direction of the ground enter linearly. They are eliminated where they are not prescribed, by the
-least squares of s γ_j - t_j.
+w and α being the coupler's first and second derivative by the crank angle. The true pole is s γ with
+s = f e^{iθ}: length and direction of the ground enter linearly. They are eliminated where they are not
+prescribed, by the least squares of s γ_j - t_j.
 
-The dyad of c and b must span the diagonal D between A and B0: \\|b - c\\| ≤ D ≤ b + c. Searched are therefore
+The dyad of c and b must span the diagonal D between A and B0. Searched are therefore
 
     ln a,   x = ln((b + c)/D_max - 1),   y = artanh((b - c)/D_min),
 
 so that no value of the unknowns leaves the loop open, and solutions near a toggle, where lengths decide by
-their fifth digit, are no needles in a haystack. D_max and D_min are those of a full turn, 1 + a and \\|1 - a\\|,
-or those of the prescribed positions only.
+their fifth digit, are no needles in a haystack. D_max and D_min are those of a full turn, 1 + a and
+abs(1 - a), or those of the prescribed positions only.
 """
 
 import math
@@ -30,10 +30,10 @@ SPREAD = 100.0
 """Starts have cranks and dyads between 1/SPREAD and SPREAD ground lines: beyond that nothing can be built."""
 
 LEAST_EXCESS = 1e-4
-"""Least share by which the dyads of the starts are longer than the diagonal; the search itself may go below."""
+"""Least share by which the dyads of the starts are longer than the diagonal; the search goes below."""
 
 STRETCH = 4.0
-"""Most of \\|y\\| in the starts: tanh(4) leaves a thousandth of the diagonal."""
+"""Largest y in the starts: tanh(4) leaves a thousandth of the diagonal."""
 
 
 def unit_pole(a: Array, b: Array, c: Array, phi: Array, branch: int) -> Plane:
@@ -76,8 +76,8 @@ class PoleProblem:
     full_turn
         Whether only linkages whose crank turns fully are searched, or all that reach the positions.
 
-    The unknowns (m,) are ln a, x and y, and the crank angles from the ground line: one if ``turns`` are given,
-    else n.
+    The unknowns (m,) are ln a, x and y, and the crank angles from the ground line: one if ``turns`` are
+    given, else n.
     """
 
     targets: Plane

@@ -14,8 +14,8 @@ from mechwright_four_bar.multistart import distinct, least_squares
 from mechwright_four_bar.pole_equations import PoleProblem
 
 RESIDUAL = 1e-10
-"""Certain distance, mm, from its place of every pole of a solution. What misses it is so near to a toggle that
-lengths rounded to a double move the pole that far."""
+"""Certain distance, mm, from its place of every pole of a solution. What misses it is so near to a toggle
+that lengths rounded to a double move the pole that far."""
 
 STEPS = 100
 """Steps of a start: one in a thousand of those that arrive takes more."""
@@ -24,11 +24,11 @@ ARRIVED = 1e-28
 """Sum of squares at which a start is done: a hundredth of what RESIDUAL asks for, squared."""
 
 NEAR = 1e-14
-"""Sum of squares from which Newton's steps with exact slopes go on: near a toggle, differences of doubles stall
-before."""
+"""Sum of squares from which Newton's steps with exact slopes go on: near a toggle, differences of doubles
+stall before."""
 
 ROUGHLY_SAME, SAME = 1e-3, 1e-6
-"""Solutions whose lengths (in shares) and angles (in radians) agree so far are one, before and after polish."""
+"""Solutions whose lengths (in shares) and angles (in radians) agree so far are one, roughly and polished."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _solutions(problem: PoleProblem, unknowns: Array) -> list[PoleSolution]:
     rows = np.array([_features(bar, phi) for bar, phi in bars])
     solutions: list[PoleSolution] = []
     for index in distinct(rows, ROUGHLY_SAME):
-        bar, phi = polished(*bars[index], problem.targets, _free(problem))
+        bar, phi = polished(bars[index][0], bars[index][1], problem.targets, _free(problem))
         residual = certain_residual(bar, phi, problem.targets)
         if residual <= RESIDUAL:
             solutions.append(PoleSolution(bar, phi % math.tau, residual))

@@ -113,8 +113,8 @@ def _refusal(
         "poles.none",
         Severity.ERROR,
         "crank",
-        f"no linkage with a full turn was found whose poles lie there{without}: the nearest one misses them by "
-        f"{nearest:.3g} mm in the mean",
+        f"no linkage with a full turn was found whose poles lie there{without}: the nearest one misses them "
+        f"by {nearest:.3g} mm in the mean",
         nearest,
         0.0,
         "mm",

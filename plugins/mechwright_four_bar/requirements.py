@@ -1,5 +1,6 @@
 """What the four-bar's synthesis can be asked for."""
 
+from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -42,11 +43,10 @@ class PathRequirement(Parameters):
         "any", description="Sense of the crank, where crank_turns does not say it."
     )
     tolerance: Millimetres = Field(
-        0.01,
-        ge=1e-9,
+        0.0,
+        ge=0,
         le=100,
-        description="Distance in the mean (root mean square) that counts as met; designs within it are "
-        "sorted by transmission angle.",
+        description="Distance in the mean (root mean square) that counts as met; 0 for as near as possible.",
     )
     least_transmission_angle: Degrees = Field(
         20.0, ge=1, le=80, description="Least transmission angle of the designs."
@@ -65,7 +65,7 @@ class PathRequirement(Parameters):
         if turns is not None:
             if len(turns) != len(self.points):
                 raise ValueError(f"crank_turns has {len(turns)} angles for {len(self.points)} points")
-            steps = [two - one for one, two in zip(turns, turns[1:], strict=False)]
+            steps = [two - one for one, two in pairwise(turns)]
             if turns[0] != 0 or not (all(s > 0 for s in steps) or all(s < 0 for s in steps)):
                 raise ValueError("crank_turns starts with 0 and goes one way")
             if abs(turns[-1]) >= 360:
@@ -106,9 +106,7 @@ class PolesRequirement(Parameters):
     least_transmission_angle: Degrees = Field(
         1.0, ge=0.5, le=80, description="Least transmission angle of the designs."
     )
-    starts: int = Field(
-        5000, ge=100, le=MOST_STARTS, description="Random linkages to start from, per branch."
-    )
+    starts: int = Field(5000, ge=100, le=MOST_STARTS, description="Random linkages to start from.")
     designs: int = Field(20, ge=1, le=100, description="Most designs to give.")
     seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
 

@@ -167,8 +167,10 @@ def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     way = 2 * frame.wheel_half
     phi = frame.crank_half - time * u
     first, second, third = way / time * rates.v, way / time**2 * rates.a, way / time**3 * rates.j
-    arm = frame.crank * np.exp(1j * phi)
-    centre = frame.axes - arm
+    crank = frame.crank
+    arm = crank * np.exp(1j * phi)
+    # frame.axes without a second look at the crank
+    centre = frame.entry_radius * np.cos(frame.entry_angle) + crank * np.cos(frame.crank_half) - arm
     theta = way * rates.s
     # dC/dθd is i arm and d²C/dθd² is arm.
     velocity = 1j * (arm - first * centre)

@@ -36,6 +36,7 @@ from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import Points
 from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.mirror import mirrored
 from mechwright_geneva.slot import FIT
 
 _SAMPLES = 400
@@ -193,8 +194,11 @@ def lock_loop(mechanism: Mechanism) -> tuple[Loop, float]:
     m = mechanism
     deep = m.axes - m.rim - m.params.lock_clearance
     entry, one = _Half(m, leaving=False).edge()
-    leave, two = _Half(m, leaving=True).edge()
-    out: list[Segment] = [segment.reversed() for segment in leave[::-1]]
+    if m.law.symmetric:
+        out, two = [mirrored(segment, 0.0) for segment in entry[::-1]], one
+    else:
+        leave, two = _Half(m, leaving=True).edge()
+        out = [segment.reversed() for segment in leave[::-1]]
     start, end = math.atan2(*entry[-1].end[::-1]), math.atan2(*out[0].start[::-1])
     relief: list[Segment] = [*entry, Arc((0.0, 0.0), deep, start, end - start, "relief"), *out]
     free = m.pitch - 2 * m.crank_half

@@ -32,12 +32,19 @@ from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import LEFT, RIGHT, Points
 from mechwright_geneva.mechanism import Mechanism
+from mechwright_geneva.mirror import mirrored
 
 FIT = TOLERANCES.outline / 2
 """Deviation of the fitted walls, mm: half of what an outline may have."""
 
 CAP = 1.0
 """How far outside the rim a cap stands at least, mm: well clear of the rim's own tolerance."""
+
+_QUARTERS = (0.25, 0.75)
+"""Shares at which the walls of a smooth law are cut besides mid stroke: one piece rarely fits a half."""
+
+_SAME = 1e-12
+"""Shares of the stroke that differ by rounding."""
 
 _BISECTIONS = 60
 """Halvings of a bracket of order 1: to the last bit."""
@@ -188,8 +195,16 @@ class _Walls:
 
 @lru_cache(64)
 def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _Walls:
-    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps."""
-    ends = [first, *(u for u in mechanism.law.breaks if first < u < last), last]
+    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps.
+
+    The way out of a symmetric law is the way in, mirrored about the slot's axis.
+    """
+    law = mechanism.law
+    halved = law.symmetric and abs(first + last - 1) < _SAME
+    cuts = {0.5, *(law.breaks or _QUARTERS)}
+    ends = [first, *sorted(u for u in cuts if first < u < last and not (halved and u > 0.5))]
+    if not halved:
+        ends.append(last)
     chains: list[list[Segment]] = [[], []]
     deviation = 0.0
     for a, b in pairwise(ends):
@@ -203,6 +218,9 @@ def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _
         for chain, more in zip(chains, found, strict=True):
             chain.extend(more)
         deviation = max(deviation, error)
+    if halved:
+        for chain in chains:
+            chain.extend([mirrored(segment, -mechanism.wheel_half) for segment in chain[::-1]])
     return _Walls(chains, deviation)
 
 

@@ -47,7 +47,7 @@ def jerks(cos: Any, sin: Any, w: Any, crank: Any, offset: Any, turn: Any, bend: 
 
 @dataclass(frozen=True, slots=True)
 class SliderCrank:
-    """A slider-crank.
+    """A slider-crank; for a sweep over designs the sizes may be arrays of the shape of the angles.
 
     Parameters
     ----------
@@ -110,16 +110,17 @@ class SliderCrank:
         w = self._coupler_x(sin)
         wrong = ~(np.abs(w) > 0)
         if wrong.any():
-            reach = float(np.abs(self.offset - self.crank * sin).max())
+            worst = int(np.argmax(wrong * np.abs(self.offset - self.crank * sin)))
+            reach = np.abs(self.offset - self.crank * sin)[worst]
             raise KinematicsError(
-                f"the linkage cannot move at a crank angle of {math.degrees(phi[np.argmax(wrong)]):.6g}°: "
-                f"the rod of {self.rod:g} mm has to be longer than {reach:.6g} mm"
+                f"the linkage cannot move at a crank angle of {math.degrees(phi[worst]):.6g}°: the rod of "
+                f"{np.broadcast_to(self.rod, phi.shape)[worst]:g} mm has to be longer than {reach:.6g} mm"
             )
         s, v, acceleration, turn, bend = slide(cos, sin, w, self.crank, self.offset)
         jerk, third = jerks(cos, sin, w, self.crank, self.offset, turn, bend)
         # The coupler never turns past ±90° of the slide, or of its opposite: the angle has no jumps.
-        sigma = np.arctan((self.offset - self.crank * sin) / w) + (0.0 if self.branch > 0 else math.pi)
-        along = complex(math.cos(self.direction), math.sin(self.direction))
+        sigma = np.arctan((self.offset - self.crank * sin) / w) + np.where(self.branch > 0, 0.0, math.pi)
+        along = np.exp(1j * self.direction)
         crank = BodyMotion.about(0j, Turning.of(phi, omega))
         rod = BodyMotion(
             crank.point(self.crank),

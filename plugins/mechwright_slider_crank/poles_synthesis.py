@@ -29,6 +29,12 @@ _FIRST, _NEAR, _POLISH = 30, 1e-2, 200
 """Steps of every start, the residual that makes a start worth more, and how many more it then gets: most
 starts are lost at once, and badly conditioned solutions are slow at the end."""
 
+_FAR_SHARE = 0.3
+"""Share of starts with a short crank and a slide line far off, where a few solutions lie."""
+
+_ANGLES, _CHANCE = 90, 1.0
+"""Angles of a turn among which a start chooses, and how freely."""
+
 _DIGITS = 40
 """Digits of the certificate: enough to leave no doubt about a residual of 1e-10."""
 
@@ -107,7 +113,7 @@ def through_poles(
     for number, branch in enumerate((1, -1)):
         heard(number / 2, f"{starts} starts, slider {'ahead of' if branch > 0 else 'behind'} the crank pin")
         equations = _equations(wanted, rotations, branch)
-        x, error = solve_all(equations, _random(wanted, rotations, starts, seed), _FIRST)
+        x, error = solve_all(equations, _random(wanted, rotations, branch, starts, seed), _FIRST)
         turning = np.exp(x[:, 1]) > np.exp(x[:, 0]) + np.abs(x[:, 2])
         best = min(best, scale * float(np.min(error, where=turning, initial=math.inf)))
         near = x[turning & (error < _NEAR)]
@@ -141,14 +147,26 @@ def _equations(wanted: Plane, rotations: Array, branch: int) -> Callable[[Array]
     return residuals
 
 
-def _random(wanted: Plane, rotations: Array, starts: int, seed: int) -> Array:
+def _random(wanted: Plane, rotations: Array, branch: int, starts: int, seed: int) -> Array:
     """Starting points that can be assembled at every angle."""
     rng = np.random.default_rng(seed)
-    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line.
-    a = np.exp(rng.normal(-0.8, 0.9, starts))
-    e = rng.standard_t(1.5, starts) * 0.5
-    c = (a + np.abs(e)) * np.exp(rng.exponential(0.4, starts) + 0.01)
-    angles = rng.uniform(-math.pi, math.pi, (starts, 1 if rotations.size else len(wanted)))
+    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line, or
+    # a rod that only just lets the crank round.
+    far = rng.random(starts) < _FAR_SHARE
+    a = np.exp(rng.normal(np.where(far, -3.0, -0.5), 1.0))
+    e = rng.choice((-1.0, 1.0), starts) * np.exp(rng.normal(np.where(far, 0.5, -1.0), 1.0))
+    c = (a + np.abs(e)) * (1 + np.exp(rng.normal(np.where(far, -4.0, -0.7), 1.5)))
+    grid = np.linspace(-math.pi, math.pi, _ANGLES, endpoint=False)
+    if rotations.size:
+        turned = grid[:, None] + np.concatenate(([0.0], rotations))
+        places = pole(turned, a[:, None, None], c[:, None, None], e[:, None, None], branch)
+        miss = np.abs(places - wanted).max(axis=2)[:, None]
+    else:
+        places = pole(grid, a[:, None], c[:, None], e[:, None], branch)
+        miss = np.abs(places[:, None] - wanted[:, None])
+    # The nearest angle, or by chance another one that is near: a pole's path may come by several times.
+    chance = np.exp(_CHANCE * rng.standard_exponential(miss.shape))
+    angles = grid[np.argmin(miss * chance, axis=2)]
     return np.column_stack((np.log(a), np.log(c), e, angles))
 
 

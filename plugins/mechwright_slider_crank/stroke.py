@@ -24,6 +24,10 @@ RATIOS = (1.0, 3.0)
 """K between which an offset slider-crank exists: 1 needs no offset, and at 3 the crank no longer turns."""
 
 
+_NEARLY = 0.99
+"""Part of the range of offsets that is searched for the best: the last hundredth is never it."""
+
+
 @dataclass(frozen=True, slots=True)
 class Lengths:
     """Crank a, rod c and offset e, mm."""
@@ -97,7 +101,7 @@ def best(stroke: float, time_ratio: float) -> Lengths:
     It is where d/de of (a + e)/c is zero: (1 - H t/(4 a)) c² = (a + e) H/(4 t), t = tan(θ/2).
 
     >>> round(best(120, 1.5).offset, 6)
-    34.593561
+    34.593562
     """
     quarter, t = stroke / 4, math.tan(rocking_angle(time_ratio) / 2)
 
@@ -106,10 +110,9 @@ def best(stroke: float, time_ratio: float) -> Lengths:
         a, c = found.crank, found.rod
         return (1 - quarter * t / a) * c**2 - (a + offset) * quarter / t
 
-    # At e = 0 the slope is that of c = a, negative; at the largest e the crank only just turns.
-    return from_offset(
-        stroke, time_ratio, brentq(slope, 0.0, ranges(stroke, time_ratio).offset[1], xtol=1e-14)
-    )
+    # The angle is 0 at both ends of the range; at the largest offset it has its least with a slope of 0.
+    most = _NEARLY * ranges(stroke, time_ratio).offset[1]
+    return from_offset(stroke, time_ratio, float(brentq(slope, 0.0, most, xtol=1e-15 * stroke)))
 
 
 def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:

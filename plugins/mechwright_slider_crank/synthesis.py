@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -16,27 +17,36 @@ from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.poles_synthesis import ACCURACY, Found, through_poles
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 from mechwright_slider_crank.simulate import simulated
+from mechwright_slider_crank.sizes import sizes_of
 from mechwright_slider_crank.stroke import bounds, lengths_of
 
 Design = SliderCrankParams
 
+_PIN_SHARES = (1.0, 0.75, 0.5)
+"""Pins that are tried, over the usual ones: where the parts are in each other's way, slender ones may do."""
+
+LEAST_PIN = 1.5
+"""mm, the thinnest pin that a synthesis chooses by itself."""
+
 
 def buildable(lengths: Mapping[str, Any]) -> tuple[Design | None, str]:
-    """The first design of these lengths that has no error: with a disc, else with an arm for its crank.
+    """The first design of these lengths that has no error: the stoutest pins, and a disc before an arm.
 
     Without one, the text says why.
     """
-    why = ""
-    for shape in ("disc", "arm"):
-        try:
-            params = Design.model_validate({**lengths, "crank_shape": shape})
-        except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
+    try:
+        usual = Design.model_validate(lengths)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        return None, f"{'.'.join(map(str, first['loc']))} {first['msg'].removeprefix('Input ')}"
+    pin, why = sizes_of(usual).pin, ""
+    for share, shape in product(_PIN_SHARES, ("disc", "arm")):
+        thinner = {} if share == 1 else {"pin": max(LEAST_PIN, round(share * pin, 1))}
+        params = Design.model_validate({**lengths, **thinner, "crank_shape": shape})
         found = errors(findings(params))
         if not found:
             return params, ""
-        why = f"{found[0].parameter}: {found[0].message}"
+        why = why or f"{found[0].parameter}: {found[0].message}"
     return None, why
 
 

@@ -43,8 +43,8 @@ _PRECISION = 1e-14
 _ABSURD = 10.0
 """Residual of a linkage that cannot be assembled."""
 
-_PINCH = 0.05
-"""Weight of a transmission angle below its bound against the path's error: 1 degree there is 9e-4 here."""
+_PINCH = 0.3
+"""Weight of a transmission angle below its bound against the path's error: 1 degree there is 5e-3 here."""
 
 _SWEEP = 25
 """Input angles at which the transmission angle is bounded."""
@@ -85,14 +85,15 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
             _fault("four_bar.path_angles", "no fitted linkage runs through the points in their order")
         ]
         return Synthesis((), tuple(dict.fromkeys(why)))
-    least = math.radians(wanted.least_transmission)
-    found.sort(
-        key=lambda one: (
-            one.figures["transmission_min"].value < least - math.radians(0.5),
-            one.residual.value,
-        )
-    )
-    return Synthesis(tuple(found[: wanted.designs]))
+    found.sort(key=lambda one: one.residual.value)
+    least = math.radians(wanted.least_transmission - _SLACK)
+    # Where none keeps the bound, check warns of those that there are.
+    bounded = [one for one in found if one.figures["transmission_min"].value >= least] or found
+    return Synthesis(tuple(bounded[: wanted.designs]))
+
+
+_SLACK = 0.5
+"""Degrees by which a penalty may leave the transmission angle below its bound."""
 
 
 def _fault(parameter: str, message: str) -> Finding:

@@ -22,6 +22,9 @@ from mechwright_spherical.planar import Complex, points
 Equations = Literal["five", "seven"]
 """``five`` as the source counts, ``seven`` with the reference positions."""
 
+SINGULAR = 1e12
+"""Condition number above which the equations do not determine the pins: four digits of them would be left."""
+
 _PRECISION = 1e-15
 """Tolerances of the solver: to rounding, the problems are tiny."""
 
@@ -177,7 +180,7 @@ def _solve(
         max_nfev=2000,
     )
     condition = float(np.linalg.cond(jacobian(found.x)))
-    if not found.success or not np.isfinite(condition):
+    if not found.success or not condition < SINGULAR:
         raise KinematicsError(
             f"the dyad's equations do not converge from the guess {np.asarray(guess).tolist()}; "
             "start nearer to the wanted pins"

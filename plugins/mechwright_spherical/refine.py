@@ -33,7 +33,7 @@ _PENALTY_SAMPLES = 31
 """Crank angles per phase at which the transmission angle is bounded: one per degree of the published
 travel."""
 
-_SPREAD_RADIUS, _SPREAD_AZIMUTH, _SPREAD_AXIS = 0.25, 0.35, 0.2
+_SPREAD_RADIUS, _SPREAD_AZIMUTH, _SPREAD_AXIS = 0.15, 0.2, 0.1
 """Random starts differ from the first one by up to these shares of an arc, rad, and shares of the frame's
 arc."""
 

@@ -33,6 +33,9 @@ _GRID = 41
 _SLOPE = 1e-6
 """Step of difference quotients, in sizes of the mechanism: halfway between rounding and curvature."""
 
+_LEVEL = 1e-11
+"""Part of the greatest error to which its least level is found: the centre then stands still to 1e-6."""
+
 _FIRST, _DOUBLINGS = 8.0, 4
 """Lengths of the extrapolation: 8 to 64, where rounding grows from 1e-13 to 1e-9 of the result."""
 
@@ -135,30 +138,36 @@ def smallest_length(
     if not best:
         return float(brentq(lambda d: float(scaled_error(design, d, position)) - tolerance, low, high))
 
+    centre, _ = best_centre(design, high)
+
     def excess(d: float) -> float:
-        return best_centre(design, d)[1] * d - tolerance
+        return best_centre(design, d, centre)[1] * d - tolerance
 
     # The best centre is never worse than the origin, so nothing above ``high`` needs a look.
     while excess(low) <= 0:
         low, high = low * _STEP_DOWN, low
         if low < lengths[0]:
             return float(lengths[0])
-    return float(brentq(excess, low, high))
+    return float(brentq(excess, low, high, rtol=1e-9))
 
 
-def best_centre(design: PlanarDesign, length: float) -> tuple[Array, float]:
+def best_centre(design: PlanarDesign, length: float, near: ArrayLike | None = None) -> tuple[Array, float]:
     """Centre (2,) with the least greatest error over the positions, and that error on the unit sphere.
 
     A minimax problem in two unknowns. A grid over the mechanism and its surroundings finds the valley; then
     the least level over all errors is found as a linear programme with curved borders, since where the
-    greatest errors of two positions meet there is an edge that misleads any descent.
+    greatest errors of two positions meet there is an edge that misleads any descent. ``near`` (2,) replaces
+    the grid.
     """
     from scipy.optimize import minimize
 
     corners = np.array([*design.pins.values(), *design.targets])
     middle, half = (corners.min(axis=0) + corners.max(axis=0)) / 2, float(np.ptp(corners, axis=0).max())
-    side = np.linspace(-1, 1, _GRID)
-    grid = middle + half * np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
+    if near is None:
+        side = np.linspace(-1, 1, _GRID)
+        grid = middle + half * np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
+    else:
+        grid = np.asarray(near, dtype=float).reshape(1, 1, 2)
     worst = errors(design, length, grid).max(axis=-1)
     place = np.unravel_index(int(np.argmin(np.where(np.isfinite(worst), worst, np.inf))), worst.shape)
     at, value = grid[place], float(worst[place])
@@ -181,7 +190,7 @@ def best_centre(design: PlanarDesign, length: float) -> tuple[Array, float]:
         jac=lambda unknowns: np.array([0.0, 0.0, 1.0]),  # noqa: ARG005
         constraints={"type": "ineq", "fun": slack, "jac": slopes},
         method="SLSQP",
-        options={"ftol": 1e-14, "maxiter": 200},
+        options={"ftol": _LEVEL, "maxiter": 100},
     )
     better = float(errors(design, length, found.x[:2]).max())
     return (np.asarray(found.x[:2]), better) if better < value else (at, value)

@@ -26,6 +26,7 @@ class Canon:
 
     ok: bool
     error: str
+    text: str
     kinds: tuple[str, ...]
     ends: np.ndarray
 
@@ -47,21 +48,27 @@ def run_rs274(text: str, folder: Path, tools: str = "") -> Canon:
         check=False,
     )
     canon = folder / "canon.txt"
-    kinds, ends = _ends(canon.read_text() if canon.exists() else "")
-    return Canon(done.returncode == 0, (done.stdout + done.stderr).strip(), kinds, ends)
+    calls = canon.read_text(errors="replace") if canon.exists() else ""
+    kinds, ends = _ends(calls)
+    return Canon(done.returncode == 0, (done.stdout + done.stderr).strip(), calls, kinds, ends)
 
 
 def _ends(canon: str) -> tuple[tuple[str, ...], np.ndarray]:
-    kinds, ends = [], []
+    kinds, ends, plane = [], [], "XY"
     for line in canon.splitlines():
         match = _CALL.match(line)
         if match is None:
             continue
         numbers = match[2].split(",")
+        if match[1] == "SELECT_PLANE":
+            plane = match[2].rpartition("_")[2]
         if match[1] in {"STRAIGHT_FEED", "STRAIGHT_TRAVERSE"}:
             kinds.append("rapid" if match[1].endswith("TRAVERSE") else "feed")
             ends.append([float(n) for n in numbers[:3]])
         elif match[1] == "ARC_FEED":
             kinds.append("arc")
-            ends.append([float(numbers[0]), float(numbers[1]), float(numbers[5])])
+            first, second, across = float(numbers[0]), float(numbers[1]), float(numbers[5])
+            # In the planes XZ and YZ the axes come in the order of a right-handed turn.
+            at = {"XY": (first, second, across), "XZ": (second, across, first), "YZ": (across, first, second)}
+            ends.append(at[plane])
     return tuple(kinds), np.array(ends, dtype=float).reshape(-1, 3)

@@ -1,6 +1,7 @@
 """The five controls: kept texts, the contract, options, and what each control reads."""
 
 import re
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -8,9 +9,11 @@ import pytest
 from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from long_program import long_program
 from planning_parts import bore, job, plate
 from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_job, plate_program
+from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.errors import ProgramError
 from mechwright.findings import Severity
@@ -200,6 +203,26 @@ def test_linuxcnc_s_own_interpreter_accepts_the_kept_texts(program, tmp_path) ->
     canon = run_rs274(post.write(made), tmp_path, post.tool_table(made.tools)[1])
     assert canon.ok, canon.error
     assert len(canon.ends) > 40
+
+
+@needs_rs274
+def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) -> None:
+    program = long_program(20_000)
+    text = post_of("linuxcnc").write(program)
+    canon = run_rs274(text, tmp_path, post_of("linuxcnc").tool_table(TOOLS)[1])
+    assert canon.ok, canon.error
+    ours, theirs = distinct(our_ends(interpret(text))), distinct(canon.ends)
+    assert len(ours) > 19_000
+    np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_long_program_is_read_and_proven_quickly(control: str) -> None:
+    text = post_of(control).write(long_program(20_000))
+    started = time.perf_counter()
+    assert prove(text, plate_job(), DIALECTS[control]).ok
+    # 0.4 s on two busy cores; 100,000 moves are timed in benchmarks/bench_controls.py.
+    assert time.perf_counter() - started < 5
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,15 @@
 """The built-in family under the kit that third parties use."""
 
+from typing import ClassVar
+
+from hypothesis import strategies as st
+
 from mechwright.testing import FamilyContract
+from mechwright.testing.strategies import tables
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.params import TRAIN_ONLY
+
+QUICK = {"designs": 1, "starts": 1}
 
 
 class TestEllipticGears(FamilyContract):
@@ -10,7 +18,40 @@ class TestEllipticGears(FamilyContract):
         {},
         {"module": 2, "teeth": 39},
         {"bore": 16, "keyway_width": 5, "keyway_depth": 2.4, "keyway_relief": 2},
+        {"stages": 2, "bore": 12, "phase": 70, "tracer_diameter": 4},
     )
-    refused = (({"teeth": 13}, "teeth"), ({"tooth_offset": 0.3}, "tooth_offset"), ({"bore": 60}, "bore"))
-    derivatives = (("theta2", "omega2"), ("theta4", "omega4"), ("omega4", "alpha4"), ("alpha4", "jerk4"))
+    refused = (
+        ({"teeth": 13}, "teeth"),
+        ({"tooth_offset": 0.3}, "tooth_offset"),
+        ({"bore": 60}, "bore"),
+        ({"band": -1}, "band"),
+        ({"point_along": 1.5}, "point_along"),
+        ({"stages": 2, "point_across": 80}, "point_across"),
+        ({"stages": 2, "eccentricity": 0.1}, "eccentricity"),
+        ({"phase": 30}, "phase"),
+    )
+    derivatives = (
+        ("theta2", "omega2"),
+        ("theta4", "omega4"),
+        ("omega4", "alpha4"),
+        ("alpha4", "jerk4"),
+        ("Q.x", "Q.velocity.x"),
+        ("Q.velocity.y", "Q.acceleration.y"),
+        ("Q.acceleration.x", "Q.jerk.x"),
+    )
     input_rate = "omega2"
+    requirements: ClassVar = {
+        "longest-window": (QUICK,),
+        "least-acceleration": (QUICK,),
+        "least-jerk": (QUICK,),
+    }
+
+    def strategy(self):
+        """Tables as they come, without a train's fields where there is one pair."""
+
+        def settle(table):
+            if table.get("stages", 1) == 2:
+                return table
+            return {name: value for name, value in table.items() if name not in TRAIN_ONLY}
+
+        return tables(EllipticGears.Params).flatmap(lambda table: st.just(settle(table)))

@@ -108,6 +108,7 @@ def test_an_eccentricity_that_no_number_of_teeth_can_have():
     named = float(fault.remedy.split("at most ")[1].split(",")[0])
     assert named == greatest_eccentricity(Params(**table))
     for e, works in ((named, True), (named + 0.001, False)):
+        assert "with 300 teeth" in fault.remedy
         most = Params(**table | {"eccentricity": e, "teeth": 300})
         assert ("gear.undercut" not in {f.code for f in errors(FAMILY.check(most))}) == works
 

@@ -1,5 +1,7 @@
 """The built-in family under the kit that third parties use."""
 
+from typing import ClassVar
+
 from hypothesis import strategies as st
 
 from mechwright.laws import LAWS
@@ -15,25 +17,40 @@ def rows(name, count=21):
 SMALL = {
     "entry_radius": 60,
     "roller_radius": 3,
-    "pin_diameter": 4,
-    "thickness": 8,
+    "pin_diameter": 3,
+    "least_wall": 1.2,
+    "thickness": 5,
+    "floor": 1.5,
+    "crank_thickness": 4,
+    "bore": 8,
     "driver_bore": 6,
-    "fixing": 3,
+    "fixing": 2.5,
+    "material": "aluminium",
 }
+"""Small and soft: quick to machine."""
 
 
 class TestGeneva(FamilyContract):
     family = Geneva
     examples = (
-        {"hub_diameter": 36, "keyway_width": 4, "keyway_relief": 2, "thickness": 8},
-        {"slots": 6, "law": "straight", "rollers": 2, "driver_keyway_width": 2, **SMALL, "entry_radius": 80},
-        {"law": "table", "table": rows("modified-sine"), "construction": "backed", "fixing": 2.5},
         {
+            **SMALL,
             "law": "polynomial",
             "polynomial": [0, 0, 0, 10, -15, 6],
+            "hub_diameter": 24,
+            "hub_height": 4,
+            "keyway_width": 2,
+            "keyway_relief": 1.2,
+        },
+        {**SMALL, "slots": 6, "law": "straight", "rollers": 2, "entry_radius": 70, "driver_keyway_width": 2},
+        {
+            **SMALL,
+            "law": "table",
+            "table": rows("modified-sine"),
             "offset_angle": -12.5,
             "crank_half_angle": 45,
-            **SMALL,
+            "construction": "backed",
+            "fixing": 1.5,
         },
     )
     refused = (
@@ -49,14 +66,13 @@ class TestGeneva(FamilyContract):
         ({"floor": 9.8}, "floor"),
         ({"rollers": 4}, "rollers"),
     )
-    variations = {
+    variations: ClassVar = {
         "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],
         "table": [rows("cycloidal")],
         "load_torque": [0.5],
     }
-    derivatives = (("theta_w", "omega_w"),)
-    input_rate = "omega_d"
-    samples = 1441
+    requirements: ClassVar = {"indexing": ({"laws": ["cycloidal"], "designs": 2},)}
+    max_examples = 15
 
     def strategy(self):
         """Random tables near designs that can be built, and any others."""

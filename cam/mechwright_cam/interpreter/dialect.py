@@ -59,6 +59,8 @@ class Dialect:
         Whether a tool counts as changed at its T word, by hand, because there is no M6.
     length_table
         Whether the control has a table of tool lengths for G43 H.
+    variables
+        Whether parameters, expressions and O-words are worked out.
     forbidden
         Characters that the control obeys out of the stream, wherever they stand.
     """
@@ -88,25 +90,21 @@ class Dialect:
     tool_by_t: bool = False
     length_table: bool = True
     forbidden: str = ""
+    variables: bool = False
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
-_PLANE_UNITS = {170, 200, 210}
-_OFFSETS = {100, 400, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
+_PLANE_UNITS = {170, 180, 190, 200, 210}
+_OFFSETS = {100, 400, 410, 411, 420, 421, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
 _MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
 
 LINUXCNC = Dialect(
     name="LinuxCNC",
+    variables=True,
     g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
     m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
     unsupported=(
-        (180, "only the XY plane (G17) is read"),
-        (190, "only the XY plane (G17) is read"),
         (300, "retract with G53 G0 Z0 or G28"),
-        (410, "post the path of the tool's centre (G40)"),
-        (420, "post the path of the tool's centre (G40)"),
-        (411, "post the path of the tool's centre (G40)"),
-        (421, "post the path of the tool's centre (G40)"),
         (840, "tapping is not simulated"),
         (920, "shift the origin with the work offset, G54 to G59.3"),
         (930, "write feeds in units per minute (G94)"),

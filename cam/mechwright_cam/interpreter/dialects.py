@@ -11,16 +11,11 @@ _CENTRE = "shift the origin with a work offset"
 _FEEDS = "write feeds in units per minute (G94)"
 _MACRO = "macros and subprograms are not read; post the program without them"
 
-_COMMON = {0, 10, 20, 30, 40, 280, 530, 170, 200, 210, 400, 430, 490, 800, 810, 820, 830}
+_COMMON = {0, 10, 20, 30, 40, 280, 530, 170, 180, 190, 410, 420, 200, 210, 400, 430, 490, 800, 810, 820, 830}
 _COMMON |= {540, 550, 560, 570, 580, 590, 610, 640, 900, 910, 940, 100}
 _CYCLES = {730, 850, 890, 980, 990}
 _M = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}
-_PLANES = "only the XY plane (G17) is read"
 _SHARED = (
-    (180, _PLANES),
-    (190, _PLANES),
-    (410, "post the path of the tool's centre (G40)"),
-    (420, "post the path of the tool's centre (G40)"),
     (650, _MACRO),
     (660, _MACRO),
     (740, _TAPPING),
@@ -84,7 +79,7 @@ MACH3 = Dialect(
 GRBL = Dialect(
     name="Grbl",
     g_codes=frozenset(
-        {0, 10, 20, 30, 40, 100, 280, 300, 530, 170, 200, 210, 400, 431, 490, 800, 900, 910, 911}
+        {0, 10, 20, 30, 40, 100, 280, 300, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900, 910, 911}
         | {540, 550, 560, 570, 580, 590, 610, 940}
     ),
     m_codes=frozenset({0, 1, 2, 3, 4, 5, 7, 8, 9, 30}),

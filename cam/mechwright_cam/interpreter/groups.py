@@ -7,7 +7,7 @@ GROUPS: dict[str, frozenset[int]] = {
     "arc centre": frozenset({901, 911}),
     "feed mode": frozenset({930, 940, 950}),
     "units": frozenset({200, 210}),
-    "cutter compensation": frozenset({400, 410, 420}),
+    "cutter compensation": frozenset({400, 410, 411, 420, 421}),
     "length offset": frozenset({430, 431, 490}),
     "return": frozenset({980, 990}),
     "work offset": frozenset({540, 541, 550, 560, 570, 580, 590, 591, 592, 593, 1540}),

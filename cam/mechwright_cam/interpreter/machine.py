@@ -6,17 +6,23 @@ The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's document
 
 import math
 import re
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from mechwright_cam.interpreter.arcs import centre_of
-from mechwright_cam.interpreter.blocks import NUMBER, Block, fail, read_block
+from mechwright_cam.interpreter.arcs import centre_of, sweep_of
+from mechwright_cam.interpreter.blocks import NUMBER, POLAR, Block, fail, read_block
 from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
 from mechwright_cam.interpreter.groups import CYCLES, GROUPS, spell
-from mechwright_cam.interpreter.modes import Modal
+from mechwright_cam.interpreter.macros import Macros, uses_macros
+from mechwright_cam.interpreter.modes import CENTRES, PLANES, Modal
 from mechwright_cam.interpreter.run import Kind, Remark, Run
 
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
+CHORD = 0.0005
+"""Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
+HIGHEST_PARAMETER = 5000
+"""Parameters beyond this are probe results, offsets and states of the machine."""
 _AXES = "XYZ"
 # A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
 _PLAIN, _POINTED = (
@@ -30,7 +36,13 @@ _PLAIN, _POINTED = (
 
 
 def interpret(
-    text: str, dialect: Dialect = LINUXCNC, *, block_delete: bool = False, upper_end: float = 0.0
+    text: str,
+    dialect: Dialect = LINUXCNC,
+    *,
+    block_delete: bool = False,
+    upper_end: float = 0.0,
+    diameters: Mapping[int, float] | None = None,
+    start: tuple[float, float, float] | None = None,
 ) -> Run:
     r"""Run a program.
 
@@ -44,6 +56,11 @@ def interpret(
         Whether lines that start with ``/`` are skipped.
     upper_end
         Machine Z of a full retract, mm: G53 to there or higher is at the machine's upper end.
+    diameters
+        D number to diameter, mm, for G41 and G42.
+    start
+        Where the tool stands at first, mm, if that is known; then all work offsets and lengths are taken
+        for 0, as another simulator may do.
 
     Returns
     -------
@@ -62,10 +79,17 @@ def interpret(
     ([10.0, 0.0, -1.0], True)
     """
     machine = _Machine(dialect, upper_end)
+    machine.diameters = diameters or {}
+    if start is not None:
+        machine.x, machine.y, machine.z = start
+        machine.offsets_are_zero = True
     plain = (_POINTED if dialect.point_needed else _PLAIN).fullmatch
     lines = text.replace("\r\n", "\n").split("\n")
+    source: Iterable[tuple[int, str]] = enumerate(lines, start=1)
+    if dialect.variables and uses_macros(text):
+        source = Macros(lines, machine.system_value, machine.look_anew).run()
     percents = 0
-    for number, raw in enumerate(lines, start=1):
+    for number, raw in source:
         match = plain(raw) if len(raw) <= dialect.line_length else None
         if match is not None:
             if not raw or machine.run_plain(number, match.groups()):
@@ -95,13 +119,48 @@ class _Machine(Modal):
         self.sticky: dict[str, float] = {}
         self.initial = math.nan
 
+    def system_value(self, name: float | str) -> float:
+        """A parameter that the machine keeps; numbered ones that nothing has set are 0."""
+        place = {"_x": self.x, "_y": self.y, "_z": self.z, 5420: self.x, 5421: self.y, 5422: self.z}
+        known = {
+            **place,
+            "_feed": self.feed / self.scale,
+            "_rpm": self.state.rpm,
+            "_current_tool": float(self.state.tool),
+            "_selected_tool": float(-1 if self.selected is None else self.selected),
+            "_metric": float(self.scale == 1.0),
+            "_imperial": float(self.scale != 1.0),
+            "_absolute": float(self.absolute),
+            "_incremental": float(not self.absolute),
+        }
+        if name in known:
+            value = known[name]
+            if name in place:
+                if not math.isfinite(value):
+                    raise ValueError(f"#{name} is asked for, and the text does not say where the tool is")
+                value /= self.scale
+            return value
+        if isinstance(name, str):
+            raise ValueError(f"#<{name}> has no value")
+        if name > HIGHEST_PARAMETER:
+            raise ValueError(f"#{name:g} is kept by the machine, and not known here")
+        return 0.0
+
     # -- motion lines -----------------------------------------------------------------------------------
 
     def run_plain(self, line: int, words: tuple[Any, ...]) -> bool:
         """Run a line of G0 to G3, X, Y, Z, I, J and F; False if it needs the general path."""
         g, x, y, z, i, j, f = words
         motion = self.motion if g is None else 10 * int(g)
-        if not self.absolute or motion is None or motion > 30 or (x is None and y is None and z is None):
+        if (
+            self.side
+            or self.left is not None
+            or self.plane != 170
+            or not self.absolute
+            or motion is None
+            or motion > 30
+            or (x is None and y is None and z is None)
+        ):
             return False
         if motion >= 20:
             if i is None or j is None or self.absolute_centres:
@@ -198,6 +257,13 @@ class _Machine(Modal):
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
         here = {"X": self.x, "Y": self.y, "Z": self.z}
+        if self.side:
+            here["X"], here["Y"] = self.contour
+        elif self.left is not None:
+            here["X"], here["Y"] = self.left
+            self.left = None
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, here["X"], here["Y"])
         for axis in _AXES:
             if axis not in words:
                 continue
@@ -210,6 +276,21 @@ class _Machine(Modal):
                 here[axis] += value
         return here["X"], here["Y"], here["Z"]
 
+    def _polar(self, block: Block, words: dict[str, float], x: float, y: float) -> tuple[float, float]:
+        """The place that @ (distance from X0 Y0) and ^ (angle) name; what is not named stays as it is."""
+        if words.keys() & {"X", "Y"}:
+            raise fail(block.line, "polar coordinates beside X or Y")
+        if not math.isfinite(x + y) or (math.hypot(x, y) == 0 and not {"@", "^"} <= words.keys()):
+            raise fail(block.line, "polar coordinates from a place without a direction")
+        radius, angle = math.hypot(x, y), math.atan2(y, x)
+        if "@" in words:
+            named = words.pop("@") * self.scale
+            radius = named if self.absolute else radius + named
+        if "^" in words:
+            turn = math.radians(words.pop("^"))
+            angle = turn if self.absolute else angle + turn
+        return radius * math.cos(angle), radius * math.sin(angle)
+
     def _move(self, block: Block, words: dict[str, float]) -> None:
         named = next((code for code in block.g if code in GROUPS["motion"]), None)
         if named is not None:
@@ -221,20 +302,25 @@ class _Machine(Modal):
                 self.motion = named
             else:
                 self.motion = named
-        axes = words.keys() & set(_AXES)
-        centre = words.keys() & {"I", "J", "R"} if self.motion in {20, 30} else set()
+        axes = words.keys() & (set(_AXES) | POLAR)
+        centre = words.keys() & {"I", "J", "K", "R"} if self.motion in {20, 30} else set()
         if 530 in block.g:
             self._machine_move(block, words)
         elif axes or centre:
             if self.motion is None:
                 raise fail(block.line, "an axis without a motion; write G0, G1, G2, G3 or a cycle")
             if self.motion in CYCLES:
+                if self.side or self.plane != 170:
+                    raise fail(block.line, "a cycle is read in the XY plane and without compensation only")
                 self._cycle(block, words, self.motion)
             elif self.motion in {20, 30}:
                 self._arc(block, words)
             else:
                 x, y, z = self._target(block, words)
-                if self.motion == 0:
+                if self.side:
+                    kind = Kind.RAPID if self.motion == 0 else Kind.FEED
+                    self.compensated(block.line, kind, x, y, z, None, False)
+                elif self.motion == 0:
                     self._row(Kind.RAPID, block.line, x, y, z)
                 else:
                     self._feed_to(block.line, x, y, z)
@@ -245,6 +331,8 @@ class _Machine(Modal):
         """G53: machine coordinates, whose place in the work the text does not know."""
         if self.motion not in {0, 10}:
             raise fail(block.line, "G53 needs G0 or G1")
+        if self.side:
+            raise fail(block.line, "G53 while compensation is on; write G40 before")
         axes = {axis: words.pop(axis) for axis in _AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
@@ -257,27 +345,67 @@ class _Machine(Modal):
 
     def _arc(self, block: Block, words: dict[str, float]) -> None:
         ccw = self.motion == 30
-        start = (self.x, self.y)
-        x, y, z = self._target(block, words)
+        axes = PLANES[self.plane]
+        here = {"X": self.x, "Y": self.y, "Z": self.z}
+        if self.side:
+            here["X"], here["Y"] = self.contour
+        target = dict(zip(_AXES, self._target(block, words), strict=True))
+        start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
         turns = self._whole(block, "P", words.pop("P", 1.0))
         if not 1 <= turns <= MOST_TURNS:
             raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
+        first, second = CENTRES[axes[0]], CENTRES[axes[1]]
         if "R" in words:
-            if words.keys() & {"I", "J"}:
-                raise fail(block.line, "an arc has either R, or I and J")
+            if words.keys() & {first, second}:
+                raise fail(block.line, f"an arc has either R, or {first} and {second}")
             radius = words.pop("R") * self.scale
             try:
-                centre = centre_of(start, (x, y), radius, ccw, self.dialect.arc_absolute)
+                centre = centre_of(start, end, radius, ccw, self.dialect.arc_absolute)
             except ValueError as error:
                 raise fail(block.line, str(error)) from None
-        elif words.keys() & {"I", "J"}:
-            if self.absolute_centres and not {"I", "J"} <= words.keys():
-                raise fail(block.line, "with G90.1 an arc needs both I and J")
-            i, j = words.pop("I", 0.0) * self.scale, words.pop("J", 0.0) * self.scale
+        elif words.keys() & {first, second}:
+            if self.absolute_centres and not {first, second} <= words.keys():
+                raise fail(block.line, f"with G90.1 an arc needs both {first} and {second}")
+            i, j = words.pop(first, 0.0) * self.scale, words.pop(second, 0.0) * self.scale
             centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
         else:
-            raise fail(block.line, "an arc without a centre; write I and J, or R")
-        self._arc_to(block.line, x, y, z, centre, ccw, turns)
+            raise fail(block.line, f"an arc without a centre; write {first} and {second}, or R")
+        if self.side:
+            if turns > 1:
+                raise fail(block.line, "several turns while compensation is on; write one after the other")
+            self.compensated(block.line, Kind.ARC, end[0], end[1], target["Z"], centre, ccw)
+        elif self.plane == 170:
+            self._arc_to(block.line, target["X"], target["Y"], target["Z"], centre, ccw, turns)
+        else:
+            self._arc_in_pieces(block.line, here, target, centre, ccw, turns)
+
+    def _arc_in_pieces(
+        self,
+        line: int,
+        here: dict[str, float],
+        target: dict[str, float],
+        centre: tuple[float, float],
+        ccw: bool,
+        turns: int,
+    ) -> None:
+        """An arc in the ZX or YZ plane, as short straight moves: the proof looks from above."""
+        a, b, c = tuple(PLANES[self.plane])
+        start, end = (here[a], here[b]), (target[a], target[b])
+        if not all(map(math.isfinite, (*here.values(), *target.values()))):
+            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+        radius = self._check_arc(line, start, end, centre)
+        sweep = sweep_of(start, end, centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - CHORD / radius, 0.0))))
+        angle = math.atan2(start[1] - centre[1], start[0] - centre[0])
+        for number in range(1, count):
+            share = number / count
+            at = angle + sweep * share
+            place = {a: centre[0] + radius * math.cos(at), b: centre[1] + radius * math.sin(at)}
+            place[c] = here[c] + (target[c] - here[c]) * share
+            self.pieces.append(len(self.rows))
+            self._feed_to(line, place["X"], place["Y"], place["Z"])
+        self._feed_to(line, target["X"], target["Y"], target["Z"])
 
     def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
         line, name = block.line, spell(code)
@@ -289,6 +417,8 @@ class _Machine(Modal):
                 time = bare if bare is not None and letter in block.bare else unit
                 self.sticky[letter] = words.pop(letter) * (time if letter == "P" else self.scale)
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
         x, y = here.get("X", self.x), here.get("Y", self.y)
         for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
             if letter not in self.sticky:

@@ -1,16 +1,21 @@
 """The modes of the machine: what a word changes and leaves changed."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from mechwright_cam.interpreter.blocks import Block, fail
+from mechwright_cam.interpreter.compensation import Compensation
 from mechwright_cam.interpreter.dialect import Dialect
 from mechwright_cam.interpreter.groups import EXTENDED, GROUPS, M_GROUPS, spell
-from mechwright_cam.interpreter.recorder import Recorder
 from mechwright_cam.interpreter.run import Coolant, Kind, State
 
 INCH = 25.4
+PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
+"""G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
+CENTRES = {"X": "I", "Y": "J", "Z": "K"}
+"""The word for the centre along each axis."""
 _COOLANT: dict[tuple[bool, bool], Coolant] = {
     (False, False): "off",
     (True, False): "mist",
@@ -19,7 +24,7 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
 }
 
 
-class Modal(Recorder):
+class Modal(Compensation):
     """A machine that knows its modes, and does not move yet."""
 
     def __init__(self, dialect: Dialect) -> None:
@@ -30,6 +35,9 @@ class Modal(Recorder):
         self.selected: int | None = None
         self.to_initial = True
         self.state = State()
+        self.plane = 170
+        self.offsets_are_zero = False
+        self.diameters: Mapping[int, float] = {}
 
     def _take(self, block: Block, letter: str, missing: str) -> float:
         try:
@@ -106,13 +114,34 @@ class Modal(Recorder):
                 self.absolute_centres = code == 901
             elif code in {980, 990}:
                 self.to_initial = code == 980
-            elif code == 170:
-                self._state("plane")
+            elif code in PLANES:
+                if self.side:
+                    raise fail(block.line, "the plane changes while compensation is on; write G40 before")
+                self.plane = code
+                if code == 170:
+                    self._state("plane")
             elif code == 400:
+                self.end_compensation()
                 self._state("cutter compensation")
+            elif code in {410, 420, 411, 421}:
+                if self.plane != 170:
+                    raise fail(block.line, f"{spell(code)} is read in the XY plane only (G17)")
+                self.begin_compensation(
+                    block.line, 1 if code in {410, 411} else -1, self._diameter(block, code)
+                )
             elif code == 640:
                 words.pop("P", None)
                 words.pop("Q", None)
+
+    def _diameter(self, block: Block, code: int) -> float:
+        """The diameter of G41 and G42: of the tool in the spindle, of that of the D word, or D itself."""
+        name = spell(code)
+        if code in {411, 421}:
+            return self._take(block, "D", f"{name} needs the diameter, D") * self.scale
+        number = self._whole(block, "D", block.words.pop("D", self.state.tool))
+        if number not in self.diameters:
+            raise fail(block.line, f"{name} D{number}: no tool of that number is known, so no diameter")
+        return self.diameters[number]
 
     def _length_offset(self, block: Block, words: dict[str, float]) -> None:
         offset, length = self.state.length_offset, None
@@ -127,7 +156,7 @@ class Modal(Recorder):
             return
         if (offset, length) != (self.state.length_offset, self.state.length):
             self._set(length_offset=offset, length=length)
-            if math.isfinite(self.z):
+            if math.isfinite(self.z) and not self.offsets_are_zero:
                 self.z = math.nan
 
     def _work_offset(self, block: Block, words: dict[str, float]) -> None:
@@ -144,6 +173,8 @@ class Modal(Recorder):
 
     def _lose_place(self) -> None:
         """Offsets have changed: where the tool is, the text no longer says."""
+        if self.offsets_are_zero:
+            return
         self.x = self.y = math.nan
         if math.isfinite(self.z):
             self.z = math.nan

@@ -29,6 +29,7 @@ class Recorder:
         self.states: list[State] = [State()]
         self.index = 0
         self.rows: list[tuple[float, ...]] = []
+        self.pieces: list[int] = []
         self.remarks: list[Remark] = []
 
     def _row(
@@ -62,9 +63,19 @@ class Recorder:
             raise fail(line, "a feed move without a feed; write F above 0")
         if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
             raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
-        cx, cy = centre
-        first = math.hypot(self.x - cx, self.y - cy)
-        error = abs(first - math.hypot(x - cx, y - cy))
+        here = (self.x, self.y)
+        first = self._check_arc(line, here, (x, y), centre)
+        error = abs(first - math.dist((x, y), centre))
+        sweep = sweep_of(here, (x, y), centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(*centre, sweep, error))
+
+    def _check_arc(
+        self, line: int, start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]
+    ) -> float:
+        """Give the radius of an arc at its start, mm; raises ProgramError if its end has another."""
+        first = math.dist(start, centre)
+        error = abs(first - math.dist(end, centre))
         if first == 0:
             raise fail(line, "an arc of radius 0")
         limits = self.dialect
@@ -74,9 +85,7 @@ class Recorder:
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
                 f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
             )
-        sweep = sweep_of((self.x, self.y), (x, y), centre, ccw)
-        sweep += math.copysign(math.tau * (turns - 1), sweep)
-        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(cx, cy, sweep, error))
+        return first
 
     def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
         """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
@@ -117,6 +126,7 @@ class Recorder:
             remarks=tuple(self.remarks),
             ended=self.ended,
             lines=lines,
+            piece=np.isin(np.arange(len(table)), self.pieces),
         )
 
 

@@ -112,6 +112,8 @@ class Run:
         Whether the program says that it ends.
     lines
         Number of lines read.
+    piece
+        (n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one.
     files
         Names of the files that were run one after the other; empty if it was one text.
     file
@@ -132,6 +134,7 @@ class Run:
     remarks: tuple[Remark, ...] = field(default=())
     ended: bool = False
     lines: int = 0
+    piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     files: tuple[str, ...] = ()
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
@@ -193,4 +196,4 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     )
 
 
-_COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "feed", "seconds", "arc_error")
+_COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "feed", "seconds", "arc_error", "piece")

@@ -13,6 +13,7 @@ from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
+from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
@@ -52,7 +53,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     ProgramError
         The text cannot be read; the message names the line.
     """
-    run = _run(text, job, dialect)
+    run = read(text, job, dialect)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
     scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
@@ -67,6 +68,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
         _depth_check(scene),
         _leftover_check(left),
         held,
+        details.cut(scene.paths, job),
     ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
@@ -89,7 +91,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
 def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     """The deepest cut into the part, and into a tab."""
     paths, job = scene.paths, scene.job
-    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    gouge = _deepest(details.deepest(paths, job, bands(job, details.heights(job))))
     in_tab = _deepest(
         deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
         for top in sorted({tab.top for tab in job.tabs})
@@ -104,14 +106,16 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     return left, held, loose
 
 
-def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+def read(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
+    """Run a program on the machine of a job; raises ProgramError that names file and line."""
     upper_end = job.settings.machine.retract_z
+    diameters = {tool.number: tool.diameter for tool in job.tools}
     if isinstance(text, str):
-        return interpret(text, dialect, upper_end=upper_end)
+        return interpret(text, dialect, upper_end=upper_end, diameters=diameters)
     runs = []
     for name, one in text.items():
         try:
-            runs.append(interpret(one, dialect, upper_end=upper_end))
+            runs.append(interpret(one, dialect, upper_end=upper_end, diameters=diameters))
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
@@ -119,7 +123,7 @@ def _run(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
 
 def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
     """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
-    paths = Paths(_run(text, job, dialect), {tool.number: tool for tool in job.tools})
+    paths = Paths(read(text, job, dialect), {tool.number: tool for tool in job.tools})
     cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
     gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
     rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)

@@ -1,19 +1,20 @@
 """What the setup sheet says about tools, operations and proof, as plain rows."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.tooling import Tool, ToolKind
+from mechwright_cam.interpreter.arcs import sweep_of
 from mechwright_cam.job import Job
 from mechwright_cam.picture import tool_colours
-from mechwright_cam.trace import Traced
+from mechwright_cam.trace import Stroke, Traced
 
 HOLDER_GAP = 3.0
 """Air between the holder and the highest thing below it, mm: chips pack in less."""
-
-_KINDS = {ToolKind.END_MILL: "end mill", ToolKind.DRILL: "drill", ToolKind.SPOT_DRILL: "spot drill"}
 
 
 @dataclass(frozen=True)
@@ -113,8 +114,9 @@ def describe(tool: Tool) -> str:
     >>> describe(Tool(name="em6", number=3, kind="end-mill", diameter=6, flutes=3, flute_length=13))
     'end mill ⌀6, 3 flutes'
     """
-    words = f"{_KINDS[tool.kind]} ⌀{tool.diameter:g}"
-    if tool.kind is ToolKind.END_MILL:
+    words = f"{str(tool.kind).replace('-', ' ')} ⌀{tool.diameter:g}"
+    words += f", {tool.coating}" if tool.coating else ""
+    if tool.kind not in (ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER):
         plunge = "" if tool.centre_cutting else ", not centre cutting"
         return f"{words}, {tool.flutes} flute{'s' if tool.flutes != 1 else ''}{plunge}"
     return f"{words}, {tool.point_angle:g}° point"
@@ -149,6 +151,43 @@ def spot_rows(proof: Mapping[str, Any]) -> list[dict[str, float | None]]:
         for row in rows
         if _figure(row, "x") is not None and _figure(row, "y") is not None
     ]
+
+
+def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
+    """Least x, least y, greatest x and greatest y that cutters reach at a feed, mm; None without any."""
+    boxes = []
+    for item in traced:
+        radius = item.section.tool.radius
+        for stroke in item.strokes:
+            if stroke.feed <= 0:
+                continue
+            points = [stroke.start[:2], stroke.end[:2], *_turning_points(stroke)]
+            xs, ys = zip(*points, strict=True)
+            boxes.append((min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius))
+    if not boxes:
+        return None
+    x0, y0, x1, y1 = zip(*boxes, strict=True)
+    return min(x0), min(y0), max(x1), max(y1)
+
+
+def _turning_points(stroke: Stroke) -> list[Point]:
+    """Where an arc passes the directions of the axes: there it reaches out furthest."""
+    if stroke.centre is None:
+        return []
+    (x, y), r = stroke.centre, math.dist(stroke.centre, stroke.start[:2])
+    sweep = sweep_of(stroke.start[:2], stroke.end[:2], stroke.centre, stroke.ccw)
+    first = math.atan2(stroke.start[1] - y, stroke.start[0] - x)
+    passed = [
+        quarter * math.pi / 2
+        for quarter in range(4)
+        if (quarter * math.pi / 2 - first) * math.copysign(1, sweep) % math.tau <= abs(sweep)
+    ]
+    return [(x + r * math.cos(angle), y + r * math.sin(angle)) for angle in passed]
+
+
+def load_rows(proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """What the simulation says of each tool."""
+    return list((proof.get("simulation") or {}).get("tools") or ())
 
 
 def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:

@@ -10,6 +10,7 @@ setter (N) and where a tool's tip does (Zn), a setter of height h gives
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.posts.offsets import setting_words
 from mechwright_cam.svg import signed
@@ -26,7 +27,14 @@ class Step:
     lines: tuple[str, ...]
 
 
-def steps(job: Job, tools: Sequence[int], *, file_name: str, deepest: float) -> list[Step]:
+def steps(
+    job: Job,
+    tools: Sequence[int],
+    *,
+    file_name: str,
+    deepest: float,
+    reach: tuple[float, float, float, float] | None = None,
+) -> list[Step]:
     """The steps in order.
 
     Parameters
@@ -39,15 +47,17 @@ def steps(job: Job, tools: Sequence[int], *, file_name: str, deepest: float) -> 
         The program's file.
     deepest
         Lowest z that any tool reaches, mm.
+    reach
+        Least x, least y, greatest x, greatest y that any cutter reaches below the rapids, mm.
     """
     offset = job.settings.work_offset
     over = job.side == "underside"
+    by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
     return [
-        _turn(job) if over else _stock(job, deepest),
+        _with_reach(_turn(job) if over else _stock(job, deepest), reach),
         _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
-        _lengths(offset, tools),
-        _check(offset, tools),
+        *([_touch_off(job, tools)] if by_hand else [_lengths(offset, tools), _check(offset, tools)]),
         _run(job, offset, file_name),
     ]
 
@@ -85,6 +95,34 @@ def _stock(job: Job, deepest: float) -> Step:
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
+
+
+def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> Step:
+    if reach is None:
+        return step
+    x0, y0, x1, y1 = (signed(value, 1) for value in reach)
+    line = f"Cutters run from X {x0} to {x1} and Y {y0} to {y1}: no clamp in there."
+    return Step(step.title, (*step.lines, line))
+
+
+def _touch_off(job: Job, tools: Sequence[int]) -> Step:
+    listed = ", ".join(f"T{tool}" for tool in tools)
+    known = {tool.number for tool in job.tools if tool.length is not None}
+    if set(tools) <= known:
+        lines = [
+            f"The lengths of {listed} are in the program (G43.1), as measured against the spindle nose.",
+            "Check each by hand before the first cut: G43.1 with its length, then the tip over the stock.",
+        ]
+    else:
+        lines = [
+            f"The control keeps no lengths: {listed} are touched off one by one. At each stop load the tool, "
+            f"bring its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so "
+            "that Z reads h.",
+            "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
+        ]
+    if job.settings.post.tool_change == "files":
+        lines.append("There is a file for each tool: touch off before each, and run them in order.")
+    return Step("Tools by hand", tuple(lines))
 
 
 def _turn(job: Job) -> Step:

@@ -8,6 +8,7 @@ import jinja2
 from markupsafe import Markup
 
 from mechwright.program import Program
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
@@ -23,6 +24,7 @@ def setup_html(
     suffix: str = ".nc",
     tool_table: str = "",
     design: str = "",
+    pictures: Mapping[str, str] | None = None,
 ) -> str:
     """The setup sheets of some programs.
 
@@ -38,6 +40,8 @@ def setup_html(
         The file of the control's tool table; empty if there is none.
     design
         The design file it all comes from.
+    pictures
+        Program name to the picture of its simulated stock, an ``<svg>`` element of our own.
 
     Returns
     -------
@@ -49,6 +53,7 @@ def setup_html(
     sheets = []
     for job, program, proof in programs:
         sheet = _sheet(job, program, proof or {}, program.name + suffix)
+        sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
         body = template.render(**sheet, tool_table=tool_table, design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]
@@ -71,9 +76,17 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "spots": spots,
         "tools": tools,
         "operations": facts.operation_rows(program, traced, proof),
-        "steps": steps(job, [row.tool.number for row in tools], file_name=file_name, deepest=deepest),
+        "loads": facts.load_rows(proof),
+        "steps": steps(
+            job,
+            [row.tool.number for row in tools],
+            file_name=file_name,
+            deepest=deepest,
+            reach=facts.reach(traced),
+        ),
         "origin": origin_words(job),
         "quantity": quantity(job),
+        "by_hand": not DIALECTS.get(job.settings.control, LINUXCNC).length_table,
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         "side": Markup(side_view(job, program, deepest)),  # noqa: S704

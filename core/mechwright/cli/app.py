@@ -33,6 +33,14 @@ Curves = Annotated[
     ),
 ]
 
+At = Annotated[
+    str,
+    typer.Option(
+        metavar="INPUT",
+        help="Where the assembly stands, such as '40 deg'; by default at the start.",
+    ),
+]
+
 SAMPLES = 721
 """Default number of samples: every half degree of one turn, both ends included."""
 
@@ -99,11 +107,11 @@ def solve(design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) 
 
 
 @app.command()
-def model(design: DesignFile, output: OutputFolder, also: Also = "") -> None:
+def model(design: DesignFile, output: OutputFolder, also: Also = "", at: At = "") -> None:
     """Write the solids: parts and assembly as STEP."""
     from mechwright.cli import work
 
-    work.write(design, output, "model", also=also)
+    work.write(design, output, "model", also=also, at=at)
 
 
 @app.command()
@@ -124,11 +132,12 @@ def build(
     samples: Samples = SAMPLES,
     also: Also = "",
     dxf_curves: Curves = "spline",
+    at: At = "",
 ) -> None:
     """Write everything: motion, solids, drawings, programs."""
     from mechwright.cli import work
 
-    work.write(design, output, "build", samples=samples, also=also, curves=dxf_curves)
+    work.write(design, output, "build", samples=samples, also=also, curves=dxf_curves, at=at)
 
 
 @app.command()

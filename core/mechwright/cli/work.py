@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import typer
 
@@ -15,6 +15,9 @@ from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
 from mechwright.host import Host, host
 from mechwright.output import Exporter
+
+if TYPE_CHECKING:
+    from mechwright.motion import Motion
 
 PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
 """Bytes: surfacing programs are long, but not longer than this."""
@@ -70,7 +73,14 @@ def check(path: Path, as_json: bool) -> None:
 
 
 def write(
-    path: Path, folder: Path, command: str, *, samples: int = 2, also: str = "", curves: str = "spline"
+    path: Path,
+    folder: Path,
+    command: str,
+    *,
+    samples: int = 2,
+    also: str = "",
+    curves: str = "spline",
+    at: str = "",
 ) -> None:
     """Run ``solve``, ``model``, ``cam`` or ``build`` and write its files."""
     design, found = _open(path)
@@ -82,6 +92,7 @@ def write(
         findings = list(design.family.check(design.params))
         if errors(findings):
             _refuse(findings, path)
+        pose = _pose(design, at) if command in {"model", "build"} else None
         if command in {"solve", "build"}:
             from mechwright.motion_files import motion_csv, summary_json
 
@@ -108,9 +119,9 @@ def write(
                     f"{path}: family {design.family.name} makes no plate part, so there is nothing to mill; "
                     "use mechwright model"
                 )
-        if command in {"model", "build"}:
+        if pose is not None:
             step("solids")
-            _write_solids(design, found, output, exporters)
+            _write_solids(design, found, output, exporters, pose)
         step("writing")
         write_folder(folder, output, command, _facts(design, found))
     for finding in findings:
@@ -129,16 +140,28 @@ def _more_formats(found: Host, also: str, written: set[str]) -> list[Exporter]:
     return [exporter for name, exporter in exporters.items() if name not in written]
 
 
-def _write_solids(design: Design, found: Host, output: Output, more: list[Exporter]) -> None:
+def _write_solids(
+    design: Design, found: Host, output: Output, more: list[Exporter], pose: "tuple[Motion, int]"
+) -> None:
     parts = design.family.parts(design.params)
-    motion = design.family.solve(design.params, 2)
+    motion, sample = pose
     for exporter in [found.exporter("step"), *more]:
         for part in parts:
             output.add(part.name + exporter.suffix, exporter.part(part))
         placed = any(part.instances for part in parts)
-        assembly = exporter.assembly(design.name, parts, motion) if placed else None
+        assembly = exporter.assembly(design.name, parts, motion, sample) if placed else None
         if assembly is not None:
             output.add("assembly" + exporter.suffix, assembly)
+
+
+def _pose(design: Design, at: str) -> "tuple[Motion, int]":
+    """A motion, and the sample of it that the assembly shows."""
+    if not at:
+        return design.family.solve(design.params, 2), 0
+    from mechwright.cli import pose
+
+    motion = design.family.solve(design.params, pose.SAMPLES)
+    return motion, pose.sample_at(motion, at)
 
 
 def _facts(design: Design, found: Host) -> dict[str, Any]:

@@ -98,9 +98,9 @@ class BodyMotion:
         return cls(PointMotion.of(np.full(turning.theta.shape, centre, dtype=complex)), turning)
 
     @classmethod
-    def sliding(cls, origin: PointMotion, theta: float = 0.0) -> "BodyMotion":
+    def sliding(cls, origin: PointMotion, theta: ArrayLike = 0.0) -> "BodyMotion":
         """A body that only shifts, its angle ``theta`` in rad for good."""
-        return cls(origin, Turning.of(np.full(origin.position.shape, theta)))
+        return cls(origin, Turning.of(np.broadcast_to(np.asarray(theta, float), origin.position.shape)))
 
     def point(self, place: ArrayLike) -> PointMotion:
         """Motion of body points: ``place`` (...) is x + i y in the body's coordinates, mm."""

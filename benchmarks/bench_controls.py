@@ -1,0 +1,50 @@
+"""Reading and proving of long programs, on every control: ``python benchmarks/bench_controls.py``.
+
+Targets in seconds hold for a machine of two cores where ``import cadquery`` takes 1.6 s; they are scaled by
+what that import takes here and now.
+"""
+
+import sys
+from functools import partial
+from pathlib import Path
+
+from harness import child, race, report, require
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
+
+from long_program import long_program
+from shop import plate_job
+
+from mechwright.host import host
+from mechwright_cam.interpreter import DIALECTS, interpret
+from mechwright_cam.proof import prove
+
+MOVES = 100_000
+ANCHOR, ANCHOR_SECONDS = "import cadquery", 1.6
+
+
+def main() -> int:
+    program, job = long_program(MOVES), plate_job()
+    texts = {name: host().post(name).write(program) for name in DIALECTS}
+    for name, text in texts.items():
+        proof = prove(text, job, DIALECTS[name])
+        print(
+            f"{name}: {len(text.splitlines())} lines, {'proven' if proof.ok else proof.failures[0].message}"
+        )
+        if not proof.ok:
+            return 1
+    work = {ANCHOR: child("import cadquery")}
+    work |= {f"{name}: read": partial(interpret, text, DIALECTS[name]) for name, text in texts.items()}
+    work |= {
+        f"{name}: read and proven": partial(prove, text, job, DIALECTS[name]) for name, text in texts.items()
+    }
+    ratios = report(f"{MOVES} moves", race(work, rounds=3), ANCHOR)
+    limit = 3.0 / ANCHOR_SECONDS
+    kept = [
+        require(f"{name}, {MOVES} moves in 3 s", ratios[f"{name}: read and proven"], limit) for name in texts
+    ]
+    return 0 if all(kept) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,244 @@
+"""Compares the published design of curved Geneva slots with the code.
+
+``python docs/seeds/geneva.py`` writes the page anew.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mechwright.laws import LAWS, Law
+from mechwright_geneva import printed, undercut
+from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
+from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.motion import straight_peaks
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.slot_checks import REGIMES
+
+PAGE = Path(__file__).parent / "geneva.md"
+
+FIGURE_6 = Frame.of(math.pi / 4, math.radians(60), 0.0, 100.0)
+"""θw0 = 45, θd0 = 60, θoff = 0 degrees, l = 100 mm."""
+
+FIGURE_6_ROLLER = 4.0
+"""mm."""
+
+REFERENCE = GenevaParams(crank_half_angle=50, offset_angle=5, groove_clearance=0)
+"""The worked design: n = 4, l = 100 mm, r = 5 mm."""
+
+PROTOTYPES = ((4, 40.0), (4, 45.0), (5, 54.0), (6, 60.0), (8, 67.5))
+"""Slots and crank half angle (degrees) that can be made with l = 70 mm, θoff = 12 degrees, r = 5 mm."""
+
+
+def table(head: Sequence[str], rows: Iterator[Sequence[str]] | Sequence[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
+    return "\n".join(lines)
+
+
+def loops() -> Iterator[list[str]]:
+    angle, point = printed.loop(FIGURE_6, LAWS["3-4-5"](), FIGURE_6_ROLLER, printed=True)
+    yield ["as printed", "11.7177", "108.2823", "57.9668", "", ""]
+    yield _loop("3-4-5, dθw/du in place of θw'", angle, point, "")
+    for name, law in LAWS.items():
+        limit = _critical(FIGURE_6, law())
+        angle, point = printed.loop(FIGURE_6, law(), FIGURE_6_ROLLER, printed=False)
+        yield _loop(
+            f"**{name}**" if name == "cycloidal" else name,
+            angle,
+            point,
+            f"{limit / float(FIGURE_6.crank):.10f}",
+            f"{limit:.4f}",
+        )
+
+
+def _loop(name: str, angle: float, point: complex, *more: str) -> list[str]:
+    degrees = math.degrees(angle)
+    figures = [f"{degrees:.9f}", f"{120 - degrees:.9f}", f"{point.real:.9f}"]
+    return [name, *figures, *more, *[""] * (2 - len(more))]
+
+
+def _critical(frame: Frame, law: Law) -> float:
+    run = stroke(frame, law, np.linspace(0, 1, 4001))
+    return float(1 / np.abs(run.curvature).max())
+
+
+def walls() -> Iterator[list[str]]:
+    m = mechanism_of(REFERENCE)
+    u = np.linspace(0, 1, 9)
+    run = m.stroke(u)
+    left, right = run.wall(m.roller, LEFT), run.wall(m.roller, RIGHT)
+    for k in range(u.size):
+        yield [
+            f"{100 * u[k]:g}",
+            f"{math.degrees(run.theta[k]):.9f}",
+            *(f"{z.real:.9f}, {z.imag:.9f}" for z in (run.track[k], left[k], right[k])),
+        ]
+
+
+def singularities() -> Iterator[list[str]]:
+    m = mechanism_of(REFERENCE)
+    u = np.array([0.0, 0.25, 0.4, 0.45, 0.5])
+    run = m.stroke(u)
+    right = undercut.singularity(run, m.roller, RIGHT)
+    wrong = printed.singularity(run, m.roller, RIGHT)
+    square = (run.speed / m.crank) ** 4 * run.regularity(m.roller, RIGHT) ** 2
+    for k in range(u.size):
+        yield [f"{100 * u[k]:g}", f"{wrong[k]:.8f}", f"{right[k]:.8f}", f"{square[k]:.8f}"]
+
+
+def prototypes(sign: int) -> Iterator[list[str]]:
+    for slots, half in PROTOTYPES:
+        m = mechanism_of(
+            GenevaParams(
+                slots=slots,
+                crank_half_angle=half,
+                offset_angle=12.0 * sign,
+                entry_radius=70,
+                groove_clearance=0,
+            )
+        )
+        limit, web = float(m.measures.island_limit[0]), float(m.measures.web[0])
+        verdict = "undercut" if limit <= m.roller else ("clean" if m.measures.width[0] > 0 else "loop")
+        yield [
+            f"{slots}",
+            f"{half:g}",
+            f"{m.axes:.4f}",
+            f"{m.crank:.4f}",
+            f"{m.bottom:.3f}",
+            REGIMES[m.side],
+            f"{limit:.3f}",
+            f"{web:.2f}",
+            verdict,
+        ]
+
+
+def against_straight() -> Iterator[list[str]]:
+    for slots in range(3, 13):
+        straight = straight_peaks(slots)
+        half = math.pi / 2 - math.pi / slots
+        way, time = 2 * math.pi / slots, 2 * half
+        row = [str(slots), f"{straight.v:.4f}", f"{straight.a:.4f}", f"{straight.j:.3f}"]
+        for name in ("cycloidal", "modified-sine", "modified-trapezoid"):
+            peak = LAWS[name]().peaks.a * way / time**2
+            row.append(f"**{peak:.4f}**" if peak > straight.a else f"{peak:.4f}")
+        yield row
+
+
+def page() -> str:
+    """The whole page."""
+    m = mechanism_of(REFERENCE)
+    u = np.linspace(0, 1 / 3, 4001)
+    law = LAWS["3-4-5"]()
+    wrong = printed.wall(FIGURE_6, law, u, FIGURE_6_ROLLER, RIGHT)
+    error = float(np.abs(wrong - stroke(FIGURE_6, law, u).wall(FIGURE_6_ROLLER, RIGHT)).max())
+    _, point = printed.loop(FIGURE_6, law, FIGURE_6_ROLLER, printed=True)
+    away = float(np.abs(stroke(FIGURE_6, law, np.linspace(0, 1, 40_001)).track - point).min())
+    least = math.degrees(math.asin(FIGURE_6_ROLLER / 100 * math.sin(math.radians(105))))
+    return f"""\
+# The published curved-slot Geneva wheel, and the code
+
+<!-- written by geneva.py in this folder; do not edit -->
+
+The source is a study of a Geneva mechanism whose curved slots are the envelope of the roller under a \
+chosen motion law. \
+Only its odd pages are there: the definition of the offset angle, the sizes of the prototype and the \
+figures are missing. \
+[The page of the family](../geneva.md) has the model; this one compares.
+
+## Model
+
+The wheel's axis is the origin, the crank's axis lies at a on +x; the crank turns clockwise. θw0 and θd0 \
+are *half* \
+angles. With W = θw0 + θoff and φ = θd0 - θd:
+
+* b = l sin W / sin θd0, a = l cos W + b cos θd0, a - b = l cos(W + θd0/2) / cos(θd0/2);
+* the roller's centre on the wheel is (a - b exp(iφ)) exp(-iθw), equation (2) with r = 0;
+* the walls lie at ± r along the normal of that way: α = atan2(a θw' sin φ, (1 + θw') b - a θw' cos φ), \
+equation (3), \
+and α + π.
+
+θoff is read as half the angle between the two mouths, with a sign. The source has no page left that says \
+so; with \
+θoff = 0 both ways of a slot end in one mouth, and its walls cross: the loop that the source describes.
+
+## What is wrong in the source
+
+1. **Figure 6.** The loop point is printed at θd = 11.7177 and 108.2823 degrees, (57.9668, -57.9668). All \
+digits come out \
+with the 3-4-5 law, though the text chooses the cycloid, and with dθw/du in place of θw' = dθw/dθd: the \
+factor 1/(2 θd0) of \
+the chain rule is missing. That wall is no envelope: it is up to {error:.4f} mm off, and the printed point \
+lies {away:.4f} \
+mm from the roller's way, less than r = 4.
+2. **Equation (3)** needs atan2: where θw' (a cos φ - b) > b, the plain arc tangent exchanges both walls.
+3. **Equations (28) to (30)**: the terms with θw'' of ∂f/∂θd are missing, and sin φ and cos φ are exchanged \
+in the \
+brackets of the relative velocity. The printed F never comes near 0 where the wall is undercut.
+4. **F = 0** finds undercut only by touching 0, and it is 0 at a cusp of the roller's way as well, which is \
+none. \
+The sign of 1 ∓ κr decides both.
+5. **Equation (33)** as printed is not the cycloid of a stroke: θw = 2 θw0 (u - sin(2πu)/2π), u = θd/(2 θd0).
+6. **Equation (2)**: the signs of the lower row, as far as they can be read, do not give the inverted \
+position.
+7. F ≠ 0 excludes undercut only. Loop, mouths, island and web are conditions of their own.
+
+## Figure 6: where the walls of one slot meet
+
+θw0 = 45, θd0 = 60, θoff = 0 degrees, l = 100, r = 4 mm; the point is (x, -x). M_crit = r_crit/b.
+
+{table(["law", "θd1, deg", "θd2, deg", "x, mm", "M_crit", "r_crit, mm"], loops())}
+
+With an offset angle of at least {least:.4f} degrees the mouths part and the loop is gone: sin θoff ≥ (r/l) \
+sin(θw0 + θd0).
+
+## F of equation (30)
+
+n = 4, l = 100, θd0 = 50, θoff = 5 degrees, r = 5 mm, cycloidal; wall α + π.
+
+{table(["θd, deg", "as printed", "corrected", "(D/b)⁴ (1 + κr)²"], singularities())}
+
+At mid stroke M_crit = ((1 + p) - N p)² / ((1 + p)² - N p²) = \
+{float(undercut.critical_at_middle(m.frame, 1.8)):.10f}, a critical roller of \
+{float(m.measures.island_limit[0]):.6f} mm.
+
+## Points of the walls
+
+The same design; wheel's frame at θw = 0, mm.
+
+{table(["θd, deg", "θw, deg", "centre", "wall α", "wall α + π"], walls())}
+
+## The prototype
+
+Given are l = 70, θoff = 12 degrees, r = 5, thickness 10 mm and the cycloid; the number of slots and the \
+crank's angle are \
+not. These can be made (a, b, a - b, critical roller, web in mm):
+
+{table(["n", "θd0", "a", "b", "a - b", "regime", "r_crit", "web", ""], prototypes(1))}
+
+With θoff = -12 degrees, in regime B, the slots are shorter and the webs wider:
+
+{table(["n", "θd0", "a", "b", "a - b", "regime", "r_crit", "web", ""], prototypes(-1))}
+
+`examples/geneva-prototype.toml` takes n = 4 and θd0 = 45 degrees: an inference, since it is the pair with \
+θd0 = 90 - 180/n, not a fact of the source. The pair of Figure 6, 45 and 60 degrees, is impossible with 12 \
+degrees: \
+a - b would be \
+{mechanism_of(GenevaParams(crank_half_angle=60, offset_angle=12, entry_radius=70)).bottom:.4f} mm, less \
+than r.
+
+## Curved against straight
+
+Peaks of θw', θw'', θw''' of the straight slot, whose jerk is infinite at its ends besides, and of θw'' \
+with the same \
+crank angle. Bold: higher than straight. From six slots on the cycloid accelerates more than the straight \
+slot.
+
+{table(["n", "θw'", "θw''", "θw'''", "cycloidal", "modified sine", "modified trapezoid"], against_straight())}
+"""
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

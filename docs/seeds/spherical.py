@@ -1,0 +1,417 @@
+"""Compares the published adjustable spherical five-bar with the code.
+
+``python docs/seeds/spherical.py`` writes the page and its picture anew.
+"""
+
+import math
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from mechwright.motion import Array
+from mechwright_cam.svg import path as polyline
+from mechwright_spherical import printed
+from mechwright_spherical.drive import external, internal
+from mechwright_spherical.fivebar import AdjustableFiveBar, projected
+from mechwright_spherical.planar import PlanarFiveBar, pairs, points
+from mechwright_spherical.planar_synthesis import CouplerPoses, Dyad, crank_dyad, rocker_dyad
+from mechwright_spherical.planar_synthesis import arm_pins as pins_of_arm
+from mechwright_spherical.projection import project
+from mechwright_spherical.refine import Fit, Freedom, errors, refine
+from mechwright_spherical.refine import Path as Wanted
+from mechwright_spherical.structural import (
+    PlanarDesign,
+    asymptote,
+    best_centre,
+    peak,
+    scaled_error,
+    smallest_length,
+)
+from mechwright_spherical.structural import errors as structural_errors
+from mechwright_spherical.vectors import arc
+
+HERE = Path(__file__).parent
+PAGE = HERE / "spherical.md"
+PICTURE = HERE.parent / "images" / "spherical-structural-error.svg"
+
+ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
+TABLE_2 = np.array(printed.TABLE_2)
+DESIGN = PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, TABLE_2)
+
+LENGTHS = (0.5, 0.75, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 22)
+"""Projection lengths of the table: those of the source's axis."""
+
+TOLERANCES = (0.02, 0.01, 0.005, 0.002, 0.001)
+MOVING = (2, 3, 4, 6, 7)
+"""Positions with an error; 1 and 5 are met by construction."""
+
+EXACT = 1e-12
+"""Errors below this are rounding, and differ from machine to machine."""
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """A table of Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(line) + " |" for line in lines] + [""]
+
+
+def paragraph(text: str) -> list[str]:
+    """A paragraph in lines of the usual length."""
+    return [textwrap.fill(" ".join(text.split()), 118, break_long_words=False, break_on_hyphens=False), ""]
+
+
+def numbers(values: Iterable[float], digits: int = 4) -> str:
+    """Coordinates in brackets."""
+    return "(" + ", ".join(f"{round(value, digits) + 0.0:.{digits}f}" for value in values) + ")"
+
+
+@cache
+def planar() -> tuple[Array, Array]:
+    """Path points (7,), complex, and coupler angles (7,) of the printed planar mechanism."""
+    pin = {name: complex(points(at)) for name, at in printed.PINS.items()}
+    p1 = complex(points(printed.TABLE_2[0]))
+    found = [
+        PlanarFiveBar(pin["a0"], pin[a], pin["b0"], pin["b1"], pin[c], p1, printed.RATIO).at(angles)
+        for a, c, angles in (("a1", "c1", ANGLES), ("a1n", "c1n", ANGLES_N))
+    ]
+    return np.concatenate([one[0] for one in found]), np.concatenate([one[1] for one in found])
+
+
+def matches(found: Array, wanted: Array) -> int:
+    """How many printed numbers are the rounded computed ones."""
+    return int((np.round(found, 4) == np.asarray(wanted)).sum())
+
+
+def mechanism(length: float) -> AdjustableFiveBar:
+    """The printed mechanism, projected."""
+    return projected(printed.PINS, printed.TABLE_2[0], length, printed.RATIO)
+
+
+def wanted(length: float) -> Wanted:
+    """The projected path."""
+    return Wanted(ANGLES, ANGLES_N, project(TABLE_2, length).T)
+
+
+@cache
+def fit(length: float, freedom: Freedom) -> Fit:
+    """The fit that starts from the projected mechanism."""
+    return refine(mechanism(length), wanted(length), freedom)[0]
+
+
+def poses(path: Array) -> CouplerPoses:
+    """The coupler's poses, with the model's angles."""
+    turns = planar()[1]
+    return CouplerPoses(path[:4], turns[:4], path[4:], turns[4:])
+
+
+def dyads(path: Array, equations: str) -> tuple[Dyad, Dyad]:
+    """Both dyads, from the source's first guesses."""
+    data = poses(path)
+    b0, b1 = (complex(points(printed.PINS[name])) for name in ("b0", "b1"))
+    arms = [pins_of_arm(b0, b1, printed.RATIO, angles) for angles in (ANGLES, ANGLES_N)]
+    return (
+        crank_dyad(data, 0.0, 1.0, printed.CRANK_GUESS, equations),
+        rocker_dyad(data, arms[0], arms[1], printed.DRIVEN_GUESS, equations),
+    )
+
+
+def path_tables() -> list[str]:
+    """Tables 2 to 4, value by value."""
+    found, turns = pairs(planar()[0]), np.degrees(planar()[1])
+    count = matches(found, printed.TABLE_2)
+    lines = [
+        "## Table 2: path points of the planar mechanism",
+        "",
+        *paragraph(
+            f"""**{count} of 14** printed numbers are the rounded ones of the model, from the printed pins.
+            The other two are one unit in the last place off, which the rounding of the pins explains."""
+        ),
+        *table(
+            ["position", "phase", "δθ", "printed", "computed", "greatest difference", "coupler angle"],
+            [
+                [
+                    str(n + 1),
+                    "1" if n < 4 else "2",
+                    f"{(*printed.ANGLES, *printed.ANGLES_N)[n]:g}°",
+                    numbers(printed.TABLE_2[n]),
+                    numbers(found[n], 6),
+                    f"{np.abs(found[n] - printed.TABLE_2[n]).max():.6f}",
+                    f"{round(turns[n], 4) + 0.0:.4f}°",
+                ]
+                for n in range(7)
+            ],
+        ),
+    ]
+    path = project(TABLE_2, printed.LENGTH)
+    pins = {name: project(at, printed.LENGTH) for name, at in printed.PINS.items()}
+    on_path = matches(path, printed.TABLE_3)
+    on_pins = sum(matches(pins[name], printed.TABLE_4[name]) for name in pins)
+    lines += [
+        "## Tables 3 and 4: projected path points and pins",
+        "",
+        *paragraph(
+            f"""Length and radius are not in the extract; d = 5 and r = 1 are the only ones that give these
+            digits. **{on_path + on_pins} of 42** agree: {on_path} of 21 path coordinates and {on_pins}
+            of 21 pin coordinates."""
+        ),
+        *table(
+            ["point", "printed", "computed", ""],
+            [
+                [
+                    f"p{n + 1}",
+                    numbers(printed.TABLE_3[n]),
+                    numbers(path[n], 6),
+                    verdict(path[n], printed.TABLE_3[n]),
+                ]
+                for n in range(7)
+            ]
+            + [
+                [name, numbers(printed.TABLE_4[name]), numbers(at, 6), verdict(at, printed.TABLE_4[name])]
+                for name, at in pins.items()
+            ],
+        ),
+    ]
+    return lines
+
+
+def verdict(found: Array, wanted: Sequence[float]) -> str:
+    """Which coordinates differ."""
+    bad = [
+        f"{axis}: {w:.4f} printed, {f:.4f} computed"
+        for axis, f, w in zip("xyz", found, wanted, strict=True)
+        if round(float(f), 4) != w
+    ]
+    return "; ".join(bad) or "agrees"
+
+
+def dyad_table() -> list[str]:
+    """The planar synthesis in both forms."""
+    exact, rounded = planar()[0], np.asarray(points(TABLE_2))
+    printed_values = ((0.0004, 0.1219, 0.9930, -0.1344, 0.9913), (0.8913, 1.4542, 1.2167, 1.7775, 1.3016))
+    rows = [["printed", numbers(printed_values[0]), "", numbers(printed_values[1]), ""]]
+    for said, path in (("exact poses", exact), ("poses of Table 2", rounded)):
+        for equations in ("five", "seven"):
+            crank, rocker = dyads(path, equations)
+            rows.append(
+                [
+                    f"{said}, {equations} equations",
+                    numbers(crank.unknowns),
+                    f"{crank.condition:.0f}",
+                    numbers(rocker.unknowns),
+                    f"{rocker.condition:.0f}",
+                ]
+            )
+    return [
+        "## Planar synthesis",
+        "",
+        *paragraph(
+            """From the source's first guesses. The source writes five equations per dyad and leaves the
+            two positions of adjustment out; with them there are seven, solved by least squares, and
+            better conditioned. Points of four decimals carry no digit of a0y."""
+        ),
+        *table(["", "a0y, a1, a1n", "condition", "c1, c1n, R3", "condition"], rows),
+    ]
+
+
+def error_tables() -> list[str]:
+    """The structural error over the projection length."""
+    rows = []
+    for d in LENGTHS:
+        found = structural_errors(DESIGN, d) * d
+        rows.append([f"{d:g}", *(f"{found[n - 1]:.5f}" for n in MOVING), f"{np.sqrt(np.mean(found**2)):.5f}"])
+    top, worst = peak(DESIGN, 7), peak(DESIGN)
+    limits = asymptote(replace(DESIGN, targets=pairs(planar()[0])))
+    smallest = [
+        [
+            f"{tolerance:g}",
+            f"{smallest_length(DESIGN, tolerance, 7):.3f}",
+            f"{smallest_length(DESIGN, tolerance):.3f}",
+            f"{smallest_length(DESIGN, tolerance, best=True):.3f}",
+        ]
+        for tolerance in TOLERANCES
+    ]
+    said = ", ".join(f"{limits[n - 1]:.5f} ({n})" for n in MOVING)
+    centres = []
+    for d in (1.0, 2.0, 3.0, 5.0, 10.0):
+        at, value = best_centre(DESIGN, d)
+        there = float(scaled_error(DESIGN, d))
+        centres.append(
+            [f"{d:g}", numbers(at, 3), f"{there:.5f}", f"{value * d:.5f}", f"{there / value / d:.2f}"]
+        )
+    return [
+        "## Structural error over the projection length",
+        "",
+        "Error times d, which is the error at the scale of the plane; each phase with its own arcs.",
+        "",
+        "![Structural error times d over d](../images/spherical-structural-error.svg)",
+        "",
+        *table(["d", *(f"position {n}" for n in MOVING), "rms of all"], rows),
+        *paragraph(
+            f"""Position 7, the one that figure 12 shows, rises to {top[1]:.5f} at d = {top[0]:.4f} and then
+            falls for ever; position 4 is the worst one at every length, {worst[1]:.4f} at d =
+            {worst[0]:.2f}. **There is no optimum**: for long projections the error times d goes with
+            K/d², K = {said}. What can be said is the length from which on a tolerance is met:"""
+        ),
+        *table(["tolerance", "position 7", "all positions", "all, with the best centre"], smallest),
+        *paragraph(
+            "The source puts the projection's centre on a0, a corner of the mechanism. Moving it is free:"
+        ),
+        *table(
+            ["d", "best centre", "worst error × d, centre (0, 0)", "with the best centre", "gain"], centres
+        ),
+    ]
+
+
+def lost_arcs() -> list[str]:
+    """What the projection does to the lengths."""
+    at = mechanism(printed.LENGTH)
+    (r1, r1n), (r3, r3n) = (
+        [math.degrees(float(x)) for x in pair] for pair in (at.crank_arcs, at.rocker_arcs)
+    )
+    shafts = float(arc(at.a0, at.b0))
+    cones = [math.degrees(x) for x in (*internal(shafts, printed.RATIO), *external(shafts, printed.RATIO))]
+    target, mean = wanted(printed.LENGTH), at.equalised()
+    own, equal = (Fit(one, errors(one, target)).rms for one in (at, mean))
+    slots = [math.degrees(float(x)) for x in (at.crank_setting, at.rocker_setting)]
+    return [
+        "## Lengths after the projection",
+        "",
+        *paragraph(
+            f"""R1 is {r1:.4f}° in phase 1 and {r1n:.4f}° in phase 2, R3 is {r3:.4f}° and {r3n:.4f}°: the
+            projected Table 4 is no mechanism of constant R3, although the planar one is. With the mean
+            arcs the rms error at d = 5 is {equal:.4e} in place of {own:.4e}. The coupler's slots run
+            about a0 over {slots[0]:.4f}° and about b1 over {slots[1]:.4f}°."""
+        ),
+        *paragraph(
+            f"""The axes a0 and b0 meet at {math.degrees(shafts):.4f}°, so that the "2:1 gear ratio" is a
+            bevel drive, and both links turn the same way: an internal pair with pitch cones of
+            {cones[0]:.4f}° and {cones[1]:.4f}°, or an external one ({cones[2]:.4f}° and {cones[3]:.4f}°
+            if they touched) with an idler."""
+        ),
+    ]
+
+
+def fits() -> list[str]:
+    """The direct synthesis on the sphere."""
+    rows = []
+    for d in (1.0, 2.0, 3.0, 5.0, 8.0, 12.0):
+        before = float(errors(mechanism(d), wanted(d)).max())
+        six = fit(d, Freedom.SIX).greatest
+        twelve = fit(d, Freedom.TWELVE).greatest if d >= 3 else math.nan
+        said = "" if math.isnan(twelve) else "below 1e-12" if twelve < EXACT else f"{twelve:.2e}"
+        rows.append([f"{d:g}", f"{before:.3e}", f"{six:.3e}", f"{before / six:.0f}", said])
+    best = fit(printed.LENGTH, Freedom.SIX)
+    pins = [
+        [
+            name,
+            numbers(getattr(mechanism(printed.LENGTH), name), 6),
+            numbers(getattr(best.mechanism, name), 6),
+        ]
+        for name in ("a1", "a1n", "c1", "c1n")
+    ]
+    return [
+        "## Direct synthesis on the sphere",
+        "",
+        *paragraph(
+            """Six unknowns: R1, R3 and the azimuths of a1, a1n, c1, c1n, with a0, b0 and b1 as they are;
+            R1 and R3 are common to both phases by construction. Twelve: the axes a0, b0 and the pin b1
+            as well, two more than there are equations. Greatest errors on the unit sphere:"""
+        ),
+        *table(["d", "projected", "six unknowns", "times better", "twelve unknowns"], rows),
+        *paragraph(
+            f"""At d = 5 the six unknowns bring the rms error to {best.rms:.3e}. The error of the projection
+            method can be avoided altogether, and with it the reason for a large d."""
+        ),
+        *table(["pin, d = 5", "projected", "six unknowns"], pins),
+    ]
+
+
+ERRATA = """## Errata of the source
+
+1. Equation 4: the "2x y d" is √(x² + y² + d²) with its exponents detached; there is no factor 2.
+2. Equation 2: the condition d ≤ r contradicts the example (d = 5, r = 1) and is not needed.
+3. Length and radius of the example are not in the extract: 5 and 1.
+4. Table 3, position 6: z is printed 0.9322, the projection of Table 2 gives 0.9323.
+5. Table 3 is headed "prescribed", but is the projection of the *achieved* points of Table 2.
+6. "Five of the five unknowns in b1, c1 and c1n": b1 follows from b0, R4 and φ1; the unknowns are c1, c1n, R3.
+7. Five equations leave out both positions of adjustment; with them each dyad is over-determined by two.
+8. R3 is printed as 1.3016; the pins of phase 2 give 1.3015: rounding.
+9. Constant R3 is lost by the projection, see above.
+10. "Optimised" d: the plotted quantity has no minimum, and is plotted for a position that is not the worst.
+11. A "2:1 gear ratio" for two links that turn alike needs an internal pair or an idler; here, of bevels.
+12. The introduction has 3 + 3 points (p1 p2 p3, p1 p4 p5), the example 4 + 3 with p5 = p1: p4 and p5 mean
+    different things in the two places.
+13. Figure 2(a) shows a four-bar with b1 and b1n; there are no numbers of it in the extract.
+14. Names of authors in the references look misspelt.
+"""
+
+INTRODUCTION = [
+    "# The published spherical five-bar, and the code",
+    "",
+    "<!-- written by spherical.py in this folder; do not edit -->",
+    "",
+    *paragraph(
+        """The source is a report on adjustable spherical five-bar path generators by projection. Only its
+        odd pages survive: the equations of synthesis and analysis, the prescribed points and the results are
+        not in the extract. What the code computes from the printed pins confirms the reading: crank a0-a1,
+        coupler a1-c1 with the path point p, rocker c1-b1, arm b0-b1 geared to the crank by δφ = 0.5 δθ, both
+        the same way; the machine is adjusted in position 1 = 5."""
+    ),
+]
+
+
+def page() -> str:
+    """The page."""
+    lines = [*INTRODUCTION]
+    for part in (path_tables, dyad_table, error_tables, lost_arcs, fits):
+        lines += part()
+    return "\n".join([*lines, ERRATA])
+
+
+WIDTH, HEIGHT = 150.0, 80.0
+"""Size of the picture's axes, mm."""
+
+
+def picture() -> str:
+    """Figure 12 with all positions: error times d over d."""
+    lengths = np.linspace(0.05, 22, 440)
+    values = structural_errors(DESIGN, lengths) * lengths[:, None]
+    sx, sy = WIDTH / 22, HEIGHT / 0.12
+    drawn = []
+    for x in range(0, 23, 2):
+        drawn.append(f'<path d="{polyline([(x * sx, 0), (x * sx, HEIGHT)])}" class="grid"/>')
+        drawn.append(f'<text x="{x * sx:.2f}" y="5" text-anchor="middle">{x}</text>')
+    for step in range(7):
+        y = 0.02 * step
+        drawn.append(f'<path d="{polyline([(0, y * sy), (WIDTH, y * sy)])}" class="grid"/>')
+        drawn.append(f'<text x="-2" y="{1.2 - y * sy:.2f}" text-anchor="end">{y:.2f}</text>')
+    for n, colour in zip(MOVING, ("#7a8794", "#1b6e3c", "#b3261e", "#8a5a00", "#2456a6"), strict=True):
+        line = polyline(zip(lengths * sx, values[:, n - 1] * sy, strict=True))
+        width = 0.9 if n in (4, 7) else 0.5
+        drawn.append(f'<path d="{line}" fill="none" stroke="{colour}" stroke-width="{width}"/>')
+        x, y = 0.7 * WIDTH, HEIGHT - 8 - 6 * MOVING.index(n)
+        drawn.append(f'<path d="{polyline([(x, y), (x + 8, y)])}" stroke="{colour}" stroke-width="{width}"/>')
+        drawn.append(f'<text x="{x + 10:g}" y="{1.2 - y:g}">position {n}</text>')
+    box = f"-16 {-HEIGHT - 4:g} {WIDTH + 22:g} {HEIGHT + 18:g}"
+    side = f"translate(-12,{-HEIGHT / 2:g}) rotate(-90)"
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" '
+            'width="760" font-family="sans-serif" font-size="3.6">',
+            "<title>Structural error times the projection length, for every position</title>",
+            "<style>.grid{stroke:#c8d0d8;stroke-width:.2;fill:none}</style>",
+            *drawn,
+            f'<text x="{WIDTH / 2:g}" y="11" text-anchor="middle">projection length d</text>',
+            f'<text transform="{side}" text-anchor="middle">error × d</text>',
+            "</svg>\n",
+        ]
+    )
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
+    PICTURE.write_text(picture(), encoding="utf-8")

@@ -1,0 +1,73 @@
+"""The setup sheet: offsets to type in, tools by hand, and where no clamp may be."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from planning_parts import bore, job, plate
+from shop import MILL, plate_job, plate_program
+
+from mechwright.host import host
+from mechwright.program import FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright.tooling import Measured
+from mechwright_cam.pipeline import machine
+from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet.facts import reach
+from mechwright_cam.trace import trace
+
+
+def page(control: str, **settings: object) -> str:
+    made = machine(
+        job(plate(bore(12.0)), "drill-8", "mill-6", control=control, **settings), host().post(control)
+    )
+    return setup_html([(made.job, made.program, made.proof.as_dict())])
+
+
+def test_offsets_that_are_known_stand_on_the_sheet() -> None:
+    measured = {"x": -300.5, "y": -120.25, "z": -210.125, "lengths": {"mill-6": 77.5, "drill-8": 101.0}}
+    known = page("haas", measured=measured, post={"offsets": True})
+    for words in (
+        "-300.500",
+        "-120.250",
+        "-210.125",
+        "77.500, as measured",
+        "101.000, as measured",
+        "by itself (G10)",
+    ):
+        assert words in known
+    plain = page("haas")
+    assert "as measured" not in plain
+    assert "N − h, once" in plain
+    assert "by itself" not in plain
+
+
+def test_tools_are_changed_and_touched_off_by_hand_on_grbl() -> None:
+    found = page("grbl")
+    assert "touched off one by one" in found
+    assert "G43 H" not in found.partition("<footer>")[0]
+    assert "Offsets to type in" not in found
+    assert "run them in order" in page("grbl", post={"tool_change": "files"})
+    lengths = {"lengths": {"mill-6": 77.5, "drill-8": 101.0}}
+    assert "are in the program (G43.1)" in page("grbl", measured=lengths)
+
+
+def test_no_clamp_where_cutters_run() -> None:
+    program = plate_program()
+    x0, y0, x1, y1 = reach(trace(program))
+    edge = 30 + 2 * MILL.radius + 0.001
+    assert (x0, x1) == pytest.approx((-edge, edge))
+    assert (y0, y1) == pytest.approx((-edge + 10, edge - 10))
+    found = setup_html([(plate_job(), program, None)])
+    assert "Cutters run from X −36.0 to +36.0 and Y −26.0 to +26.0" in found
+
+
+@pytest.mark.parametrize("ccw", [True, False])
+def test_an_arc_reaches_as_far_as_it_turns(ccw: bool) -> None:
+    start, end = (10.0, 0.0), (10 * math.cos(2), 10 * math.sin(2))
+    arc = FeedArc(*end, None, -10, 0, ccw, 100)
+    section = ToolSection(MILL, 1, "off", (Operation("o", (Rapid(*start, -1), arc)),))
+    x0, y0, x1, y1 = reach(trace(Program("p", "G54", 5.0, (section,))))
+    r = MILL.radius
+    assert (y1, y0) == pytest.approx((10 + r, -r) if ccw else (end[1] + r, -10 - r))
+    assert (x1, x0) == pytest.approx((10 + r, end[0] - r) if ccw else (10 + r, -10 - r))
+    assert Measured() == replace(Program("p", "G54", 5.0, (section,))).measured

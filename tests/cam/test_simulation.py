@@ -1,0 +1,151 @@
+"""The stock on a grid: volumes, engagement and air against closed forms, and the picture."""
+
+import base64
+import math
+import re
+import struct
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from planning_parts import bore, job, plate
+from shop import DRILL, MILL, SPOT, TOOLS, plate_job, plate_program
+
+from mechwright.program import Feed, FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright_cam.interpreter import LINUXCNC, interpret
+from mechwright_cam.pipeline import machine
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import read
+from mechwright_cam.proof.simulation import Simulation, deviation, simulate
+from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet.raster import simulated_view
+
+
+def simulation(*moves: object, feed: float = 600.0) -> tuple[Simulation, object]:
+    made = plate_job()
+    section = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(moves)),))
+    program = Program("plate", "G54", 5.0, (section,))
+    return simulate(read(LinuxCncPost().write(program), made, LINUXCNC), made), made
+
+
+def row(x0, x1, y, z, feed=600.0):
+    return [Rapid(x0, y), Rapid(z=1), Feed(None, None, z, 100), Feed(x1, y, None, feed), Rapid(z=5)]
+
+
+def removed(seen: Simulation) -> float:
+    return float(-seen.heights.sum()) * seen.cell**2
+
+
+def test_the_volume_of_a_slot_is_exact_to_the_grid() -> None:
+    seen, _ = simulation(*row(-20, 20, 0, -2.0))
+    assert removed(seen) == pytest.approx((40 * 6 + math.pi * 9) * 2.0, rel=0.01)
+
+
+def test_a_slot_is_full_engagement_and_half_a_width_is_a_quarter_turn() -> None:
+    seen, _ = simulation(*row(-20, 20, 0, -2.0))
+    (work,) = seen.works
+    assert work.engagement > 160
+    assert work.removal == pytest.approx(6 * 2 * 600 / 1000, rel=0.06)
+    assert work.feed_per_tooth == pytest.approx(600 / 8000 / 3)
+    assert work.chip == pytest.approx(work.feed_per_tooth)
+    # Beside a slot, one half of the cutter at a time; the first slot is slow, so that the second is the worst.
+    seen, _ = simulation(*row(-20, 20, 0, -2.0, 60.0), *row(-20, 20, 1.0, -2.0, 2400.0))
+    (work,) = seen.works
+    assert work.removal == pytest.approx(1 * 2 * 2400 / 1000, rel=0.12)
+
+
+@pytest.mark.parametrize("over", [0.6, 1.5, 3.0])
+def test_the_thickest_chip_follows_the_engagement(over: float) -> None:
+    made = plate_job()
+    first = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(row(-20, 20, 0, -2.0))),))
+    other = MILL.model_copy(update={"number": 9, "name": "mill-9"})
+    second = ToolSection(other, 8000, "flood", (Operation("p", tuple(row(-20, 20, over, -2.0))),))
+    made = replace(made, tools=(*made.tools, other))
+    text = LinuxCncPost().write(Program("plate", "G54", 5.0, (first, second)))
+    work = simulate(read(text, made, LINUXCNC), made).works[1]
+    angle = math.acos(1 - over / 3.0)
+    assert work.tool == 9
+    assert (
+        math.degrees(angle) - 4 <= work.engagement <= math.degrees(angle) + 12
+    )  # the ends of the row bite more
+    assert work.chip == pytest.approx(600 / 8000 / 3 * math.sin(angle), rel=0.15)
+
+
+def test_air_is_what_takes_nothing() -> None:
+    slot = row(-20, 20, 0, -2.0)
+    once, _ = simulation(*slot)
+    twice, _ = simulation(*slot, *slot)
+    assert once.feed_mm == pytest.approx(43)
+    assert once.air_mm == 0
+    assert twice.air_mm == pytest.approx(43)
+    above, _ = simulation(*row(-20, 20, 0, 0.5))
+    assert above.air_mm == above.feed_mm == pytest.approx(40.5)
+
+
+def test_arcs_and_helices_are_followed() -> None:
+    seen, _ = simulation(
+        Rapid(15, 0), Rapid(z=0), FeedArc(15, 0, -3.0, -15, 0, True, 600), FeedArc(15, 0, None, -15, 0, True, 600)
+    )  # fmt: skip
+    assert removed(seen) == pytest.approx(math.pi * (18**2 - 12**2) * 3.0, rel=0.01)
+
+
+def test_a_drill_leaves_its_point() -> None:
+    made = plate_job()
+    text = LinuxCncPost().write(plate_program())
+    run = read(text, made, LINUXCNC)
+    stop = int(np.flatnonzero(run.tool == DRILL.number)[0])
+    spot_only = interpret("\n".join(text.split("\n")[: int(run.line[stop]) - 1]))
+    seen = simulate(spot_only, made)
+    assert seen.heights.min() == pytest.approx(-2.0, abs=seen.cell)
+    cone = math.pi * 2.0**3 / 3
+    assert removed(seen) == pytest.approx(cone, rel=0.06)
+    assert SPOT.point_angle == 90
+
+
+def test_the_finished_part_has_no_deviation_and_a_defect_has() -> None:
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
+    seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
+    off = deviation(seen, made.job, 2)
+    assert np.nanmax(np.abs(off)) == 0
+    assert np.isfinite(off).mean() > 0.2
+    hurt = made.text.replace(
+        "M30", "T24 M6\nG54 S900 M3\nG0 X15 Y5\nG43 H24 Z5\nG1 Z-1 F99\nX18\nG53 G0 Z0\nM30"
+    )
+    off = deviation(simulate(read(hurt, made.job, LINUXCNC), made.job), made.job, 2)
+    assert np.nanmin(off) == pytest.approx(-1.0)
+
+
+def pixels(view: str) -> np.ndarray:
+    data = base64.b64decode(re.search(r"base64,([^\"]+)", view)[1])
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = struct.unpack(">II", data[16:24])
+    start = data.index(b"IDAT")
+    (size,) = struct.unpack(">I", data[start - 4 : start])
+    rows = np.frombuffer(zlib.decompress(data[start + 4 : start + 4 + size]), dtype=np.uint8)
+    return rows.reshape(height, -1)[:, 1:].reshape(height, width, 3)
+
+
+def test_the_picture_shows_what_is_left_and_what_is_hurt() -> None:
+    seen, made = simulation(*row(-20, 20, 0, -2.0))
+    image = pixels(simulated_view(seen, made))
+    assert max(image.shape) <= 420
+    # Uncut plate at the corner, the slot in the middle: the part is hurt there, as no feature is at -2.
+    assert tuple(image[2, 2]) == (222, 212, 190)
+    middle = image[image.shape[0] // 2, image.shape[1] // 2 + image.shape[1] // 6]
+    assert tuple(middle) == (200, 0, 30)
+    assert simulated_view(seen, made) == simulated_view(seen, made)
+
+
+def test_the_setup_sheet_has_picture_and_loads() -> None:
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
+    seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
+    proof = {**made.proof.as_dict(), "simulation": seen.as_dict()}
+    page = setup_html(
+        [(made.job, made.program, proof)], pictures={made.program.name: simulated_view(seen, made.job)}
+    )
+    assert "data:image/png;base64," in page
+    assert "feed in air" in page
+    assert "Thickest chip" in page
+    assert len(page) < 400_000
+    assert {tool.number for tool in TOOLS}

@@ -1,0 +1,58 @@
+"""The pages of the Geneva mechanism say what the code does."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+from mechwright_geneva.family import Geneva
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "geneva.md").read_text(encoding="utf-8")
+
+
+def script(path, name):
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_finding_is_on_the_page_and_no_other():
+    sources = (ROOT / "plugins" / "mechwright_geneva").glob("*.py")
+    code = "".join(path.read_text(encoding="utf-8") for path in sources)
+    said = set(re.findall(r'"((?:geneva|bore)\.[a-z-]+)"', code))
+    assert said
+    assert set(re.findall(r"`((?:geneva|bore)\.[a-z-]+)`", PAGE)) == said
+
+
+def test_every_parameter_is_on_the_page_with_its_default():
+    table = PAGE.split("## Parameters")[1].split("## Motion")[0]
+    rows = {
+        key: [cell.strip() for cell in row.split("|")]
+        for row in table.splitlines()
+        for key in re.findall(r"`([a-z_]+)`", row.split("|")[1] if row.startswith("|") else "")
+    }
+    assert set(rows) == set(Geneva.Params.model_fields)
+    for key, field in Geneva.Params.model_fields.items():
+        if isinstance(field.default, (int, float)):
+            assert f"{field.default:g}" in rows[key][2], key
+        elif field.default is None:
+            assert rows[key][2] in ("none", "left out"), key
+
+
+def test_every_law_is_on_the_page():
+    laws = Geneva.Params.model_json_schema()["properties"]["law"]["enum"]
+    assert [law for law in laws if f"`{law}`" not in PAGE] == []
+
+
+def test_the_page_on_the_source_is_what_the_code_says():
+    seed = script(ROOT / "docs" / "seeds" / "geneva.py", "geneva_seed")
+    assert seed.PAGE.read_text(encoding="utf-8") == seed.page(), "run: python docs/seeds/geneva.py"
+
+
+def test_the_page_on_the_source_has_the_corrected_numbers():
+    page = (ROOT / "docs" / "seeds" / "geneva.md").read_text(encoding="utf-8")
+    for number in ("13.552958847", "0.0640233873", "6.426627", "20.193217416", "13.808", "2.4373", "3.9408"):
+        assert number in page, number

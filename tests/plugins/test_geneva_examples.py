@@ -1,0 +1,154 @@
+"""The examples are built without a warning, and LinuxCNC takes every program."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mechwright.design import load
+from mechwright.findings import Severity
+from mechwright.host import host
+from mechwright.part import Pocket
+from mechwright.tolerances import TOLERANCES
+from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.params import GenevaParams
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ("cycloidal", "prototype", "straight")
+
+
+def rs274():
+    path = ROOT / "tests" / "cam" / "rs274.py"
+    spec = importlib.util.spec_from_file_location("rs274", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["rs274"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def run(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "mechwright", *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module", params=EXAMPLES)
+def built(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp(request.param) / "out"
+    done = run("build", ROOT / "examples" / f"geneva-{request.param}.toml", "-o", folder)
+    assert done.returncode == 0, done.stderr
+    return request.param, folder, done
+
+
+def test_without_a_warning(built):
+    name, _, done = built
+    assert "warning" not in done.stderr + done.stdout
+    design = load(ROOT / "examples" / f"geneva-{name}.toml", host())
+    assert {finding.severity for finding in design.family.check(design.params)} == {Severity.NOTE}
+
+
+def test_every_plate_is_proven(built):
+    _, folder, _ = built
+    proofs = json.loads((folder / "proof.json").read_text(encoding="utf-8"))
+    assert set(proofs) == {"wheel", "locking-disc", "crank"}
+    for part, proof in proofs.items():
+        assert 0 <= proof["gouge_max_mm"] <= TOLERANCES.gouge, part
+        assert 0 <= proof["leftover_reachable_max_mm"] <= TOLERANCES.leftover, part
+        assert (folder / f"{part}.dxf").stat().st_size > 1000
+        assert (folder / f"{part}.step").stat().st_size > 1000
+    assert (folder / "roller.step").exists()
+    assert not (folder / "roller.nc").exists()
+
+
+def test_linuxcnc_takes_every_program(built, tmp_path):
+    witness = rs274()
+    if witness.RS274 is None:
+        pytest.skip("rs274 is not installed (Debian package linuxcnc-uspace)")
+    _, folder, _ = built
+    programs = sorted({*folder.glob("*.nc"), *folder.glob("*.ngc")})
+    assert len(programs) >= 3
+    for program in programs:
+        text = program.read_text(encoding="utf-8")
+        table = (folder / "tool.tbl").read_text(encoding="utf-8")
+        # The packaged interpreter reads lengths in inches: the tools are named, and have none.
+        tools = "".join(
+            f"{' '.join(line.split()[:2])}\n" for line in table.splitlines() if line.startswith("T")
+        )
+        canon = witness.run_rs274(text, tmp_path, tools)
+        assert canon.ok, f"{program.name}: {canon.error}"
+        assert len(canon.ends) > 100
+        assert "G54" in text
+        assert "G43" in text
+
+
+def test_the_reference_example_is_the_worked_design():
+    params = load(ROOT / "examples" / "geneva-cycloidal.toml", host()).params
+    assert isinstance(params, GenevaParams)
+    m = mechanism_of(params)
+    assert (m.axes, m.crank) == pytest.approx((128.557521937308, 100.0), abs=1e-9)
+    assert (m.roller, m.rim, m.lock, m.slots) == (5, 100, 70, 4)
+    assert m.roller_length == 10
+
+
+def test_the_prototype_says_what_is_inferred():
+    path = ROOT / "examples" / "geneva-prototype.toml"
+    text = path.read_text(encoding="utf-8")
+    assert "inferred" in text
+    params = load(path, host()).params
+    assert (params.entry_radius, params.offset_angle, params.roller_radius, params.thickness) == (
+        70,
+        12,
+        5,
+        10,
+    )
+
+
+def test_blind_grooves_are_open_at_the_rim():
+    design = load(ROOT / "examples" / "geneva-cycloidal.toml", host())
+    wheel = next(part for part in design.family.parts(design.params) if part.name == "wheel")
+    grooves = [feature for feature in wheel.features if isinstance(feature, Pocket)]
+    assert len(grooves) == 4
+    assert {groove.depth for groove in grooves} == {10.5}
+    for groove in grooves:
+        corners = groove.boundary.flatten()
+        reach = (corners**2).sum(axis=1) ** 0.5
+        assert (reach > 100.9).sum() >= 4
+        assert reach.min() > 23
+
+
+def test_a_straight_wheel_is_cut_through():
+    design = load(ROOT / "examples" / "geneva-straight.toml", host())
+    wheel = next(part for part in design.family.parts(design.params) if part.name == "wheel")
+    assert not [feature for feature in wheel.features if isinstance(feature, Pocket)]
+    assert len([s for s in wheel.outline.outer.segments if s.tag == "slot"]) == 3 * 6
+
+
+def test_the_requirement_gives_designs_that_build(tmp_path):
+    done = run("synthesize", ROOT / "examples" / "geneva-requirement.toml", "-o", tmp_path / "found")
+    assert done.returncode == 0, done.stderr
+    files = sorted((tmp_path / "found").glob("six-stops-*.toml"))
+    assert len(files) == 3
+    pressures = []
+    summary = json.loads((tmp_path / "found" / "synthesis.json").read_text(encoding="utf-8"))
+    for file in files:
+        assert run("check", file).returncode == 0
+        params = load(file, host()).params
+        m = mechanism_of(params)
+        length = m.rim + m.axes + m.crank + max(m.roller, params.pin_diameter / 2 + params.least_wall)
+        assert length <= 320 + 1e-6
+        assert length > 315, "the space is used"
+        assert 2 * m.crank_half / (2 * 3.141592653589793) <= 0.4 + 1e-9
+        from mechwright_geneva.contact import loads
+
+        pressures.append(loads(m).pressure)
+    assert pressures == sorted(pressures)
+    assert max(pressures) <= 400
+    assert summary

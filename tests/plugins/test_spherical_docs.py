@@ -1,0 +1,53 @@
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
+
+ROOT = Path(__file__).parents[2]
+DOCS = (ROOT / "docs" / "spherical.md").read_text(encoding="utf-8")
+
+
+def script(path):
+    spec = importlib.util.spec_from_file_location(f"script_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+SEED = script(ROOT / "docs" / "seeds" / "spherical.py")
+
+
+def test_every_finding_is_documented():
+    sources = (ROOT / "plugins" / "mechwright_spherical").glob("*.py")
+    codes = {
+        code
+        for file in sources
+        for code in re.findall(r'"(spherical\.[a-z-]+)"', file.read_text(encoding="utf-8"))
+    }
+    assert len(codes) >= 18
+    listed = set(re.findall(r"`(spherical\.[a-z-]+)`", DOCS))
+    assert listed == codes
+
+
+def test_every_parameter_is_documented():
+    names = {*SphericalParams.model_fields, *FourBarTable.model_fields, *FiveBarTable.model_fields}
+    missing = {
+        name for name in names if not re.search(rf"`(parameters\.)?{name}`|\[parameters\.{name}\]", DOCS)
+    }
+    assert missing <= {"path_n", "path_angles_n"}
+
+
+def test_the_page_of_the_source_is_what_the_code_says():
+    assert SEED.PAGE.read_text(encoding="utf-8") == SEED.page(), "run: python docs/seeds/spherical.py"
+    assert SEED.PICTURE.read_text(encoding="utf-8") == SEED.picture(), "run: python docs/seeds/spherical.py"
+
+
+def test_the_page_counts_as_the_facts_do():
+    page = SEED.PAGE.read_text(encoding="utf-8")
+    assert "**12 of 14**" in page
+    assert "**41 of 42**" in page
+    assert "| 5 | 3.941e-03 | 5.285e-05 | 75 | below 1e-12 |" in page
+    assert len(re.findall(r"^\d+\. ", page, re.M)) == 14
