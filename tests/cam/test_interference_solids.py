@@ -299,11 +299,8 @@ def test_a_stepped_shaft_and_a_key_are_prisms_and_a_cone_is_none():
         .cut(cq.Workplane().box(3, 20, 4).translate((5, 0, 2)))
     )
     layers = prisms_of(solid("shaft", shaft), Instance("shaft", 2.0))
-    assert [(round(s.bottom, 9), round(s.top, 9), s.disc is not None) for s in layers] == [
-        (2, 6, False),
-        (6, 12, True),
-        (12, 17, True),
-    ]
+    assert [(round(s.bottom, 9), round(s.top, 9)) for s in layers] == [(2, 6), (6, 12), (12, 17)]
+    assert layers[0].disc is None
     assert sum(s.polygon.area * (s.top - s.bottom) for s in layers) == pytest.approx(
         shaft.val().Volume(), rel=1e-4
     )

@@ -17,11 +17,14 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interference.slabs import Slab
 from mechwright_cam.interference.surface import Surface
 from mechwright_cam.solids import part_solid
-from mechwright_cam.tessellate import mesh_of
+from mechwright_cam.tessellate import WELD, mesh_of
 
 _UP = gp_Dir(0.0, 0.0, 1.0)
 _LEVELS = 1e-6
 """Corners closer in height than this, mm, are at one height."""
+
+_ABOVE = 1e-4
+"""Share of a layer's height at which it is cut: its corners are then where the lower edge has them."""
 
 
 def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
@@ -35,9 +38,9 @@ def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
     heights = heights[np.append(True, np.diff(heights) > _LEVELS)]
     slabs: list[Slab] = []
     for bottom, top in pairwise(heights.tolist()):
-        # The diagonals of the walls' triangles are cut as well: those points are on the chords.
-        cut = body.slice((bottom + top) / 2).to_polygons()
-        rings = [shapely.simplify(shapely.Polygon(ring), TOLERANCES.closure) for ring in cut]
+        # Just above the lower edges, for in between the walls' triangles may be twisted a little.
+        cut = body.slice(bottom + _ABOVE * (top - bottom)).to_polygons()
+        rings = [shapely.simplify(shapely.Polygon(ring), WELD) for ring in cut]
         shape = shapely.Polygon()
         for ring in sorted(rings, key=lambda ring: -ring.area):
             shape = shape.symmetric_difference(ring)  # a loop inside a loop is a hole, or an island in it
