@@ -8,7 +8,7 @@ from typing import ClassVar
 import pytest
 
 from mechwright.output import Post
-from mechwright.program import FeedArc, Move, Pause, Program
+from mechwright.program import Drill, FeedArc, Move, Pause, Program
 from mechwright.testing.programs import sample_program
 from mechwright.tooling import Tool
 
@@ -190,5 +190,9 @@ def _changed_move(move: Move) -> Iterator[tuple[str, Move]]:
     for name in sorted(free):
         value = getattr(move, name)
         # A dwell of nothing is no dwell, and not every control can dwell in every cycle.
-        if value is not None and not (name == "dwell" and value == 0):
+        if name == "breaking" and isinstance(move, Drill):
+            # How a peck ends matters only where there are pecks.
+            if move.peck is not None:
+                yield name, replace(move, breaking=not move.breaking)
+        elif value is not None and not (name == "dwell" and value == 0):
             yield name, replace(move, **{name: value + _STEP})
