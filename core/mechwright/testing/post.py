@@ -194,5 +194,9 @@ def _changed_move(move: Move) -> Iterator[tuple[str, Move]]:
     for name in sorted(free):
         value = getattr(move, name)
         # A dwell of nothing is no dwell, and not every control can dwell in every cycle.
-        if value is not None and not (name == "dwell" and value == 0):
+        if name == "breaking" and isinstance(move, Drill):
+            # How a peck ends matters only where there are pecks.
+            if move.peck is not None:
+                yield name, replace(move, breaking=not move.breaking)
+        elif value is not None and not (name == "dwell" and value == 0):
             yield name, replace(move, **{name: value + _STEP})
