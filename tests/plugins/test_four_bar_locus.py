@@ -72,7 +72,10 @@ def _in_coupler(balls, phi, branch, g):
 @pytest.mark.parametrize("plane", PLANES)
 def test_the_reference_polynomials_come_out_exactly(plane):
     table = LOCI[f"fourbar a=2,b=5,c=6,f=7 {plane}"]
-    wanted = {tuple(map(int, key.split(","))): Fraction(int(value[0]), int(value[1])) for key, value in table.items()}
+    wanted = {
+        tuple(map(int, key.split(","))): Fraction(int(value[0]), int(value[1]))
+        for key, value in table.items()
+    }
     curve = locus(*fractions((2, 6, 5, 7)), plane)
     assert set(curve.terms) == set(wanted)
     scale = wanted[max(wanted)]
