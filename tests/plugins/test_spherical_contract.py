@@ -12,7 +12,11 @@ FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 class TestSpherical(FamilyContract):
     family = Spherical
-    examples: ClassVar = (PATH, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
+    examples: ClassVar = (
+        PATH,
+        {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}},
+        FOUR_BAR,
+    )
     refused: ClassVar = (
         ({"radius": 40}, "radius"),
         ({"five_bar": {"travel": -190}}, "five_bar.travel"),
