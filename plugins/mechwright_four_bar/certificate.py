@@ -57,7 +57,7 @@ def certain_residual(bar: FourBar, phi: Sequence[float] | Array, targets: Plane)
             bound = error.abs_upper()
             if not bound.is_finite():
                 return float("inf")
-            worst = max(worst, float(bound) * (1 + 4 * np.finfo(float).eps))
+            worst = max(worst, float(bound) * (1 + 4 * float(np.finfo(float).eps)))
         return worst
 
 

@@ -22,9 +22,9 @@ STRETCH = 4.0
 LEAST_EXCESS = 1e-4
 """Least share by which the dyads of the starts are longer than the diagonal."""
 
-POLISHED = 400
-"""Best starts of each branch and sense that are followed to the end: the global optimum of the benchmarks is
-reached by every third of them."""
+POLISHED, ONE_IN = 400, 50
+"""Best starts of each branch and sense that are followed to the end, and at most one in so many: the global
+optimum of the benchmarks is reached by every third of them."""
 
 STEPS = 300
 """Most steps of a start."""
@@ -115,7 +115,8 @@ def search(
         shapes, angles = _starts(unit, turns, way, count, rng)
         costs = screen(unit, shapes, angles, branch)
         costs[_worst_cosine(shapes) > math.cos(least_angle)] = np.inf
-        best = np.argsort(costs, kind="stable")[:POLISHED]
+        most = min(POLISHED, count // ONE_IN)
+        best = np.argsort(costs, kind="stable")[:most]
         for step, index in enumerate(best[np.isfinite(costs[best])]):
             phi = angles[index].copy()
             solution = linear(unit, shapes[index], phi, branch)
@@ -124,7 +125,7 @@ def search(
             if one is not None:
                 found.append(one)
             if step % 20 == 0:
-                progress((number + step / POLISHED) / len(rooms))
+                progress((number + step / most) / len(rooms))
     return sorted(found, key=lambda one: one.squares)
 
 

@@ -34,8 +34,9 @@ _COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
 def cos_sin(angle: float) -> tuple[float, float]:
     """Cosine and sine of an angle up to :data:`LARGEST_ANGLE`, to two units of the last digit of 1.
 
-    >>> cos_sin(0.0), abs(cos_sin(2.0)[1] - math.sin(2.0)) < 3e-16
-    ((1.0, 0.0), True)
+    >>> cos, sin = cos_sin(2.0)
+    >>> abs(float(cos) - math.cos(2.0)) < 3e-16, abs(float(sin) - math.sin(2.0)) < 3e-16
+    (True, True)
     """
     quarters = np.floor(angle * (2 / math.pi) + 0.5)
     r = ((angle - quarters * _PI_2[0]) - quarters * _PI_2[1]) - quarters * _PI_2[2]

@@ -11,7 +11,7 @@ from mechwright.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 
 MILLI = 1e-3
-"""kg mm/s² are mN and kg mm²/s² are mN mm: to N and N mm."""
+"""From mN, which kg, mm and s give, to N, from mN mm to N mm, and from N mm to N m."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,8 +110,8 @@ def balance(crank: float, rod: float, masses: dict[str, Mass]) -> Balance:
     """Counterweights that make the shaking force vanish at every instant.
 
     >>> found = balance(50.0, 150.0, {"crank": Mass(0.0), "rod": Mass(0.0), "slider": Mass(2.0)})
-    >>> found.rod, found.crank, found.rod_weight
-    ((-300-0j), (-400-0j), 6.0)
+    >>> found.rod.real, found.crank.real, found.rod_weight
+    (-300.0, -400.0, 6.0)
     """
     m2, m3, m4 = masses["crank"], masses["rod"], masses["slider"]
     on_rod = -m4.mass * rod - m3.mass * m3.centre

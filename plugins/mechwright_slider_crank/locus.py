@@ -46,7 +46,7 @@ def locus(crank: Fraction, rod: Fraction, offset: Fraction, plane: Plane) -> tup
     Raises
     ------
     GeometryError
-        c = a and e = 0: the crank can turn while the slider stands still.
+        A length is not above 0; or c = a and e = 0: the crank can turn while the slider stands still.
 
     Examples
     --------
@@ -54,6 +54,8 @@ def locus(crank: Fraction, rod: Fraction, offset: Fraction, plane: Plane) -> tup
     >>> curve.degree, curve.circularity, len(curve.terms)
     (24, 12, 91)
     """
+    if not (crank > 0 and rod > 0):
+        raise GeometryError(f"crank {crank} and rod {rod} make no slider-crank: both must be above 0")
     if crank == rod and offset == 0:
         raise GeometryError(
             "the locus is no curve: with c = a and e = 0 the crank can turn with the slider at rest"

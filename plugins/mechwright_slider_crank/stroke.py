@@ -101,7 +101,7 @@ def best(stroke: float, time_ratio: float) -> Lengths:
     It is where d/de of (a + e)/c is zero: (1 - H t/(4 a)) c² = (a + e) H/(4 t), t = tan(θ/2).
 
     >>> round(best(120, 1.5).offset, 6)
-    34.593561
+    34.593562
     """
     quarter, t = stroke / 4, math.tan(rocking_angle(time_ratio) / 2)
 

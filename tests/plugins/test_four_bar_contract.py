@@ -14,12 +14,13 @@ class TestFourBars(FamilyContract):
         {"coupler_bend": 25, "bushing_wall": 0, "ground_angle": 30, "load_torque": 2, "speed": 300},
     )
     refused = (
-        ({"crank": 60}, "crank"),
+        ({"crank": 70}, "crank"),
+        ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
-        ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "coupler"),
+        ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "ground"),
         ({"crank": 8}, "crank"),
         ({"coupler_point_x": 3, "coupler_point_y": 0}, "coupler_point_x"),
-        ({"coupler_bend": 200}, "coupler_bend"),
+        ({"coupler_bend": 20, "web_width": 17}, "coupler_bend"),
         ({"coupler_point_x": 3}, "coupler_point_y"),
     )
     derivatives = (

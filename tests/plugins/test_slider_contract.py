@@ -1,5 +1,7 @@
 """The family under the kit that third parties use."""
 
+from typing import ClassVar
+
 from mechwright.testing import FamilyContract
 from mechwright_slider_crank.family import SliderCrankFamily
 
@@ -8,8 +10,15 @@ class TestSliderCrank(FamilyContract):
     family = SliderCrankFamily
     examples = (
         {},
-        {"crank": 40, "rod": 150, "offset": -20, "assembly": "behind", "rod_width": 8, "clockwise": True},
-        {"coupler_bore": 6, "coupler_x": 60, "coupler_y": 30, "crank_shape": "arm", "slide_direction": 30},
+        {
+            "assembly": "behind",
+            "clockwise": True,
+            "coupler_bore": 6,
+            "coupler_x": 60,
+            "coupler_y": 30,
+            "crank_shape": "arm",
+            "slide_direction": 30,
+        },
     )
     refused = (
         ({"rod": 39}, "rod"),
@@ -18,15 +27,20 @@ class TestSliderCrank(FamilyContract):
         ({"rod_bend": 60}, "rod_bend"),
     )
     derivatives = (
-        ("phi", "omega"),
+        ("phi", "omega_a"),
         ("s", "v"),
         ("v", "a"),
         ("a", "jerk"),
-        ("sigma", "omega_rod"),
-        ("omega_rod", "alpha_rod"),
-        ("alpha_rod", "jerk_rod"),
+        ("sigma", "omega_c"),
+        ("omega_c", "alpha_c"),
+        ("alpha_c", "jerk_c"),
         ("xP", "vxP"),
         ("vyP", "ayP"),
         ("axP", "jxP"),
     )
-    input_rate = "omega"
+    input_rate = "omega_a"
+    requirements: ClassVar = {
+        "stroke": ({}, {"stroke": 100, "time_ratio": 1.2, "rod": 150}),
+        "poles": ({"starts": 400}, {"starts": 400, "slide_direction": 20}),
+    }
+    max_examples = 20

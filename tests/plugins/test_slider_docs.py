@@ -1,0 +1,100 @@
+"""The pages of the slider-crank say what the code does, and those of its seeds are up to date."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mechwright_slider_crank.__main__ import main
+from mechwright_slider_crank.family import SliderCrankFamily
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "slider-crank.md").read_text(encoding="utf-8")
+
+
+def test_every_finding_is_on_the_page_and_no_other():
+    sources = (ROOT / "plugins" / "mechwright_slider_crank").glob("*.py")
+    code = "".join(path.read_text(encoding="utf-8") for path in sources)
+    said = set(re.findall(r'"(slider-crank\.[a-z-]+)"', code))
+    said |= {f"slider-crank.{name}-range" for name in ("crank", "rod", "offset")}
+    assert len(said) > 15
+    assert set(re.findall(r"`(slider-crank\.[a-z-]+)`", PAGE)) == said
+
+
+def test_every_parameter_is_on_the_page_with_its_default():
+    table = PAGE.split("## Parameters")[1].split("## Motion")[0]
+    rows = {
+        key: [cell.strip() for cell in row.split("|")]
+        for row in table.splitlines()
+        for key in re.findall(r"`([a-z_]+)`", row.split("|")[1] if row.startswith("|") else "")
+    }
+    assert set(rows) == set(SliderCrankFamily.Params.model_fields)
+    for key, field in SliderCrankFamily.Params.model_fields.items():
+        if isinstance(field.default, bool):
+            assert rows[key][2] == str(field.default).lower()
+        elif isinstance(field.default, int | float):
+            assert f"{field.default:g}" in rows[key][2], key
+        elif isinstance(field.default, str):
+            assert rows[key][2] == field.default, key
+
+
+@pytest.mark.parametrize("name", ["offset_slider_crank", "acceleration_poles"])
+def test_the_page_of_a_seed_is_up_to_date(name):
+    path = ROOT / "docs" / "seeds" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    assert module.PAGE.read_text(encoding="utf-8") == module.page(), f"run: python docs/seeds/{name}.py"
+
+
+def test_the_locus_is_printed(capsys):
+    assert main(["1", "3", "1/2", "coupler"]) == 0
+    assert capsys.readouterr().out.startswith("rho^i x^j, degree 28, 14-fold circular points, 75 terms\n")
+    assert main(["1", "3", "0.5", "--json"]) == 0
+    assert '"axis": "Y"' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [(["1", "1", "0"], "no curve"), (["1", "x", "0"], "no finite number"), (["0", "1", "0"], "above 0")],
+)
+def test_lengths_without_a_locus_are_one_line(arguments, words, capsys):
+    assert main(arguments) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.count("\n") == 1
+    assert words in said.err
+
+
+EXAMPLES = sorted((ROOT / "examples").glob("slider-crank-*.toml"))
+
+
+def run(*arguments):
+    command = [sys.executable, "-m", "mechwright", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("path", [p for p in EXAMPLES if "requirement" not in p.name], ids=lambda p: p.stem)
+def test_examples_are_machined_without_a_warning(path, tmp_path):
+    done = run("cam", path, "-o", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert {"base.nc", "rail.nc", "crank.nc", "rod.nc", "slider.nc"} <= {
+        p.name for p in (tmp_path / "out").iterdir()
+    }
+
+
+@pytest.mark.parametrize("path", [p for p in EXAMPLES if "requirement" in p.name], ids=lambda p: p.stem)
+def test_requirements_lead_to_the_examples(path, tmp_path):
+    done = run("synthesize", path, "-o", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    kind = tomllib.loads(path.read_text(encoding="utf-8"))["requirement"]["kind"]
+    example = {"stroke": "quick-return", "poles": "two-poles"}[kind]
+    wanted = tomllib.loads((ROOT / "examples" / f"slider-crank-{example}.toml").read_text(encoding="utf-8"))
+    best = tomllib.loads((tmp_path / "out" / f"{example}-1.toml").read_text(encoding="utf-8"))
+    for key in ("crank", "rod", "offset"):
+        assert best["parameters"][key] == pytest.approx(wanted["parameters"][key], rel=1e-9)
