@@ -22,6 +22,7 @@ from typing import Literal
 
 import shapely
 
+from mechwright.details import Detail, moved
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
@@ -116,19 +117,24 @@ class Job:
     def features(self) -> tuple[Feature, ...]:
         """The part's features in work coordinates."""
         x, y = -self.origin[0], -self.origin[1]
-        moved: list[Feature] = []
+        placed: list[Feature] = []
         for feature in self.part.features:
             match feature:
                 case Bore():
                     centre = (feature.centre[0] + x, feature.centre[1] + y)
-                    moved.append(replace(feature, centre=centre))
+                    placed.append(replace(feature, centre=centre))
                 case Profile():
                     sites = tuple(((site[0] + x, site[1] + y), width) for site, width in feature.tab_sites)
-                    moved.append(replace(feature, loop=feature.loop.moved(x, y), tab_sites=sites))
+                    placed.append(replace(feature, loop=feature.loop.moved(x, y), tab_sites=sites))
                 case Pocket():
                     islands = tuple(loop.moved(x, y) for loop in feature.islands)
-                    moved.append(replace(feature, boundary=feature.boundary.moved(x, y), islands=islands))
-        return tuple(moved)
+                    placed.append(replace(feature, boundary=feature.boundary.moved(x, y), islands=islands))
+        return tuple(placed)
+
+    @cached_property
+    def details(self) -> tuple[Detail, ...]:
+        """The part's details in work coordinates."""
+        return tuple(moved(detail, -self.origin[0], -self.origin[1]) for detail in self.part.details)
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:

@@ -156,6 +156,7 @@ def _second(
         outline=Outline(turned_over(plate, side.flip)),
         machined=features,
         build=None,
+        details=(),
     )
     changes = {"work_offset": side.work_offset, "stock": Stock(margin=0.0), "hold": Hold()}
     settings = first.settings.model_copy(update=changes)

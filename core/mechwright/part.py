@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
+from mechwright.details import Detail
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
 from mechwright.geometry.segments import Point
@@ -116,6 +117,8 @@ class Part:
         Features in the order of the drawing; empty means: those of the outline.
     build
         Makes the solid of a part that is no plate.
+    details
+        Chamfers, threads and engravings of a plate's top face.
     """
 
     name: str
@@ -126,6 +129,7 @@ class Part:
     colour: Colour = (0.7, 0.7, 0.72)
     machined: tuple[Feature, ...] = ()
     build: "Callable[[], cq.Solid] | None" = None
+    details: tuple[Detail, ...] = ()
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")

@@ -51,7 +51,11 @@ class FeedArc:
 
 @dataclass(frozen=True, slots=True)
 class Drill:
-    """A hole: rapid to ``retract``, feed to ``bottom``, rapid out; pecks of ``peck`` mm if not None."""
+    """A hole: rapid to ``retract``, feed to ``bottom``, rapid out; pecks of ``peck`` mm if not None.
+
+    After each peck the drill comes out of the hole, or if ``breaking`` it only draws back a little, so that
+    the chip breaks.
+    """
 
     x: float
     y: float
@@ -60,6 +64,7 @@ class Drill:
     feed: float
     peck: float | None = None
     dwell: float = 0.0
+    breaking: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,10 @@ class ToolKind(StrEnum):
     END_MILL = "end-mill"
     DRILL = "drill"
     SPOT_DRILL = "spot-drill"
+    BULL_NOSE = "bull-nose"
+    BALL = "ball"
+    CHAMFER = "chamfer-mill"
+    THREAD_MILL = "thread-mill"
 
 
 class CuttingData(Parameters):
@@ -40,7 +44,11 @@ class Tool(Parameters):
     flutes: int = Field(2, ge=1, le=12, description="Number of cutting edges.")
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
     centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
-    point_angle: Degrees = Field(118.0, gt=30, le=180, description="Full angle of a drill's point.")
+    point_angle: Degrees = Field(
+        118.0, gt=30, le=180, description="Full angle of a drill's point, or of a chamfer mill."
+    )
+    corner_radius: Millimetres = Field(0.0, ge=0, le=50, description="Radius of a bull-nose mill's corner.")
+    tip_diameter: Millimetres = Field(0.0, ge=0, le=50, description="Flat at the tip of a chamfer mill.")
     shank_diameter: Millimetres | None = Field(
         None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
     )
@@ -56,6 +64,8 @@ class Tool(Parameters):
     life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
         None, description="Minutes in cut after which an edge is worn."
     )
+    substrate: Literal["carbide", "hss"] = Field("carbide", description="What it is made of.")
+    coating: str = Field("", max_length=20, description="Its coating, as the setup sheet names it.")
     length: Millimetres | None = Field(
         None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
     )
@@ -64,7 +74,13 @@ class Tool(Parameters):
     )
 
     @model_validator(mode="after")
-    def _flutes_are_out(self) -> Self:
+    def _shape(self) -> Self:
+        if self.corner_radius > self.diameter / 2:
+            raise ValueError("corner_radius must be at most half of the diameter")
+        if self.tip_diameter >= self.diameter:
+            raise ValueError("tip_diameter must be below the diameter")
+        if (self.kind is ToolKind.BULL_NOSE) != (self.corner_radius > 0):
+            raise ValueError("a bull-nose mill has a corner_radius, and no other tool has one")
         if self.stick_out is not None and self.stick_out < self.flute_length:
             raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
         return self
@@ -199,6 +215,12 @@ class CamSettings(Parameters):
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    corner_mill: Millimetres = Field(
+        2.0, ge=0.1, le=20, description="No smaller end mill is chosen for the sake of sharp inside corners."
+    )
+    chip_thinning: bool = Field(
+        True, description="Raise the feed where a small engagement makes chips thinner than planned."
+    )
     clearing: Literal["contour", "adaptive"] = Field(
         "contour",
         description="How recesses and openings are roughed: along their walls, or with bounded engagement.",

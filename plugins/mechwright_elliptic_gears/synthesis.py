@@ -36,8 +36,9 @@ GRAIN = {
 }
 """Steps of the values in a design file, in its units: ten times finer than a good workshop can make them."""
 
-STEPS = (64, 16, 4, 1)
-"""Steps of the last search, in grains: the first is as wide as the ridge is known by then."""
+SAMPLED_STEPS, EXACT_STEPS = (64, 16, 4), (8, 2, 1)
+"""Steps of the last search, in grains, with scores from samples, then with exact ones. The first is as wide
+as the ridge is known by then; samples miss it by a few grains."""
 
 NICHE = 0.04
 """Around a design that is found, in parts of each range: the next one is sought elsewhere."""
@@ -157,9 +158,9 @@ class _Problem:
 
     def polished(self, value: Mapping[str, float]) -> tuple[dict[str, float], float]:
         """The best design on the grains near ``value``, and its exact score: a pattern search."""
-        best = self.rounded(value)
+        best = self._sampled_best(self.rounded(value))
         score = self.score(best)
-        for step in STEPS:
+        for step in EXACT_STEPS:
             moving = True
             while moving:
                 moving = False
@@ -169,6 +170,17 @@ class _Problem:
                         best, score, moving = trial, found, True
                         break
         return best, score
+
+    def _sampled_best(self, best: dict[str, float]) -> dict[str, float]:
+        """The first part of the pattern search: all neighbours at once, the best of them next."""
+        for step in SAMPLED_STEPS if self.free else ():
+            moving = True
+            while moving:
+                trials = [best, *self._around(best, step)]
+                scores = self.sampled_score(np.array([self.point(trial) for trial in trials]))
+                moving = bool(scores.min() < scores[0])
+                best = trials[int(scores.argmin())]
+        return best
 
     def _around(self, value: Mapping[str, float], step: int) -> Iterator[dict[str, float]]:
         """Neighbours on the grains: one variable moved, then two."""

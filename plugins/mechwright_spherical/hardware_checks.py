@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 
@@ -169,23 +170,27 @@ def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     if mechanism is None:
         return
     hardware = params.hardware
-    one = slot_points(mechanism.a0, mechanism.a1, float(mechanism.crank_setting))
-    two = slot_points(mechanism.b1, mechanism.c1, float(mechanism.rocker_setting))
-    nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", one, two), -1, 1)).min())
+    slots = {
+        "the slot of pin a": slot_points(mechanism.a0, mechanism.a1, float(mechanism.crank_setting)),
+        "the slot of pin c": slot_points(mechanism.b1, mechanism.c1, float(mechanism.rocker_setting)),
+        "the path point": mechanism.p1[:, None],
+    }
     radius = shells.links["coupler"][0]
     least = hardware.pin_diameter + hardware.fit + WALL
-    apart = 2 * radius * math.tan(nearest / 2)
-    if apart < least:
-        yield Finding(
-            "spherical.slot",
-            Severity.ERROR,
-            "five_bar.c1n",
-            f"the slots of both pins come as near as {apart:.4g} mm and run into each other",
-            apart,
-            least,
-            "mm",
-            f"keep them {least:g} mm apart: use thinner pins or a larger radius",
-        )
+    for (one, here), (two, there) in combinations(slots.items(), 2):
+        nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
+        apart = 2 * radius * math.tan(nearest / 2)
+        if apart < least:
+            yield Finding(
+                "spherical.slot",
+                Severity.ERROR,
+                "five_bar.c1n",
+                f"{one} and {two} come as near as {apart:.4g} mm on the coupler and run into each other",
+                apart,
+                least,
+                "mm",
+                f"keep them {least:g} mm apart: use thinner pins or a larger radius",
+            )
 
 
 def slot_points(axis: Array, start: Array, sweep: float) -> Array:

@@ -39,6 +39,11 @@ class Turning:
         shaped = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (angle, rate, acceleration, jerk)))
         return cls(*shaped)
 
+    def part(self, start: int, stop: int) -> "Turning":
+        """The samples from ``start`` to before ``stop``."""
+        values = (self.angle, self.rate, self.acceleration, self.jerk)
+        return Turning(*(value[start:stop] for value in values))
+
     def scaled(self, ratio: float) -> "Turning":
         """The turning of a shaft that is geared to this one."""
         return Turning(ratio * self.angle, ratio * self.rate, ratio * self.acceleration, ratio * self.jerk)

@@ -25,6 +25,9 @@ from mechwright_spherical.chain import body_point, coordinates, frame, radicand,
 from mechwright_spherical.jets import Jet, Turning, circle
 from mechwright_spherical.vectors import arc, cross, dot
 
+BLOCK = 8192
+"""Samples that are worked on at a time: their arrays stay in a processor's cache, which halves the time."""
+
 
 @dataclass(frozen=True, slots=True)
 class Loop:
@@ -66,6 +69,15 @@ class Loop:
 
     def at(self, turning: Turning, order: int = 3) -> "State":
         """The linkage at input angles, with ``order`` rates; NaN where it cannot be assembled."""
+        if turning.angle.ndim == 1 and turning.angle.size > BLOCK:
+            blocks = [
+                self._at(turning.part(start, start + BLOCK), order)
+                for start in range(0, turning.angle.size, BLOCK)
+            ]
+            return State(*(_joined([getattr(block, name) for block in blocks]) for name in "abcp"))
+        return self._at(turning, order)
+
+    def _at(self, turning: Turning, order: int) -> "State":
         a = circle(self.a0, self.a1, turning, order)
         b = circle(self.b0, self.b1, turning.scaled(self.ratio), order)
         b = tuple(np.broadcast_to(x, a[0].shape) for x in b)
@@ -115,3 +127,7 @@ class State:
         """Transmission angle, rad, 0 to π: between the arcs C to A and C to B."""
         c = self.c[0]
         return arc(cross(c, self.a[0]), cross(c, self.b[0]))
+
+
+def _joined(jets: list[Jet]) -> Jet:
+    return tuple(np.concatenate(values, axis=1) for values in zip(*jets, strict=True))

@@ -18,6 +18,7 @@ from mechwright_cam.interference import faithful_motion, interference
 from mechwright_cam.interference.meshes import meetings
 from mechwright_cam.interference.nearest import Nearest, nearest_to_origin
 from mechwright_cam.interference.path import Path, relative, space_path
+from mechwright_cam.interference.prisms import prisms_of
 from mechwright_cam.interference.readback import parts_from_step
 from mechwright_cam.interference.surface import SKIN, SURE, Surface
 
@@ -31,7 +32,14 @@ def motion(**poses):
 
 
 def solid(name, shape, z=0.0):
-    return Part(name, None, 0.0, "steel", (Instance(name, z),), build=lambda: shape.Solids()[0])
+    return Part(
+        name,
+        None,
+        0.0,
+        "steel",
+        (Instance(name, z),),
+        build=lambda: (shape.val() if isinstance(shape, cq.Workplane) else shape).Solids()[0],
+    )
 
 
 def about(axis, angle):
@@ -277,3 +285,30 @@ def test_the_elliptic_pair_read_back_from_step_is_clear(tmp_path):
     )
     (hit,) = interference([gear], Motion(motion_.input_name, motion_.channels, out_of_phase)).collisions
     assert hit.depth > 0.5
+
+
+def test_a_stepped_shaft_and_a_key_are_prisms_and_a_cone_is_none():
+    shaft = (
+        cq.Workplane()
+        .circle(6)
+        .extrude(10)
+        .faces(">Z")
+        .workplane()
+        .circle(4)
+        .extrude(5)
+        .cut(cq.Workplane().box(3, 20, 4).translate((5, 0, 2)))
+    )
+    layers = prisms_of(solid("shaft", shaft), Instance("shaft", 2.0))
+    assert [(round(s.bottom, 9), round(s.top, 9)) for s in layers] == [(2, 6), (6, 12), (12, 17)]
+    assert layers[0].disc is None
+    assert sum(s.polygon.area * (s.top - s.bottom) for s in layers) == pytest.approx(
+        shaft.val().Volume(), rel=1e-4
+    )
+    assert layers[2].disc.radius == pytest.approx(4, abs=1e-6)
+    tube = cq.Workplane().circle(6).circle(4).extrude(10)
+    (layer,) = prisms_of(solid("tube", tube), Instance("tube"))
+    assert len(layer.rings) == 2
+    cone = cq.Workplane().add(cq.Solid.makeCone(3, 0, 20))
+    assert prisms_of(solid("cone", cone), Instance("cone")) is None
+    lying = cq.Workplane("YZ").circle(4).extrude(10)
+    assert prisms_of(solid("lying", lying), Instance("lying")) is None

@@ -168,6 +168,13 @@ def test_deep_holes_are_pecked():
     assert [m.peck is None for m in shallow] == [True, True]
     assert [m.peck is None for m in deep] == [True, False]
     assert deep[1].bottom < -18.3
+    # Long chips are broken first, and carried out where they would jam; brass breaks its chips by itself.
+    mills = ("mill-10", "mill-16", "mill-12")
+    deeper = moves(plan(job(plate(bore(12), thickness=30), *TOOLS, *mills[1:])), Drill)
+    brass = moves(plan(job(plate(bore(12), thickness=18, material="brass"), *TOOLS)), Drill)
+    assert [m.breaking for m in (deep[1], deeper[1])] == [True, False]
+    assert deeper[1].peck is not None
+    assert brass[1].peck is None
 
 
 def test_a_mill_that_may_not_plunge_does_not():

@@ -56,9 +56,14 @@ def test_choice_by_corners_and_thickness():
     small = part(lobes(9, 18.0, 4.0, 900, 1.5), bore(8))
     chosen = choose_tools(small, CamSettings(), LIBRARY)
     assert all(t.flute_length >= 6.3 for t in chosen if t.kind is ToolKind.END_MILL)
-    # The square corner of a keyway asks for the smallest mill that is long enough.
-    assert names(plate(keyed_bore(14, 5, 16.3)))[-1] == "mill-1.2"
-    assert names(plate(keyed_bore(14, 5, 16.3), thickness=10))[-1] == "mill-1.5"
+    # The square corner of a keyway asks for a small mill, but not for the smallest: none leaves it clean.
+    keyed = plate(keyed_bore(14, 5, 16.3))
+    assert names(keyed)[-1] == "mill-2"
+    assert names(keyed, corner_mill=3)[-1] == "mill-3"
+    assert names(keyed, corner_mill=0.1)[-1] == "mill-1.2"
+    assert names(plate(keyed_bore(14, 5, 16.3), thickness=10), corner_mill=0.1)[-1] == "mill-1.5"
+    # A narrow place is no corner: what fits in goes in.
+    assert names(plate(keyed_bore(14, 1.3, 16.3)))[-1] == "mill-1.2"
     with pytest.raises(ToolError, match="flute length"):
         names(plate(thickness=60))
 
@@ -82,7 +87,7 @@ def test_findings():
         if code == "cam.cannot-cut":
             assert [f.severity for f in found if f.code == code] == [Severity.ERROR]
     note = check_tools(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)
-    assert [f.code for f in note] == ["cam.slender"]
+    assert [f.code for f in note] == ["cam.slender", "cam.deflection"]
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

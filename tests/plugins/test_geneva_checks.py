@@ -104,7 +104,14 @@ WARNINGS = [
     (
         "geneva.acceleration",
         "law",
-        {"slots": 6, "crank_half_angle": 60, "offset_angle": 12, "roller_radius": 3, "driver_bore": 4, "pin_diameter": 4},
+        {
+            "slots": 6,
+            "crank_half_angle": 60,
+            "offset_angle": 12,
+            "roller_radius": 3,
+            "driver_bore": 4,
+            "pin_diameter": 4,
+        },
     ),
     ("geneva.jump", "law", {"law": "simple-harmonic", "offset_angle": 4}),
     ("geneva.singular", "load_torque", {"load_torque": 0.5}),
@@ -205,7 +212,14 @@ def test_the_acceleration_warning_starts_at_six_slots():
 
 
 def test_the_acceleration_remedy_cures():
-    table = {"slots": 6, "crank_half_angle": 60, "offset_angle": 12, "roller_radius": 3, "driver_bore": 4, "pin_diameter": 4}
+    table = {
+        "slots": 6,
+        "crank_half_angle": 60,
+        "offset_angle": 12,
+        "roller_radius": 3,
+        "driver_bore": 4,
+        "pin_diameter": 4,
+    }
     ((name, value),) = cures(found("geneva.acceleration", **table))
     assert "geneva.acceleration" not in [f.code for f in check(**{**table, name: value})]
 

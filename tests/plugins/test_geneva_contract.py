@@ -17,25 +17,40 @@ def rows(name, count=21):
 SMALL = {
     "entry_radius": 60,
     "roller_radius": 3,
-    "pin_diameter": 4,
-    "thickness": 8,
+    "pin_diameter": 3,
+    "least_wall": 1.2,
+    "thickness": 5,
+    "floor": 1.5,
+    "crank_thickness": 4,
+    "bore": 8,
     "driver_bore": 6,
-    "fixing": 3,
+    "fixing": 2.5,
+    "material": "aluminium",
 }
+"""Small and soft: quick to machine."""
 
 
 class TestGeneva(FamilyContract):
     family = Geneva
     examples = (
-        {"hub_diameter": 36, "keyway_width": 4, "keyway_relief": 2, "thickness": 8},
-        {"slots": 6, "law": "straight", "rollers": 2, "driver_keyway_width": 2, **SMALL, "entry_radius": 80},
-        {"law": "table", "table": rows("modified-sine"), "construction": "backed", "fixing": 2.5},
         {
+            **SMALL,
             "law": "polynomial",
             "polynomial": [0, 0, 0, 10, -15, 6],
+            "hub_diameter": 24,
+            "hub_height": 4,
+            "keyway_width": 2,
+            "keyway_relief": 1.2,
+        },
+        {**SMALL, "slots": 6, "law": "straight", "entry_radius": 70, "driver_keyway_width": 2},
+        {
+            **SMALL,
+            "law": "table",
+            "table": rows("modified-sine"),
             "offset_angle": -12.5,
             "crank_half_angle": 45,
-            **SMALL,
+            "construction": "backed",
+            "fixing": 1.5,
         },
     )
     refused = (

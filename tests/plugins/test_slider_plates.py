@@ -18,10 +18,8 @@ from mechwright_slider_crank.plates import layout_of, masses_of, parts_of
 from mechwright_slider_crank.sizes import sizes_of
 
 DESIGNS = (
-    {},
     {"crank": 51.23710482942299, "rod": 113.28305527097052, "offset": 50},
     {"crank": 40, "rod": 150, "offset": -20, "assembly": "behind", "rod_width": 8, "slide_direction": 100},
-    {"crank_shape": "arm", "coupler_bore": 6, "coupler_x": 60, "coupler_y": 30},
     {"rod_bend": 12, "rod": 120},
 )
 
@@ -36,15 +34,16 @@ def codes(params, severity=Severity.ERROR):
 
 
 def test_nothing_collides_over_a_turn(design):
+    """Plates only: the contract's designs are compared with pins and bushings."""
     family = SliderCrankFamily()
-    report = interference(parts_of(design), family.solve(design, 361), solids=False)
+    report = interference(parts_of(design), family.solve(design, 181), solids=False)
     assert report.collisions == ()
     assert report.pairs >= 10
 
 
 def test_a_bent_crank_pin_place_is_seen(design):
     """A slider that stands 3 mm beside its guide is found, so that a clear report means something."""
-    motion = SliderCrankFamily().solve(design, 361)
+    motion = SliderCrankFamily().solve(design, 181)
     pose = motion.poses["slider"]
     side = 3 * pose.rotation[:, :, 1]
     poses = {**motion.poses, "slider": Poses(pose.position + side, pose.rotation)}
@@ -176,7 +175,7 @@ def test_warnings():
 def test_the_torque_does_the_work_of_the_load():
     """Over a turn the drive's work is what a friction-free load takes: nothing, for a constant force."""
     motion = SliderCrankFamily().solve(SliderCrankParams(load=-100, speed=0.001), 3601)
-    phi, torque = motion.channels["phi"].values, motion.channels["torque"].values
+    phi, torque = motion.channels["phi"].values, motion.channels["drive_torque"].values * 1000
     half = np.searchsorted(phi, motion.scalars["phi_far"].value)
     work = np.concatenate(([0], np.cumsum((torque[1:] + torque[:-1]) / 2 * np.diff(phi))))
     assert abs(work[-1]) < 1e-6 * np.abs(work).max()

@@ -1,6 +1,7 @@
 """The check itself: every pair of bodies, over the whole motion."""
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
@@ -10,7 +11,7 @@ from mechwright.family import Family
 from mechwright.findings import Finding
 from mechwright.motion import Array, Motion
 from mechwright.parameters import Parameters
-from mechwright.part import Part
+from mechwright.part import Instance, Part
 from mechwright_cam.interference import plates
 from mechwright_cam.interference.bodies import Body, bodies_of
 from mechwright_cam.interference.path import Path, flat, plane_path, relative, space_path
@@ -69,7 +70,8 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
     count = 0
     for one, two in combinations(bodies, 2):
         rotation, position = relative(one.poses, two.poses)
-        up = flat(rotation, position) if one.is_plate and two.is_plate else None
+        layers = [_slabs(body.part, body.instance, solids) for body in (one, two)]
+        up = flat(rotation, position) if all(layers) else None
         if up is None and not solids:
             skipped |= {body.name for body in (one, two) if not body.is_plate} or {one.name, two.name}
             continue
@@ -81,7 +83,7 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
             continue
         path = plane_path(rotation, position)
         height = float(position[0, 2])
-        for a, b in product(slabs_of(one.part, one.instance), slabs_of(two.part, two.instance)):
+        for a, b in product(*layers):
             other = b if up else b.face_down()
             common = min(a.top, other.top + height) - max(a.bottom, other.bottom + height)
             if common <= TOUCH:
@@ -105,6 +107,18 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
         min(gaps, key=lambda gap: gap.distance, default=None),
         tuple(sorted(skipped)),
     )
+
+
+@lru_cache(maxsize=128)
+def _slabs(part: Part, instance: Instance, solids: bool) -> tuple[Slab, ...]:
+    """The layers of a plate, or of a solid if it has some and solids are asked for."""
+    if part.outline is not None:
+        return slabs_of(part, instance)
+    if not solids:
+        return ()
+    from mechwright_cam.interference.prisms import prisms_of
+
+    return prisms_of(part, instance) or ()
 
 
 def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | None:

@@ -15,8 +15,11 @@ from mechwright_cam.interference.path import LEVEL, Path
 from mechwright_cam.interference.sweep import Ints
 from mechwright_cam.interference.tree import Tree
 
-_FEW = 3000
-"""Pairs of nodes at which the division stops: the rest is quicker with the motion in sight."""
+_FEW = 300
+"""Pairs of nodes that are handed on: more are found quicker with the motion in sight."""
+
+_MANY = 100_000
+"""Pairs at which the search for a proof that none may meet is given up."""
 
 
 @dataclass(frozen=True)
@@ -87,20 +90,28 @@ def pairs_that_may_meet(fixed: Tree, moving: Tree, path: Path) -> tuple[Ints, In
     if here.direction is None and here.point is None:
         return one, two
     mine, other = ranges(fixed, here), ranges(moving, there)
-    done_one, done_two = [], []
+    cover: tuple[Ints, Ints] = (one, two)
+    done: list[tuple[Ints, Ints]] = []
     while one.size:
         apart = (mine[one, :, 0] > other[two, :, 1]) | (other[two, :, 0] > mine[one, :, 1])
         left = ~apart.any(axis=1)
         one, two = one[left], two[left]
+        found = sum(pairs[0].size for pairs in done)
+        if found + one.size <= _FEW:
+            cover = _joined([*done, (one, two)])
+        elif found + one.size > _MANY:
+            return cover
         leaf = (one >= fixed.leaves) & (two >= moving.leaves)
-        if one.size > _FEW:
-            break
-        done_one.append(one[leaf])
-        done_two.append(two[leaf])
+        done.append((one[leaf], two[leaf]))
         one, two = one[~leaf], two[~leaf]
         first = (two >= moving.leaves) | ((one < fixed.leaves) & (fixed.radius[one] >= moving.radius[two]))
         a, b = one[first], two[first]
         c, d = one[~first], two[~first]
         one = np.concatenate((2 * a, 2 * a + 1, c, c))
         two = np.concatenate((b, b, 2 * d, 2 * d + 1))
-    return np.concatenate((*done_one, one)), np.concatenate((*done_two, two))
+    pieces = _joined(done)
+    return pieces if pieces[0].size <= _FEW else cover
+
+
+def _joined(parts: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    return np.concatenate([one for one, _ in parts]), np.concatenate([two for _, two in parts])

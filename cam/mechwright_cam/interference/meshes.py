@@ -4,12 +4,14 @@ import math
 
 import manifold3d
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright_cam.interference.invariants import pairs_that_may_meet
 from mechwright_cam.interference.path import Path
 from mechwright_cam.interference.surface import Surface
 from mechwright_cam.interference.sweep import sweep
+from mechwright_cam.interference.tree import Tree
 
 _LOOKS = 25
 """Instants at which two bodies are looked at before they are followed between: every 15 degrees of a turn."""
@@ -26,13 +28,30 @@ _POINTS = 500
 
 def meetings(fixed: Surface, moving: Surface, path: Path) -> Array:
     """Times (n,), in samples, at which two bodies overlap by more than the skin; empty if they never do."""
-    times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
-    # Some looks are cheaper than a sweep, and enough to know.
-    met = np.array([time for time in times if _overlaps(fixed.core, moving, path, float(time))])
-    if met.size or path.still:
-        return met
+    if not fixed.core.points.size:
+        return np.empty(0)
     core, other = fixed.core.tree, moving.tree
-    return sweep(core, other, path, pairs_that_may_meet(core, other, path)).hits
+    times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
+    near = times[_spheres_meet(core, other, path, times)]
+    # Whether one is inside the other only a look can tell; from a clear start, boundaries have to meet first.
+    if near.size and near[0] == 0 and _overlaps(fixed.core, moving, path, 0.0):
+        return np.array([time for time in near if _overlaps(fixed.core, moving, path, float(time))])
+    if path.still:
+        return np.empty(0)
+    pairs = pairs_that_may_meet(core, other, path)
+    if not pairs[0].size:
+        return np.empty(0)
+    # Some looks are cheaper than a sweep that finds a long collision.
+    met = np.array([time for time in near if _overlaps(fixed.core, moving, path, float(time))])
+    return met if met.size else sweep(core, other, path, pairs).hits
+
+
+def _spheres_meet(core: Tree, other: Tree, path: Path, times: Array) -> NDArray[np.bool_]:
+    """Whether (n,) the spheres about two bodies meet at some times (n,)."""
+    rotation, position = path.at(times)
+    away = rotation @ other.centre[1] + position - core.centre[1]
+    meet: NDArray[np.bool_] = np.linalg.norm(away, axis=1) <= core.radius[1] + other.radius[1]
+    return meet
 
 
 def _overlaps(fixed: Surface, moving: Surface, path: Path, time: float) -> bool:

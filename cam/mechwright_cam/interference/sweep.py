@@ -112,9 +112,10 @@ def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] =
     hit = np.zeros(count, dtype=bool)
     found: list[Array] = []
     closest: tuple[float, float | None] = (np.inf, None)
-    every = np.arange(count)
-    one, two = (np.tile(nodes, count) for nodes in start_with)
-    pairs = _Pairs(one, two, np.repeat(every, len(start_with[0])))
+    every = _Pairs(np.ones(count, dtype=np.int64), np.ones(count, dtype=np.int64), np.arange(count))
+    near = _spheres_meet(fixed, moving, _poses(path, every.when.astype(float), 1.0), every)
+    one, two = (np.tile(nodes, int(near.sum())) for nodes in start_with)
+    pairs = _Pairs(one, two, np.repeat(every.when[near], len(start_with[0])))
     for level in range(_LEVELS):
         pairs = pairs.take(~hit[pairs.when >> level])
         if not len(pairs):
@@ -165,12 +166,19 @@ def _halved(parts: list[_Pairs], number: Ints) -> _Pairs:
     return _Pairs(np.tile(one, 2), np.tile(two, 2), np.concatenate((twice, twice + 1)))
 
 
+def _spheres_meet(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> NDArray[np.bool_]:
+    """Whether (n,) the spheres of two nodes come together in their interval."""
+    path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
+    reach = fixed.radius[pairs.one] + moving.radius[pairs.two]
+    meet: NDArray[np.bool_] = _distance(fixed.centre.T[:, pairs.one], path) <= reach + SAG * _second(path)
+    return meet
+
+
 def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pairs, _Pairs, _Pairs]:
     """Drop pairs of spheres that stay apart; give pairs to look at again, pairs of pieces, pairs to halve."""
-    here = fixed.centre.T[:, pairs.one]
     path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
     one, two = fixed.radius[pairs.one], moving.radius[pairs.two]
-    near = _distance(here, path) <= one + two + SAG * _second(path)
+    near = _distance(fixed.centre.T[:, pairs.one], path) <= one + two + SAG * _second(path)
     if fixed.box is not None and moving.box is not None:
         some = np.flatnonzero(near & ((pairs.one < fixed.leaves) | (pairs.two < moving.leaves)))
         near[some[_boxes_part(fixed.box, moving.box, poses, pairs.take(some))]] = False

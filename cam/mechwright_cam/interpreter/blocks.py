@@ -16,10 +16,12 @@ from mechwright_cam.interpreter.dialect import Dialect
 from mechwright_cam.interpreter.groups import G_GROUP, M_GROUP, spell
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
-_WORD = re.compile(rf"([A-Z])({NUMBER})")
+_WORD = re.compile(rf"([A-Z@^])({NUMBER})")
 _LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
 _LENGTHS = frozenset("IJKQRXYZ")
 _PROGRAM = re.compile(r"[O:]\d{1,5}")
+POLAR = frozenset("@^")
+"""LinuxCNC's polar coordinates: distance from X0 Y0, and angle, degrees."""
 _OTHER_AXES = frozenset("ABCUVW")
 
 
@@ -85,7 +87,7 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
         match = _WORD.match(code, position)
         if match is None:
             raise fail(line, _explain(code[position:]))
-        _add(block, match[1], match[2], first=position == 0)
+        _add(block, match[1], match[2], first=position == 0, polar=dialect.variables)
         position = match.end()
     if dialect.point_needed and block.bare & _LENGTHS:
         _check_points(block, dialect)
@@ -149,7 +151,7 @@ def _explain(rest: str) -> str:
     return f"{letter!r} starts no word: {rest[:12]!r}"
 
 
-def _add(block: Block, letter: str, number: str, *, first: bool) -> None:
+def _add(block: Block, letter: str, number: str, *, first: bool, polar: bool) -> None:
     value = float(number)
     if letter == "G":
         _add_code(block, "G", block.g, round(value * 10), value * 10, G_GROUP)
@@ -160,9 +162,11 @@ def _add(block: Block, letter: str, number: str, *, first: bool) -> None:
             raise fail(block.line, "a line number stands at the start of its line")
     elif letter == "O":
         raise fail(block.line, _explain("O"))
+    elif letter in POLAR and not polar:
+        raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in _OTHER_AXES:
         raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")
-    elif letter not in _LETTERS:
+    elif letter not in _LETTERS | POLAR:
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in block.words:
         raise fail(block.line, f"two {letter} words")

@@ -81,6 +81,11 @@ class Compensation(Recorder):
             self.left = self.contour
         self.side = 0
 
+    def look_anew(self) -> None:
+        """A subroutine has ended; between G40 and the move that leaves the contour that is ambiguous."""
+        if self.left is not None:
+            raise ValueError("a subroutine ends between G40 and the next move; move away before it ends")
+
     def compensated(
         self, line: int, kind: Kind, x: float, y: float, z: float, centre: Point | None, ccw: bool
     ) -> None:

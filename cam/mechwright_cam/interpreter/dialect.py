@@ -59,6 +59,8 @@ class Dialect:
         Whether a tool counts as changed at its T word, by hand, because there is no M6.
     length_table
         Whether the control has a table of tool lengths for G43 H.
+    variables
+        Whether parameters, expressions and O-words are worked out.
     forbidden
         Characters that the control obeys out of the stream, wherever they stand.
     """
@@ -88,6 +90,7 @@ class Dialect:
     tool_by_t: bool = False
     length_table: bool = True
     forbidden: str = ""
+    variables: bool = False
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
@@ -97,6 +100,7 @@ _MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
 
 LINUXCNC = Dialect(
     name="LinuxCNC",
+    variables=True,
     g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
     m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
     unsupported=(

@@ -6,13 +6,14 @@ The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's document
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from mechwright_cam.interpreter.arcs import centre_of, sweep_of
-from mechwright_cam.interpreter.blocks import NUMBER, Block, fail, read_block
+from mechwright_cam.interpreter.blocks import NUMBER, POLAR, Block, fail, read_block
 from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
 from mechwright_cam.interpreter.groups import CYCLES, GROUPS, spell
+from mechwright_cam.interpreter.macros import Macros, uses_macros
 from mechwright_cam.interpreter.modes import CENTRES, PLANES, Modal
 from mechwright_cam.interpreter.run import Kind, Remark, Run
 
@@ -20,6 +21,8 @@ MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
 CHORD = 0.0005
 """Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
+HIGHEST_PARAMETER = 5000
+"""Parameters beyond this are probe results, offsets and states of the machine."""
 _AXES = "XYZ"
 # A plain motion line in the order that posts write it. Nearly all lines are such; they skip the general path.
 _PLAIN, _POINTED = (
@@ -82,8 +85,11 @@ def interpret(
         machine.offsets_are_zero = True
     plain = (_POINTED if dialect.point_needed else _PLAIN).fullmatch
     lines = text.replace("\r\n", "\n").split("\n")
+    source: Iterable[tuple[int, str]] = enumerate(lines, start=1)
+    if dialect.variables and uses_macros(text):
+        source = Macros(lines, machine.system_value, machine.look_anew).run()
     percents = 0
-    for number, raw in enumerate(lines, start=1):
+    for number, raw in source:
         match = plain(raw) if len(raw) <= dialect.line_length else None
         if match is not None:
             if not raw or machine.run_plain(number, match.groups()):
@@ -112,6 +118,33 @@ class _Machine(Modal):
         self.motion: int | None = None
         self.sticky: dict[str, float] = {}
         self.initial = math.nan
+
+    def system_value(self, name: float | str) -> float:
+        """A parameter that the machine keeps; numbered ones that nothing has set are 0."""
+        place = {"_x": self.x, "_y": self.y, "_z": self.z, 5420: self.x, 5421: self.y, 5422: self.z}
+        known = {
+            **place,
+            "_feed": self.feed / self.scale,
+            "_rpm": self.state.rpm,
+            "_current_tool": float(self.state.tool),
+            "_selected_tool": float(-1 if self.selected is None else self.selected),
+            "_metric": float(self.scale == 1.0),
+            "_imperial": float(self.scale != 1.0),
+            "_absolute": float(self.absolute),
+            "_incremental": float(not self.absolute),
+        }
+        if name in known:
+            value = known[name]
+            if name in place:
+                if not math.isfinite(value):
+                    raise ValueError(f"#{name} is asked for, and the text does not say where the tool is")
+                value /= self.scale
+            return value
+        if isinstance(name, str):
+            raise ValueError(f"#<{name}> has no value")
+        if name > HIGHEST_PARAMETER:
+            raise ValueError(f"#{name:g} is kept by the machine, and not known here")
+        return 0.0
 
     # -- motion lines -----------------------------------------------------------------------------------
 
@@ -229,6 +262,8 @@ class _Machine(Modal):
         elif self.left is not None:
             here["X"], here["Y"] = self.left
             self.left = None
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, here["X"], here["Y"])
         for axis in _AXES:
             if axis not in words:
                 continue
@@ -241,6 +276,21 @@ class _Machine(Modal):
                 here[axis] += value
         return here["X"], here["Y"], here["Z"]
 
+    def _polar(self, block: Block, words: dict[str, float], x: float, y: float) -> tuple[float, float]:
+        """The place that @ (distance from X0 Y0) and ^ (angle) name; what is not named stays as it is."""
+        if words.keys() & {"X", "Y"}:
+            raise fail(block.line, "polar coordinates beside X or Y")
+        if not math.isfinite(x + y) or (math.hypot(x, y) == 0 and not {"@", "^"} <= words.keys()):
+            raise fail(block.line, "polar coordinates from a place without a direction")
+        radius, angle = math.hypot(x, y), math.atan2(y, x)
+        if "@" in words:
+            named = words.pop("@") * self.scale
+            radius = named if self.absolute else radius + named
+        if "^" in words:
+            turn = math.radians(words.pop("^"))
+            angle = turn if self.absolute else angle + turn
+        return radius * math.cos(angle), radius * math.sin(angle)
+
     def _move(self, block: Block, words: dict[str, float]) -> None:
         named = next((code for code in block.g if code in GROUPS["motion"]), None)
         if named is not None:
@@ -252,7 +302,7 @@ class _Machine(Modal):
                 self.motion = named
             else:
                 self.motion = named
-        axes = words.keys() & set(_AXES)
+        axes = words.keys() & (set(_AXES) | POLAR)
         centre = words.keys() & {"I", "J", "K", "R"} if self.motion in {20, 30} else set()
         if 530 in block.g:
             self._machine_move(block, words)
@@ -367,6 +417,8 @@ class _Machine(Modal):
                 time = bare if bare is not None and letter in block.bare else unit
                 self.sticky[letter] = words.pop(letter) * (time if letter == "P" else self.scale)
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
         x, y = here.get("X", self.x), here.get("Y", self.y)
         for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
             if letter not in self.sticky:

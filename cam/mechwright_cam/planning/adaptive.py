@@ -248,9 +248,7 @@ class _Clearing:
         dense = densified(way, SAMPLE * self.radius)
         return bool(engagements(dense, self.cleared, self.radius).max() <= self.engagement - MARGIN)
 
-    def _ways(
-        self, wider: shapely.Geometry, stock: shapely.Polygon, layer: shapely.Geometry
-    ) -> list[Array]:
+    def _ways(self, wider: shapely.Geometry, stock: shapely.Polygon, layer: shapely.Geometry) -> list[Array]:
         """The centre's ways along the new front of a piece of stock, in cutting direction."""
         radius = self.radius
         # Edges that the window makes lie in what was clear before, so they are no cuts.

@@ -109,7 +109,7 @@ class Finishing:
             else:
                 pen.sink(above)
                 pen.ramp(path, z)
-            pen.follow(path)
+            pen.follow(path, inside=1 if self.settings.climb else -1)
             above = z
 
     def _loop(self, pen: Pen, path: Path, heights: list[float], is_open: bool) -> None:
@@ -123,7 +123,7 @@ class Finishing:
                 pen.sink(z)
             else:
                 pen.ramp(path, z)
-            pen.follow(path)
+            pen.follow(path, inside=1 if self.settings.climb else -1)
 
 
 def _from(ring: Array, at: int) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
+from mechwright.materials import material
 from mechwright.part import Bore
 from mechwright.program import Drill, Move, Rapid
 from mechwright.tolerances import TOLERANCES
@@ -17,7 +18,9 @@ from mechwright_cam.planning.zone import bottom_of, through
 from mechwright_cam.toolpath.path import Path, arc, circle, rounded
 
 DEEP = 3.0
-"""From this depth in diameters a hole is drilled in pecks: the usual limit of a twist drill's chips."""
+"""From this depth in diameters the chip of a drill has to be broken, where the material's does not break."""
+DEEPER = 5.0
+"""From this depth in diameters chips jam, and the drill comes out of the hole after each peck."""
 SPOT = 0.6
 """Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""
 SNUG = 0.9
@@ -96,10 +99,12 @@ def drill_moves(
 ) -> tuple[Move, ...]:
     """Drill holes of full diameter to ``depth`` mm below the stock's top."""
     speed = rates(drill, job.part.material, job.settings.machine)
-    deep = depth > DEEP * drill.diameter
+    ratio = depth / drill.diameter
+    deep = ratio > (DEEP if material(job.part.material).long_chips else DEEPER)
     peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
     bottom = rounded(-depth - point_length(drill))
-    return _holes(places, bottom, speed.feed, clearance, None if peck is None else rounded(peck))
+    peck = None if peck is None else rounded(peck)
+    return _holes(places, bottom, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
 
 
 def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
@@ -114,13 +119,20 @@ def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearanc
 
 
 def _holes(
-    places: list[Point], bottom: float, feed: float, clearance: float, peck: float | None, dwell: float = 0.0
+    places: list[Point],
+    bottom: float,
+    feed: float,
+    clearance: float,
+    peck: float | None,
+    dwell: float = 0.0,
+    *,
+    breaking: bool = False,
 ) -> tuple[Move, ...]:
     moves: list[Move] = []
     for x, y in ((rounded(x), rounded(y)) for x, y in places):
         moves += [
             Rapid(x=x, y=y),
-            Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell),
+            Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking),
             Rapid(z=clearance),
         ]
     return tuple(moves)

@@ -72,23 +72,29 @@ class Pen:
             self.moves.append(Feed(point[0], point[1], None, self.rates.feed if feed is None else feed))
             self.place = point
 
-    def follow(self, path: Path, feed: float | None = None) -> None:
-        """Run along a path at this height."""
+    def follow(self, path: Path, feed: float | None = None, inside: int = 0) -> None:
+        """Run along a path at this height.
+
+        Arcs that turn ``inside`` (+1 to the left, -1 to the right) run inside a wall: the cutter's edge there
+        is faster than its centre and takes more, so the centre is slowed down.
+        """
         feed = self.rates.feed if feed is None else feed
         if path.start != self.place:
             raise AssertionError(f"the path starts at {path.start}, the cutter is at {self.place}")
-        moves = cast("list[Move] | None", path.cache.get(feed))
+        moves = cast("list[Move] | None", path.cache.get((feed, inside)))
         if moves is None:
             moves = []
             here = path.start
             for cut in path.cuts:
-                moves.append(
-                    FeedArc(cut.x, cut.y, None, cut.cx - here[0], cut.cy - here[1], cut.turn > 0, feed)
-                    if cut.turn
-                    else Feed(cut.x, cut.y, None, feed)
-                )
+                if cut.turn:
+                    i, j = cut.cx - here[0], cut.cy - here[1]
+                    slow = cut.turn == inside
+                    pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
+                    moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
+                else:
+                    moves.append(Feed(cut.x, cut.y, None, feed))
                 here = (cut.x, cut.y)
-            path.cache[feed] = moves
+            path.cache[feed, inside] = moves
         self.moves.extend(moves)
         self.place = path.end
 

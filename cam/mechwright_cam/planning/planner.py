@@ -6,6 +6,7 @@ from functools import partial
 
 import shapely
 
+from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore
@@ -14,6 +15,8 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.details import plan_detail
+from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.holes import (
     BorePlan,
@@ -98,8 +101,10 @@ class _Planner:
         self.steps.append(Step(name, tool, spindle, moves, after))
         return frozenset({len(self.steps) - 1})
 
-    def _moves(self, tool: Tool, write: Callable[[Pen], object]) -> tuple[Move, ...]:
-        speed = rates(tool, self.job.part.material, self.job.settings.machine)
+    def _moves(
+        self, tool: Tool, write: Callable[[Pen], object], engagement: float = math.pi / 2
+    ) -> tuple[Move, ...]:
+        speed = rates(tool, self.job.part.material, self.job.settings.machine, engagement)
         pen = Pen(tool, speed, self.clearance, self.slope)
         write(pen)
         return tuple(pen.moves)
@@ -132,13 +137,22 @@ class _Planner:
             for zone in zones:
                 if zone.top != top:
                     continue
+                if is_face(zone):
+                    self._face(zone, after)
+                    continue
                 drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
                 if drill is not None:
                     hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
                     zone.left = shapely.difference(zone.left, hole)
                 self._wall([zone], after, zone.mills)
             after = frozenset(range(len(self.steps)))
-        return after
+        self._details(after, outside=False)
+        return frozenset(range(len(self.steps)))
+
+    def _face(self, zone: Zone, after: frozenset[int]) -> None:
+        mill, stock = zone.mills[0], shapely.box(*self.job.stock)
+        depth = mill.cutting[self.job.part.material].step_down * mill.diameter
+        self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth))
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)
@@ -171,7 +185,13 @@ class _Planner:
         before = len(self.steps)
         if zones:
             self._wall(zones, after, zones[0].mills)
+        self._details(frozenset(range(len(self.steps))), outside=True)
         return frozenset(range(before, len(self.steps)))
+
+    def _details(self, after: frozenset[int], *, outside: bool) -> None:
+        for plan in (plan_detail(self.job, detail) for detail in self.job.details):
+            if plan.outside == outside:
+                self._milled(_named(plan.detail), plan.tool, after, plan.write)
 
     def _wall(self, zones: list[Zone], after: frozenset[int], mills: list[Tool]) -> None:
         """Rough, rough the rest, and finish one wall; ``zones`` are its layers from the top down.
@@ -237,7 +257,9 @@ class _Planner:
             return []
         depth = min(settings.adaptive_depth * mill.diameter, mill.flute_length)
         moves = self._moves(
-            mill, lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom, depth, settings.climb)
+            mill,
+            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom, depth, settings.climb),
+            limit if settings.chip_thinning else math.pi / 2,
         )
         zone.left = shapely.difference(zone.left, reached)
         zone.begun = True
@@ -339,6 +361,11 @@ class _Planner:
             below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
             notes.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")
         return tuple(notes)
+
+
+def _named(detail: Detail) -> str:
+    what = {Chamfer: "chamfer", Thread: "thread", Engraving: "engrave"}[type(detail)]
+    return f"{detail.name}: {what}"
 
 
 def _with_operation(section: ToolSection, operation: Operation) -> ToolSection:

@@ -23,9 +23,10 @@ class Rates:
     fastest: float
     """The machine's limit."""
 
-    def inside(self, path_radius: float, cutter_radius: float) -> float:
+    def inside(self, path_radius: float, cutter_radius: float, feed: float | None = None) -> float:
         """Feed of the centre on a circle inside a wall, so that the cutting edge has the planned feed."""
-        return max(self.plunge, self.feed * path_radius / (path_radius + cutter_radius))
+        wanted = self.feed if feed is None else feed
+        return max(self.plunge, round(wanted * path_radius / (path_radius + cutter_radius)))
 
 
 def cutting_data(tool: Tool, material: str) -> CuttingData:
@@ -40,17 +41,22 @@ def cutting_data(tool: Tool, material: str) -> CuttingData:
         ) from None
 
 
-def rates(tool: Tool, material: str, machine: Machine) -> Rates:
-    """Speeds within the machine's limits: n = 1000 v / (π d), feed = n z f_z (common workshop formulas)."""
+def rates(tool: Tool, material: str, machine: Machine, engagement: float = math.pi / 2) -> Rates:
+    """Speeds within the machine's limits: n = 1000 v / (π d), feed = n z f_z (common workshop formulas).
+
+    With an ``engagement``, rad, below a right angle no chip gets thicker than f_z sin(engagement): the feed
+    is raised so that it is the planned chip load all the same.
+    """
     data = cutting_data(tool, material)
     wanted = 1000 * data.cutting_speed / (math.pi * tool.diameter)
     spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
-    feed = min(spindle * tool.flutes * data.chip_load, machine.max_feed)
-    feed = max(1.0, math.floor(feed))
+    thinning = 1 / math.sin(min(engagement, math.pi / 2))
+    plain = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load, machine.max_feed)))
+    feed = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load * thinning, machine.max_feed)))
     return Rates(
         spindle,
         feed,
-        max(1.0, round(feed * RAMP_SHARE)),
-        max(1.0, round(feed * PLUNGE_SHARE)),
+        max(1.0, round(plain * RAMP_SHARE)),
+        max(1.0, round(plain * PLUNGE_SHARE)),
         machine.max_feed,
     )

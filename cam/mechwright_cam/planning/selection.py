@@ -8,11 +8,14 @@ import shapely
 
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.findings import Finding, Severity
+from mechwright.materials import HSS_SPEED
+from mechwright.materials import material as material_of
 from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
+from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.choice import (
     ROOMY,
     SAME_REACH,
@@ -22,6 +25,7 @@ from mechwright_cam.planning.choice import (
     roomy_mills,
     usable_mills,
 )
+from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.recess import recess
@@ -35,13 +39,17 @@ from mechwright_cam.planning.zone import (
     roughing_mills,
     through,
 )
-from mechwright_cam.reach import closed_area, leaves_at_most, remainder
+from mechwright_cam.reach import closed_area, closing, leaves_at_most, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
+HANDY = 6.0
+"""Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 PAYS = 1.5
 """An intermediate roughing mill is at least this many times as wide as the finishing one."""
+MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
+"""Cutters whose chip load goes with their diameter."""
 HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
@@ -77,7 +85,8 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     mills = _mills(every)
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
-    return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter))
+    details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
+    return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
 
 
 def _stock(part: Part, settings: CamSettings) -> tuple[float, float, float, float]:
@@ -97,7 +106,8 @@ def _mills(every: Job) -> list[Tool]:
     part = every.part
     fit = usable_mills(every, -every.floor)
     x0, y0, x1, y1 = part.outline.bounds if part.outline is not None else (0.0, 0.0, 0.0, 0.0)
-    sensible = [mill for mill in fit if mill.diameter <= ROUGHING_SHARE * min(x1 - x0, y1 - y0)] or fit[-1:]
+    widest = max(HANDY, ROUGHING_SHARE * min(x1 - x0, y1 - y0))
+    sensible = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
     chosen: list[Tool] = []
     openings = []
     for feature in every.features:
@@ -106,7 +116,7 @@ def _mills(every: Job) -> list[Tool]:
         elif isinstance(feature, Profile):
             shape = shapely.Polygon(feature.loop.flatten())
             roughing = _roughing(every, sensible, shape)
-            finest = _finest_needed(roughing, shape)
+            finest = _finest_needed(roughing, shape, every.settings.corner_mill)
             chosen += [roughing[0], *_between(every, roughing, finest, shape), finest]
     for feature in openings:
         chosen += _inside(every, feature)
@@ -124,7 +134,9 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     if shapely.is_empty(shapes.must):
         return []
     able = roomy_mills(able, shapes.must)
-    return [_finest_needed(able, shapes.keep, shapes.must if shapes.open else None)]
+    return [
+        _finest_needed(able, shapes.keep, every.settings.corner_mill, shapes.must if shapes.open else None)
+    ]
 
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
@@ -153,9 +165,12 @@ def _between(every: Job, mills: list[Tool], finest: Tool, part: shapely.Polygon)
 
 
 def _finest_needed(
-    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+    mills: Sequence[Tool], keep: shapely.Geometry, least: float, near: shapely.Geometry | None = None
 ) -> Tool:
-    """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest."""
+    """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest.
+
+    No mill below ``least``, mm, is taken for the sake of sharp corners.
+    """
     low, high = 0, len(mills)
     while low < high:
         middle = (low + high) // 2
@@ -163,7 +178,27 @@ def _finest_needed(
             high = middle
         else:
             low = middle + 1
-    return mills[low] if low < len(mills) else finishing_choice(mills, keep, near)
+    if low < len(mills):
+        return mills[low]
+    return finishing_choice(_worthwhile(mills, keep, least, near), keep, near)
+
+
+FITS = 0.9
+"""A mill is worth choosing where what larger ones leave holds a disc of this share of it."""
+
+
+def _worthwhile(
+    mills: Sequence[Tool], keep: shapely.Geometry, least: float, near: shapely.Geometry | None
+) -> Sequence[Tool]:
+    """The mills down to ``least``, mm, and finer ones only as far as they fit into what is left."""
+    coarse = [mill for mill in mills if mill.diameter >= least] or list(mills[:1])
+    for finer in mills[len(coarse) :]:
+        left = shapely.difference(closing(keep, coarse[-1].radius), keep)
+        if near is not None:
+            left = shapely.intersection(left, near)
+        if not shapely.is_empty(grow(left, -FITS * finer.radius, ROUGH)):
+            coarse.append(finer)
+    return coarse
 
 
 def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
@@ -236,6 +271,8 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     _try(found, lambda: zones.extend(inner_zones(job)))
     _try(found, lambda: zones.extend(outer_zones(job)))
     _try(found, partial(check_clamp, job))
+    for detail in job.details:
+        _try(found, partial(plan_detail, job, detail))
     if not found:
         found += _corners(job, zones)
     return job, found + _travel(job) + _remarks(job)
@@ -287,6 +324,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     for zone in zones:
         if zone.tabs is not None:
             continue
+        found += _partly(job, zone)
         depth = remainder(zone.wall, zone.finisher.radius, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
@@ -347,6 +385,82 @@ def _remarks(job: Job) -> list[Finding]:
                     -job.floor / tool.diameter,
                     SLENDER,
                     "",
+                )
+            )
+            found += _bending(job, tool)
+        found += _figures(tool, material)
+    return found
+
+
+MOSTLY = 0.9
+"""A recess of which the mills reach less than this is hardly what was drawn."""
+
+
+def _partly(job: Job, zone: Zone) -> list[Finding]:
+    """Whether much of a recess is too narrow for all its mills."""
+    if zone.kind == "outside":
+        return []
+    must = zone.clear if zone.must is None else zone.must
+    radius = zone.finisher.radius
+    reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
+    share = float(shapely.intersection(reach, must).area / must.area)
+    if share >= MOSTLY:
+        return []
+    return [
+        Finding(
+            "cam.partly",
+            Severity.WARNING,
+            "cam.tools",
+            f"{zone.finisher.name} reaches {100 * share:.0f} % of {zone.name} of {job.part.name}",
+            100 * share,
+            100 * MOSTLY,
+            "%",
+            "list a smaller end mill",
+        )
+    ]
+
+
+def _bending(job: Job, tool: Tool) -> list[Finding]:
+    """Whether a slender mill bends too much; the deepest cut counts."""
+    bent = deflection(tool, job.part.material, -job.floor)
+    if bent <= MOST:
+        return []
+    return [
+        Finding(
+            "cam.deflection",
+            Severity.WARNING,
+            "cam.tools",
+            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {-job.floor:g} mm deep in {job.part.name}",
+            bent,
+            MOST,
+            "mm",
+            "take less step_down in the tool library, or a thicker cutter",
+        )
+    ]
+
+
+def _figures(tool: Tool, workpiece: str) -> list[Finding]:
+    """Whether an end mill's cutting data are of the usual size: a slip of the decimal point is not."""
+    if tool.kind not in MILLS:
+        return []
+    data, usual = tool.cutting[workpiece], material_of(workpiece)
+    share = HSS_SPEED if tool.substrate == "hss" else 1.0
+    found = []
+    for what, value, (low, high), unit in (
+        ("cutting_speed", data.cutting_speed, (usual.speed[0] * share, usual.speed[1] * share), "m/min"),
+        ("chip_load", data.chip_load, tuple(tool.diameter * s for s in usual.chip_share), "mm"),
+    ):
+        if not low <= value <= high:
+            found.append(
+                Finding(
+                    "cam.cutting-data",
+                    Severity.WARNING,
+                    "cam.tool_library",
+                    f"{what} of {tool.name} in {workpiece}: {value:g} {unit}, usual {low:.3g} to {high:.3g}",
+                    value,
+                    high if value > high else low,
+                    unit,
+                    "look at what the cutter's maker says, and correct the tool library",
                 )
             )
     return found

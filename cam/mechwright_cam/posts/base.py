@@ -352,7 +352,7 @@ class GcodePost(Post):
             self.dwell(out, out.program.machine.spindle_delay)
 
     def cycle(self, out: Writer, hole: Drill, *, every_word: bool = False) -> None:
-        """Drill with G81, G82 (dwell) or G83 (pecks); holes that agree share the cycle.
+        """Drill with G81, G82 (dwell), G83 (pecks) or G73 (broken chips); holes that agree share the cycle.
 
         With ``every_word`` each hole states the whole cycle.
         """
@@ -360,7 +360,8 @@ class GcodePost(Post):
             self.end_drilling(out)  # no cycle does both on all controls
             self.drill_in_moves(out, hole)
             return
-        code = "G83" if hole.peck is not None else "G82" if hole.dwell > 0 else "G81"
+        pecking = "G73" if hole.breaking else "G83"
+        code = pecking if hole.peck is not None else "G82" if hole.dwell > 0 else "G81"
         words = [code, "Z" + out.height(hole.bottom), "R" + out.height(hole.retract, up=True)]
         if hole.peck is not None:
             words.append("Q" + out.length(hole.peck))
@@ -390,7 +391,8 @@ class GcodePost(Post):
         depth = hole.retract
         while depth > hole.bottom:
             if depth < hole.retract:
-                self._rapid(out, Rapid(z=hole.retract))
+                if not hole.breaking:
+                    self._rapid(out, Rapid(z=hole.retract))
                 self._rapid(out, Rapid(z=depth + PECK_GAP))
             depth = max(hole.bottom, depth - (hole.peck or math.inf))
             out.line(out.motion_word("G1"), *out.axis_words(None, None, depth), out.feed_word(hole.feed))

@@ -164,7 +164,9 @@ def entries(scene: Scene) -> Check:
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
     # A ramp may end lower than its angle allows by the last decimal: both its ends are rounded in the text.
     steep = drop > flat * np.tan(np.radians(limit)) + 10.0**-scene.dialect.decimals
-    suspect = steep & (paths.end[steps, 2] < -NEAR) & ~allowed
+    threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
+    # A thread mill goes down a finished hole, as steeply as its pitch asks.
+    suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
         if not scene.stock.meets(step):

@@ -8,6 +8,7 @@ chain
     Pieces that follow on each other with the same tool.
 """
 
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -27,6 +28,9 @@ FAR_ABOVE = 1000.0
 """Stands for the machine's upper end, mm: above any clamp or clearance."""
 NEAR = 1e-6
 """Coordinates closer than this are the same, mm: far below the last decimal of any program."""
+
+POINTED = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER})
+"""Tools that are thinner at the tip than above."""
 
 Geometries = NDArray[Any]
 
@@ -80,14 +84,24 @@ class Paths:
 
     @cached_property
     def cone(self) -> Array:
-        """(n,) growth of the radius with height above the tip; inf for a flat end mill."""
+        """(n,) growth of the radius with height above the tip; inf for a mill: round ones count as flat."""
         return self._of_tool(
             lambda tool: (
-                np.inf
-                if tool.kind is ToolKind.END_MILL
-                else np.tan(np.radians(min(tool.point_angle, 179.9) / 2))
+                np.tan(np.radians(min(tool.point_angle, 179.9) / 2)) if tool.kind in POINTED else np.inf
             )
         )
+
+    def of_kinds(self, kinds: set[ToolKind]) -> "Paths":
+        """The same, with the steps of some kinds of tool only."""
+        numbers = [number for number, tool in self.tools.items() if tool.kind in kinds]
+        some = copy(self)
+        some.steps = self.steps[np.isin(self.run.tool[self.steps], numbers)]
+        return some
+
+    @cached_property
+    def tip(self) -> Array:
+        """(n,) radius of the flat at the tip of a pointed tool, mm."""
+        return self._of_tool(lambda tool: tool.tip_diameter / 2)
 
     def _of_tool(self, value: Any) -> Array:
         numbers = self.run.tool
@@ -101,7 +115,7 @@ class Paths:
         above = np.maximum(height - pieces.low, 0.0)
         cone = self.cone[pieces.step]
         grown = np.where(np.isinf(cone), np.inf, np.where(np.isinf(cone), 0.0, cone) * above)
-        return np.minimum(self.radius[pieces.step], grown)
+        return np.minimum(self.radius[pieces.step], self.tip[pieces.step] + grown)
 
     def below(self, height: float, *, steps: Ints | None = None) -> Pieces:
         """The pieces that run at or below ``height``."""

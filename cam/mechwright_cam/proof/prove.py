@@ -13,6 +13,7 @@ from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
+from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
@@ -67,6 +68,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
         _depth_check(scene),
         _leftover_check(left),
         held,
+        details.cut(scene.paths, job),
     ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
@@ -89,7 +91,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
 def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     """The deepest cut into the part, and into a tab."""
     paths, job = scene.paths, scene.job
-    gouge = _deepest(deepest_cut(paths, band.keep, band.top) for band in bands(job))
+    gouge = _deepest(details.deepest(paths, job, bands(job, details.heights(job))))
     in_tab = _deepest(
         deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
         for top in sorted({tab.top for tab in job.tabs})

@@ -16,8 +16,6 @@ from mechwright_cam.trace import Stroke, Traced
 HOLDER_GAP = 3.0
 """Air between the holder and the highest thing below it, mm: chips pack in less."""
 
-_KINDS = {ToolKind.END_MILL: "end mill", ToolKind.DRILL: "drill", ToolKind.SPOT_DRILL: "spot drill"}
-
 
 @dataclass(frozen=True)
 class ToolRow:
@@ -116,8 +114,9 @@ def describe(tool: Tool) -> str:
     >>> describe(Tool(name="em6", number=3, kind="end-mill", diameter=6, flutes=3, flute_length=13))
     'end mill ⌀6, 3 flutes'
     """
-    words = f"{_KINDS[tool.kind]} ⌀{tool.diameter:g}"
-    if tool.kind is ToolKind.END_MILL:
+    words = f"{str(tool.kind).replace('-', ' ')} ⌀{tool.diameter:g}"
+    words += f", {tool.coating}" if tool.coating else ""
+    if tool.kind not in (ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER):
         plunge = "" if tool.centre_cutting else ", not centre cutting"
         return f"{words}, {tool.flutes} flute{'s' if tool.flutes != 1 else ''}{plunge}"
     return f"{words}, {tool.point_angle:g}° point"

@@ -1,0 +1,143 @@
+"""Chamfers, threads and engravings: what their tools may cut of the part, and whether they did.
+
+A cone that runs along a chamfer touches it all over, so two heights decide: at the top face the cone may
+reach the edge less the chamfer, and at the chamfer's foot the edge itself. In between both are straight.
+"""
+
+import numpy as np
+import shapely
+
+from mechwright.details import Chamfer, Detail, Engraving, Thread
+from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import ToolKind
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.job import Job
+from mechwright_cam.proof.bands import Band
+from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.leftover import sweeps
+from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.plane import Shape, closing, grow
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.wall import Wall
+
+OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
+"""Which kind of tool may cut which detail."""
+SPACING = 0.2
+"""Distance of the places along an edge or a stroke at which its cut is measured, mm."""
+FITS = 0.02
+"""A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
+BESIDE = 0.003
+"""A place of a chamfer this near to what its cutter cannot reach is not asked for, mm."""
+
+
+def heights(job: Job) -> tuple[float, ...]:
+    """Heights z at which the details end, mm."""
+    found = []
+    for detail in job.details:
+        found.append(-detail.width if isinstance(detail, Chamfer) else -detail.depth)
+    return tuple(max(z, -job.thickness) for z in found)
+
+
+def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
+    """The deepest cut into each band: the tools of details may cut those, all others nothing."""
+    if not job.details:
+        return [deepest_cut(paths, band.keep, band.top) for band in bands]
+    special = {OWN[type(detail)] for detail in job.details}
+    found = []
+    for band in bands:
+        found.append(deepest_cut(paths.of_kinds(set(ToolKind) - special), band.keep, band.top))
+        for kind in sorted(special):
+            given = [_given(d) for d in job.details if OWN[type(d)] is kind and _reaches(d, band)]
+            keep = shapely.difference(band.keep, shapely.union_all(given)) if given else band.keep
+            found.append(deepest_cut(paths.of_kinds({kind}), keep, band.top))
+    return found
+
+
+def _reaches(detail: Detail, band: Band) -> bool:
+    depth = detail.width if isinstance(detail, Chamfer) else detail.depth
+    return band.top > -depth + NEAR
+
+
+def _given(detail: Detail) -> Shape:
+    """What of the plate a detail takes at the top face."""
+    match detail:
+        case Chamfer():
+            return grow(shapely.LinearRing(detail.loop.flatten()), detail.width)
+        case Thread():
+            return grow(shapely.Point(detail.centre), detail.diameter / 2)
+        case Engraving():
+            return grow(shapely.MultiLineString(list(detail.strokes)), detail.width / 2)
+
+
+def cut(paths: Paths, job: Job) -> Check:
+    """Whether every detail is there: along its whole edge, on all strokes, to the last turn."""
+    for detail in job.details:
+        match detail:
+            case Chamfer():
+                missing = _chamfer(paths, job, detail)
+            case Engraving():
+                missing = _engraving(paths, detail)
+            case Thread():
+                missing = _thread(paths, detail)
+        if missing:
+            return Check("details", False, f"{detail.name}: {missing}")
+    return Check("details", True, "chamfers, threads and engravings are cut")
+
+
+def _off(paths: Paths, points: Array, height: float, level: float) -> Array:
+    """Distance (n,) of points from the nearest cut of a pointed tool that goes down to ``height``, mm."""
+    found = np.full(len(points), np.inf)
+    for group in sweeps(paths.of_kinds({ToolKind.CHAMFER}), height, level):
+        _, distance = group.tree.query_nearest(
+            shapely.points(points), return_distance=True, all_matches=False
+        )
+        found = np.minimum(found, distance - group.radius)
+    return found
+
+
+def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
+    region = shapely.Polygon(detail.loop.flatten())
+    width = detail.width
+    if detail.side == "outside":
+        keep = grow(region, -width)
+    else:
+        frame = shapely.box(*region.bounds).buffer(4 * width + 4)
+        keep = shapely.difference(frame, grow(region, width))
+    tools = [t.diameter / 2 for t in job.tools if t.kind is ToolKind.CHAMFER]
+    wall = Wall(closing(keep, min(tools, default=0.0)))
+    points, _ = wall.at(wall.stations(SPACING))
+    near = shapely.dwithin(shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE)
+    off = _off(paths, points[near], -width + TOLERANCES.arc_fit, 0.0)
+    if not off.size or off.max() > TOLERANCES.leftover:
+        x, y = points[near][int(np.argmax(off))] if off.size else (0.0, 0.0)
+        return f"the edge is not broken to {width:g} mm at X{x:.3f} Y{y:.3f}"
+    return ""
+
+
+def _engraving(paths: Paths, detail: Engraving) -> str:
+    lines = shapely.segmentize([shapely.LineString(stroke) for stroke in detail.strokes], SPACING)
+    points = shapely.get_coordinates(lines)
+    off = _off(paths, points, -detail.depth + TOLERANCES.arc_fit, -detail.depth + TOLERANCES.leftover)
+    if off.max() > TOLERANCES.leftover:
+        x, y = points[int(np.argmax(off))]
+        return f"the stroke is not cut {detail.depth:g} mm deep at X{x:.3f} Y{y:.3f}"
+    return ""
+
+
+def _thread(paths: Paths, detail: Thread) -> str:
+    run, steps = paths.run, paths.of_kinds({ToolKind.THREAD_MILL}).steps
+    arcs = steps[run.kind[steps] == Kind.ARC]
+    centred = np.hypot(*(run.centre[arcs] - detail.centre).T) < FITS
+    wide = np.abs(run.radius[arcs] + paths.radius[arcs] - detail.diameter / 2) < FITS
+    arcs = arcs[centred & wide]
+    rise = (paths.end[arcs, 2] - paths.start[arcs, 2]) / np.where(run.sweep[arcs] == 0, 1, run.sweep[arcs])
+    arcs = arcs[np.abs(rise * 2 * np.pi - detail.pitch) < FITS]
+    if arcs.size == 0:
+        return f"no helix of {detail.diameter:g} mm with a pitch of {detail.pitch:g} mm around its axis"
+    low = float(np.minimum(paths.start[arcs, 2], paths.end[arcs, 2]).min())
+    high = float(np.maximum(paths.start[arcs, 2], paths.end[arcs, 2]).max())
+    turns = float(np.abs(run.sweep[arcs]).sum()) / (2 * np.pi)
+    if low > -detail.depth + FITS or high < 0 or turns < detail.depth / detail.pitch:
+        return f"the thread runs from Z{low:.3f} to Z{high:.3f}, not from Z{-detail.depth:g} to the top"
+    return ""

@@ -1,0 +1,176 @@
+"""Chamfers, threads and engravings: planned, posted, proven, and missed when they are not there."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import shapely
+from planning_parts import LIBRARY, job, plate, rounded_box
+
+from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.errors import DesignError, GeometryError, ToolError
+from mechwright.geometry import Loop, circle
+from mechwright.lettering import _LETTERS, lettering
+from mechwright.part import Bore, Profile
+from mechwright.program import FeedArc
+from mechwright.tooling import CamSettings, ToolKind
+from mechwright_cam.job import make_job
+from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+TOOLS = ("mill-6", "mill-4", "chamfer-6", "engrave-3", "thread-m6", "spot-6", "drill-4")
+RIM = rounded_box(60, 40, 6)
+HOLE = Loop((circle((-15, 0), 6.0),))
+CORE = Thread("m6", (12.0, 5.0), 6.0, 1.0, 5.0).core
+SHAPE = (
+    Bore("hole", (-15.0, 0.0), 12.0, 0, 6),
+    Bore("core", (12.0, 5.0), CORE, 0, 6),
+    Profile("outside", RIM, "outside", 0, 6),
+)
+DETAILS = {
+    "rim": Chamfer("rim", RIM, "outside", 0.5),
+    "hole": Chamfer("hole-edge", HOLE, "inside", 0.4),
+    "thread": Thread("m6", (12.0, 5.0), 6.0, 1.0, 5.0),
+    "text": Engraving("number", lettering("MW-25/3", 4.0, (4.0, -12.0)), 0.2),
+}
+
+
+def detailed(*details):
+    core = Loop((circle((12, 5), CORE / 2, clockwise=True),))
+    return dataclasses.replace(plate(HOLE.reversed(), core, machined=SHAPE), details=details)
+
+
+def made(*details, **settings):
+    of = job(detailed(*details), *TOOLS, **settings)
+    program = plan(of)
+    return of, program, prove(LinuxCncPost().write(program), of)
+
+
+@pytest.mark.parametrize("name", DETAILS)
+@pytest.mark.parametrize("climb", [True, False])
+def test_each_detail_is_cut_and_proven(name, climb):
+    _, program, proof = made(DETAILS[name], climb=climb)
+    assert proof.ok, [check.message for check in proof.failures]
+    names = [o.name for s in program.sections for o in s.operations]
+    assert (
+        names.count(
+            f"{DETAILS[name].name}: "
+            + {"rim": "chamfer", "hole": "chamfer", "thread": "thread", "text": "engrave"}[name]
+        )
+        == 1
+    )
+
+
+def test_all_details_together_and_the_rim_comes_last():
+    _, program, proof = made(*DETAILS.values())
+    assert proof.ok, [check.message for check in proof.failures]
+    names = [o.name for s in program.sections for o in s.operations]
+    assert names.index("rim: chamfer") > max(i for i, n in enumerate(names) if n.startswith("outside"))
+    assert names.index("m6: thread") > max(i for i, n in enumerate(names) if n.startswith("core"))
+
+
+@pytest.mark.parametrize("name", DETAILS)
+def test_a_program_without_the_detail_fails(name):
+    plain = job(detailed(), *TOOLS)
+    proof = prove(LinuxCncPost().write(plan(plain)), job(detailed(DETAILS[name]), *TOOLS))
+    assert [check.name for check in proof.failures] == ["details"]
+    assert DETAILS[name].name in proof.failures[0].message
+
+
+@pytest.mark.parametrize("name", DETAILS)
+def test_the_detail_gouges_a_part_without_it(name):
+    _, program, _ = made(DETAILS[name])
+    proof = prove(LinuxCncPost().write(program), job(detailed(), *TOOLS))
+    assert "gouge" in {check.name for check in proof.failures}
+
+
+@pytest.mark.parametrize(
+    ("planned", "asked"),
+    [
+        (Chamfer("rim", RIM, "outside", 0.5), Chamfer("rim", RIM, "outside", 0.4)),
+        (Thread("m6", (12.0, 5.0), 6.0, 1.0, 5.0), Thread("m6", (12.0, 5.0), 6.0, 0.75, 5.0)),
+        (Thread("m6", (12.0, 5.0), 6.0, 1.0, 3.0), Thread("m6", (12.0, 5.0), 6.0, 1.0, 5.0)),
+        (DETAILS["text"], Engraving("number", lettering("MW-25/4", 4.0, (4.0, -12.0)), 0.2)),
+        (DETAILS["text"], Engraving("number", lettering("MW-25/3", 4.0, (4.0, -12.0)), 0.3)),
+    ],
+)
+def test_a_detail_that_differs_fails(planned, asked):
+    _, program, proof = made(planned)
+    assert proof.ok
+    assert not prove(LinuxCncPost().write(program), job(detailed(asked), *TOOLS)).ok
+
+
+def test_the_chamfer_is_as_wide_as_drawn():
+    _, program, _ = made(DETAILS["rim"])
+    (moves,) = [o.moves for s in program.sections for o in s.operations if o.name == "rim: chamfer"]
+    z = min(m.z for m in moves if getattr(m, "z", None) is not None)
+    ys = [m.y for m in moves if getattr(m, "y", None) is not None]
+    # A cone of 45 degrees: its radius at the top face is its height above the tip.
+    assert 20 - (max(ys) - (-z)) == pytest.approx(0.5, abs=0.005)
+
+
+def test_the_thread_is_a_helix_of_one_pitch_per_turn():
+    _, program, _ = made(DETAILS["thread"])
+    (moves,) = [o.moves for s in program.sections for o in s.operations if o.name == "m6: thread"]
+    arcs = [m for m in moves if isinstance(m, FeedArc) and m.z is not None]
+    assert all(m.ccw for m in arcs)
+    z = np.array([m.z for m in arcs])
+    assert np.diff(z) == pytest.approx(0.5)
+    assert len(arcs) == 12
+
+
+def test_tools_for_details_are_chosen():
+    of = detailed(*DETAILS.values())
+    kinds = [tool.kind for tool in choose_tools(of, CamSettings(), LIBRARY)]
+    assert kinds.count(ToolKind.CHAMFER) == 2
+    assert kinds.count(ToolKind.THREAD_MILL) == 1
+    laid = make_job(of, CamSettings(), choose_tools(of, CamSettings(), LIBRARY))
+    assert prove(LinuxCncPost().write(plan(laid)), laid).ok
+
+
+@pytest.mark.parametrize(
+    ("detail", "tools", "message"),
+    [
+        (DETAILS["rim"], ("mill-6", "mill-4"), "no chamfer mill"),
+        (Engraving("fine", (((0, 0), (5, 0)),), 0.2, 0.3), TOOLS, "no pointed cutter"),
+        (DETAILS["thread"], ("mill-6", "mill-4"), "no thread mill"),
+        (Thread("m8", (12.0, 5.0), 8.0, 1.25, 5.0), TOOLS, "has no bore of 6.65 mm"),
+        (Thread("m6", (0.0, 5.0), 6.0, 1.0, 5.0), TOOLS, "has no bore of 4.92 mm"),
+        (Chamfer("hole-edge", Loop((circle((-15, 0), 0.08),)), "inside", 0.2), TOOLS, "no chamfer mill"),
+    ],
+)
+def test_what_no_tool_makes_is_refused(detail, tools, message):
+    with pytest.raises(ToolError, match=message):
+        plan(job(detailed(detail), *tools))
+    found = check_tools(detailed(detail), CamSettings(tools=tools), LIBRARY)
+    assert any(message in finding.message for finding in found)
+
+
+def test_every_letter_stands_on_its_grid():
+    for letter in _LETTERS:
+        for stroke in lettering(letter, 6.0):
+            assert len(stroke) >= 2
+            assert np.abs(np.array(stroke)).max() <= 3.0
+    turned = lettering("AB", 5.0, (10.0, 20.0), math.pi / 2)
+    line = shapely.MultiLineString(list(turned))
+    assert line.centroid.distance(shapely.Point(10, 20)) < 1.5
+    assert line.bounds[3] - line.bounds[1] > line.bounds[2] - line.bounds[0]
+    with pytest.raises(DesignError, match="no letter 'Ä'"):
+        lettering("Ä", 5.0)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Chamfer("a", RIM, "outside", 0.0),
+        lambda: Thread("a", (0, 0), 6.0, 0.0, 5.0),
+        lambda: Thread("a", (0, 0), 6.0, 4.0, 5.0),
+        lambda: Engraving("a", (), 0.2),
+        lambda: Engraving("a", (((0, 0), (1, 1)),), 0.0),
+    ],
+)
+def test_details_that_cannot_be(make):
+    with pytest.raises(GeometryError):
+        make()

@@ -1,0 +1,271 @@
+"""Bodies, solids and flat strips: closed forms, and geometry computed another way."""
+
+import math
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright.findings import Severity
+from mechwright_spherical import links, solids
+from mechwright_spherical.bodies import pins_of_phase
+from mechwright_spherical.drive import external, internal, train_of
+from mechwright_spherical.family import Spherical
+from mechwright_spherical.flat import strip, strip_outline
+from mechwright_spherical.linkage import linkage_of
+from mechwright_spherical.params import FlatTable, SphericalParams
+from mechwright_spherical.parts import gear_cones, gear_span, link_arcs, pin_places
+from mechwright_spherical.shells import shells_of
+from mechwright_spherical.vectors import arc, dot, rotate, vector
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = ("spherical-five-bar-projected", "spherical-five-bar-refined", "spherical-crank-rocker")
+FAMILY = Spherical()
+
+
+def example(name):
+    table = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+    return SphericalParams.model_validate(table["parameters"])
+
+
+def in_phase(params, phase):
+    if params.kind == "four-bar":
+        return params
+    return params.model_copy(update={"five_bar": params.five_bar.model_copy(update={"phase": phase})})
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_examples_build_without_a_warning(name):
+    params = example(name)
+    assert {found.severity for found in FAMILY.check(params)} == {Severity.NOTE}
+    for part in FAMILY.parts(params):
+        if part.build is not None:
+            solid = part.build()
+            assert solid.isValid(), part.name
+            assert len(solid.Solids()) == 1, part.name
+            assert solid.Volume() > 0, part.name
+
+
+def test_the_examples_are_what_they_say():
+    projected, refined, rocker = (linkage_of(example(name)) for name in NAMES)
+    worst = [max(float(phase.path_errors.max()) for phase in one.phases) for one in (projected, refined)]
+    assert worst[0] / worst[1] == pytest.approx(74.57, abs=0.1)
+    assert np.degrees(rocker.four_bar.arcs) == pytest.approx((80, 30, 70, 60))
+
+
+# Bodies
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("phase", [1, 2])
+def test_links_meet_in_their_pins(name, phase):
+    """Every pin, seen from both bodies that it joins, is in the same place: all through, in both phases."""
+    params = in_phase(example(name), phase)
+    linkage = linkage_of(params)
+    motion = FAMILY.solve(params, 7)
+    now = linkage.phases[phase - 1] if linkage.five_bar else linkage.shown
+    state = now.state(7)
+    arcs = link_arcs(linkage)
+    if phase == 2 and linkage.five_bar:
+        arcs |= {
+            "crank": float(linkage.five_bar.crank_arcs[1]),
+            "rocker": float(linkage.five_bar.rocker_arcs[1]),
+        }
+    frame = pins_of_phase(linkage, 1)
+    seats = links.coupler_slots(linkage, frame)
+    ends = [(seat.start if phase == 1 else seat.end) for seat in seats]
+    where = {
+        "a": [("crank", links.direction(arcs["crank"])), ("coupler", ends[0])],
+        "c": [("rocker", links.direction(arcs["rocker"])), ("coupler", ends[1])],
+        "b": [("rocker", links.X)],
+        "p": [("coupler", links.path_point(linkage, frame))],
+        "a0": [("crank", links.X), ("ground", links.X)],
+        "b0": [("ground", links.direction(arcs["ground"]))],
+    }
+    if linkage.five_bar:
+        where["b"].append(("arm", links.direction(arcs["arm"])))
+        where["b0"].append(("arm", links.X))
+    for pin, holders in where.items():
+        wanted = getattr(state, pin)[0].T if pin in "abcp" else np.tile(getattr(now.loop, pin), (7, 1))
+        for body, own in holders:
+            seen = motion.poses[body].transform(own[None])[:, 0]
+            np.testing.assert_allclose(seen, wanted, atol=1e-12, err_msg=f"pin {pin} on {body}")
+
+
+@pytest.mark.parametrize("name", NAMES[:2])
+def test_the_coupler_stands_still_while_the_machine_is_adjusted(name):
+    params = example(name)
+    poses = [FAMILY.solve(in_phase(params, phase), 2).poses for phase in (1, 2)]
+    for body in ("coupler", "arm", "ground", "pinion", "idler", "base"):
+        np.testing.assert_allclose(
+            poses[0][body].rotation[0], poses[1][body].rotation[0], atol=1e-12, err_msg=body
+        )
+    turned = poses[0]["crank"].rotation[0].T @ poses[1]["crank"].rotation[0]
+    setting = float(linkage_of(params).five_bar.crank_setting)
+    assert math.acos((np.trace(turned) - 1) / 2) == pytest.approx(setting, abs=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [0.5, -0.5, 0.8])
+def test_gears_roll_without_slip(ratio):
+    """On the line where two pitch cones touch, both surfaces move alike."""
+    params = SphericalParams.model_validate(
+        {"radius": 160, "five_bar": {"ratio": ratio, "travel": -20, "travel_n": -20}}
+    )
+    linkage, motion = linkage_of(params), FAMILY.solve(params, 3)
+    train = train_of(linkage, params.drive)
+    axes = {"pinion": linkage.five_bar.a0, "wheel": linkage.five_bar.b0, "idler": train.idler_axis}
+    cones = gear_cones(train)
+
+    def speed(name):
+        body = cones[name][0]
+        turn = motion.poses[body].rotation[1] @ motion.poses[body].rotation[0].T
+        axial = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+        return math.asin(max(-1.0, min(1.0, float(dot(axial, axes[name])))))
+
+    pairs = [("pinion", "wheel")] if train.idler_axis is None else [("pinion", "idler"), ("idler", "wheel")]
+    for one, two in pairs:
+        angles = cones[one][1], cones[two][1]
+        assert float(arc(axes[one], axes[two])) == pytest.approx(sum(angles), abs=1e-12)
+        slip = speed(one) * math.sin(angles[0]) + speed(two) * math.sin(angles[1])
+        assert abs(slip) < 1e-12
+    assert speed("wheel") / speed("pinion") == pytest.approx(ratio, abs=1e-9)
+
+
+@given(st.floats(0.05, 1.5), st.floats(0.05, 0.95))
+def test_pitch_cones_touch_and_have_the_ratio(shafts, ratio):
+    one, two = external(shafts, ratio)
+    assert math.sin(one) == pytest.approx(ratio * math.sin(two), rel=1e-12)
+    assert one + two == pytest.approx(shafts)
+    one, two = internal(shafts, ratio)
+    assert math.sin(one) == pytest.approx(ratio * math.sin(two), rel=1e-9)
+    assert two - one == pytest.approx(shafts)
+
+
+# Solids
+
+RADIUS = st.floats(20, 200)
+ANGLE = st.floats(0.1, 2.9)
+
+
+@settings(max_examples=12)
+@given(RADIUS, st.floats(1, 15), st.floats(1, 15), ANGLE)
+def test_volumes_of_arcs_are_their_closed_forms(inner, thickness, width, angle):
+    u, v = np.array([0.6, 0.0, 0.8]), rotate(vector([0.8, 0.5, -0.6]), 0.0, np.array([0.0, 1.0, 0.0]))
+    v = rotate(vector(np.cross(u, v)), angle, u)
+    outer = inner + thickness
+    body = solids.arc_body(u, v, (inner, outer), width)
+    assert body.isValid()
+    assert body.Volume() == pytest.approx(width * (outer**2 - inner**2) / 2 * angle, rel=1e-6)
+    shell = solids.shell_strip(u, v, (inner, outer), width)
+    sine = width / (inner + outer)
+    assert shell.Volume() == pytest.approx(2 * sine * (outer**3 - inner**3) / 3 * angle, rel=1e-6)
+    middle = rotate(vector(np.cross(u, v)), angle / 2, u) * (inner + outer) / 2
+    for made in (body, shell):
+        assert made.isInside(tuple(middle.tolist())), "the arc goes the other way round"
+
+
+def test_arcs_of_a_design_have_their_closed_forms():
+    """Links less their bosses, for all links of the examples."""
+    for name in NAMES:
+        params = example(name)
+        shells, linkage = shells_of(params), linkage_of(params)
+        for link, angle in link_arcs(linkage).items():
+            low, high = shells.arc(link)
+            made = solids.arc_body(links.X, links.direction(angle), (low, high), params.hardware.link_width)
+            assert made.Volume() == pytest.approx(
+                params.hardware.link_width * (high**2 - low**2) / 2 * angle, rel=1e-6
+            )
+
+
+@pytest.mark.parametrize("name", NAMES[:2])
+def test_slots_let_their_pins_through(name):
+    """Pins in between the two seats do not touch the coupler; pins beside the slot do."""
+    params = example(name)
+    linkage = linkage_of(params)
+    coupler = links.solid(params, "coupler")
+    span = shells_of(params).links["coupler"]
+    for seat in links.coupler_slots(linkage, pins_of_phase(linkage, 1)):
+        for share in (0.0, 0.3, 0.5, 0.8, 1.0):
+            at = rotate(seat.axis, share * seat.sweep, seat.start)
+            if name == NAMES[1]:
+                pin = solids.cylinder(at, span, params.hardware.pin_diameter)
+                assert pin.intersect(coupler).Volume() < 1e-6
+            thick = solids.cylinder(at, span, params.hardware.pin_diameter + 2)
+            assert thick.intersect(coupler).Volume() > 1
+
+
+def test_pins_fit_their_bores_and_nothing_else_is_there():
+    params = example(NAMES[2])
+    shells = shells_of(params)
+    for part, (span, body, angle) in pin_places(params).items():
+        pin = links.solid(params, part)
+        low, high = shells.pins[span]
+        assert pin.Volume() == pytest.approx(
+            math.pi / 4 * params.hardware.pin_diameter**2 * (high - low), rel=1e-9
+        )
+        if body in ("crank", "rocker"):
+            link = links.solid(params, body)
+            assert pin.intersect(link).Volume() < 1e-6
+            fat = solids.cylinder(
+                links.direction(angle), shells.links[body], params.hardware.boss_diameter - 0.1
+            )
+            assert fat.intersect(link).Volume() > 100
+
+
+def test_the_shell_section_changes_the_links():
+    one, two = (SphericalParams.model_validate({"hardware": {"section": s}}) for s in ("rectangle", "shell"))
+    volumes = [links.solid(params, "arm").Volume() for params in (one, two)]
+    assert volumes[0] != pytest.approx(volumes[1], abs=1e-3)
+    assert volumes[0] == pytest.approx(volumes[1], rel=5e-3)
+
+
+def test_gears_end_on_their_cones():
+    params = example(NAMES[1])
+    train = train_of(linkage_of(params), params.drive)
+    low, high = gear_span(params, shells_of(params), train)
+    for name, (_, angle) in gear_cones(train).items():
+        box = links.solid(params, name).BoundingBox()
+        assert box.xmax == pytest.approx(high * math.cos(angle), abs=1e-6)
+        assert box.xmin == pytest.approx(low * math.cos(angle), abs=1e-6)
+        assert box.ymax == pytest.approx(high * math.sin(angle) - links.PITCH_PLAY, abs=1e-6)
+
+
+# Flat strips
+
+
+@given(ANGLE, st.floats(30, 200), st.floats(0.5, 6), st.floats(0.5, 8), st.floats(0.2, 0.5))
+def test_a_bent_strip_has_its_bores_on_the_joints(angle, radius, thickness, bend, neutral):
+    """Walk along the neutral fibre: straight, bend, straight; the bores' axes then meet in the centre."""
+    flat = FlatTable(thickness=thickness, bend_radius=bend, neutral=neutral)
+    found = strip(angle, radius, flat)
+    fibre = bend + neutral * thickness
+    # Start on the first joint, on the neutral fibre of its facet; the centre lies radius below the inner face.
+    height = radius + neutral * thickness
+    at, heading, walked = complex(0.0, height), 1.0 + 0j, 0.0
+    for middle in found.middles:
+        straight = middle - fibre * found.angle / 2 - walked
+        assert straight > -1e-9
+        at += straight * heading
+        centre = at - 1j * heading * fibre
+        at = centre + (at - centre) * np.exp(-1j * found.angle)
+        heading *= np.exp(-1j * found.angle)
+        walked = middle + fibre * found.angle / 2
+    at += (found.length - walked) * heading
+    wanted = height * np.exp(1j * (math.pi / 2 - angle))
+    assert abs(at - wanted) < 1e-9 * radius
+    assert abs(heading - np.exp(-1j * angle)) < 1e-9
+    assert found.angle <= math.radians(60) + 1e-12
+
+
+def test_a_strip_is_drawn_with_its_bores_and_a_pair_of_notches_for_each_bend():
+    found = strip(math.radians(100), 80.0, FlatTable())
+    outline = strip_outline(found, 12.0, 6.05)
+    assert found.bends == 2
+    assert sum(segment.tag == "bend" for segment in outline.outer.segments) == 4
+    assert len(outline.inner) == 2
+    area = 12 * found.length + math.pi * 36 - 2 * math.pi * 6.05**2 / 4 - 4 * math.pi * 1.5**2 / 2
+    assert outline.area == pytest.approx(area, abs=1e-6)
+    outline.polygon()
