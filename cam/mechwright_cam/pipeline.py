@@ -63,11 +63,12 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         One for each part, and one more where the underside is milled as well; fewer if a finding is an
         error.
     """
+    _check_part_names(design, parts)
     library = _library(design)
     findings: list[Finding] = []
     jobs: list[Job] = []
     for part in parts:
-        laid, found = lay_out_setups(part, design.cam, library)
+        laid, found = lay_out_setups(part, design.cam_of(part.name), library)
         found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
@@ -80,14 +81,27 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
 
 
 def _library(design: Design) -> Library:
-    """The cutters at hand; a name in ``cam.tools`` that is none of them is a mistake in the file."""
+    """The cutters at hand; a name in ``tools`` that is none of them is a mistake in the file."""
     library = load_library(design.tool_library)
-    for name in design.cam.tools:
-        try:
-            library.get(name)
-        except ToolError as error:
-            raise ToolError(f"{design.path}: cam.tools: {error}") from error
+    tables = {"cam": design.cam, **{f"cam.part.{name}": cam for name, cam in design.part_cam.items()}}
+    for where, cam in tables.items():
+        for name in cam.tools:
+            try:
+                library.get(name)
+            except ToolError as error:
+                raise ToolError(f"{design.path}: {where}.tools: {error}") from error
     return library
+
+
+def _check_part_names(design: Design, parts: Sequence[Part]) -> None:
+    """Refuse a table ``[cam.part.NAME]`` of no plate part."""
+    known = sorted(part.name for part in parts)
+    for name in design.part_cam:
+        if name not in known:
+            raise DesignError(
+                f"{design.path}: cam.part.{name}: no plate part has this name; "
+                f"there is: {', '.join(known) or 'none'}"
+            )
 
 
 def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
@@ -118,7 +132,7 @@ def check(design: Design, host: Host) -> list[Finding]:
 
 def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
     """What the control cannot do, for both sides."""
-    every = [cam, *(job.settings for job in jobs if job.side == "underside")]
+    every = [cam, *(job.settings for job in jobs)]
     return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
 
 
@@ -234,16 +248,17 @@ def verify(
         except (KeyError, PluginError):
             known = sorted({*DIALECTS, *(host.posts if host else ())})
             raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
-    library = _library(design)
+    _check_part_names(design, plates(design.family.parts(design.params)))
+    library, cam = _library(design), design.cam_of(part.name)
     _, under = sides(part)
     if underside or under:
-        jobs, found = lay_out_setups(part, design.cam, library)
+        jobs, found = lay_out_setups(part, cam, library)
         chosen = [job for job in jobs if (job.side == "underside") == underside]
         if errors(found) or not chosen:
             fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
             raise DesignError(f"{design.path}: {fault}")
         (job,) = chosen
     else:
-        job = make_job(part, design.cam, choose_tools(part, design.cam, library))
-    tools = tuple(_measured(tool, design.cam) for tool in library.tools)
+        job = make_job(part, cam, choose_tools(part, cam, library))
+    tools = tuple(_measured(tool, cam) for tool in library.tools)
     return prove(text, replace(job, tools=tools), dialect)

@@ -17,7 +17,7 @@ import difflib
 import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar, get_args
 
@@ -29,6 +29,7 @@ from mechwright.host import Host
 from mechwright.machine import MACHINES, Machine
 from mechwright.parameters import Parameters
 from mechwright.part import check_name
+from mechwright.part_settings import split
 from mechwright.tooling import CamSettings
 
 T = TypeVar("T", bound=BaseModel)
@@ -69,6 +70,8 @@ class Design:
         The file.
     digest
         SHA-256 of its bytes.
+    part_cam
+        Part name to the settings of that part, for each table ``[cam.part.NAME]``.
     """
 
     name: str
@@ -77,6 +80,11 @@ class Design:
     cam: CamSettings
     path: Path
     digest: str
+    part_cam: Mapping[str, CamSettings] = field(default_factory=dict)
+
+    def cam_of(self, part: str) -> CamSettings:
+        """The settings that a part is made with: its own, or those of the whole job."""
+        return self.part_cam.get(part, self.cam)
 
     @property
     def tool_library(self) -> Path | None:
@@ -109,8 +117,8 @@ def beside(path: Path, name: str, key: str) -> Path:
     return found
 
 
-def read_cam(content: Mapping[str, Any], path: Path) -> CamSettings:
-    """The table ``[cam]`` of a file, with the machine that it names.
+def read_cam(content: Mapping[str, Any], path: Path, where: str = "cam") -> CamSettings:
+    """The table ``[cam]`` of a file, with the machine that it names; mistakes are told of ``where``.
 
     Raises
     ------
@@ -126,7 +134,7 @@ def read_cam(content: Mapping[str, Any], path: Path) -> CamSettings:
     if isinstance(machine, Mapping) and isinstance(machine.get("model"), str) and machine["model"]:
         known = _machine(machine["model"], path)
         table = {**table, "machine": {**known, **machine}}
-    return read_table(CamSettings, table, str(path), "cam")
+    return read_table(CamSettings, table, str(path), where)
 
 
 def _machine(model: str, path: Path) -> dict[str, Any]:
@@ -196,8 +204,10 @@ def load(path: Path, host: Host) -> Design:
     content, digest = read_toml(path)
     name, family = read_head(content, path, host, _KEYS)
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+    content, parts = split(content, path)
     cam = read_cam(content, path)
-    design = Design(name, family, params, cam, path, digest)
+    part_cam = {name: read_cam(own, path, f"cam.part.{name}") for name, own in parts.items()}
+    design = Design(name, family, params, cam, path, digest, part_cam)
     _ = design.tool_library  # a path that leads out is refused before any work
     return design
 

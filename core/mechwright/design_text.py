@@ -10,6 +10,13 @@ from mechwright.family import Family
 from mechwright.parameters import Parameters
 from mechwright.tooling import CamSettings
 
+_OF_ONE_PART = (
+    "",
+    "# Any of these for one part only, by the part's name:",
+    "# [cam.part.NAME]",
+    '# origin = "corner"',
+)
+
 
 def template(family: Family[Any], name: str) -> str:
     """A commented design file of a family that builds as it is."""
@@ -37,7 +44,7 @@ def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
     ]
     for table in tables:
         lines += ["", *table]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_OF_ONE_PART]) + "\n"
 
 
 def _lines(model: type[BaseModel], where: str, values: BaseModel | None = None) -> list[str]:

@@ -168,9 +168,10 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     inputs = {design.path.name: design.digest}
     if design.tool_library is not None:
         inputs[design.cam.tool_library] = read_text(design.tool_library)[1]
-    machine = machine_file(design.path, design.cam)
-    if machine is not None:
-        inputs[design.cam.machine.model] = read_text(machine)[1]
+    for cam in (design.cam, *design.part_cam.values()):
+        machine = machine_file(design.path, cam)
+        if machine is not None:
+            inputs[cam.machine.model] = read_text(machine)[1]
     return facts(design.name, design.family, inputs, found)
 
 
