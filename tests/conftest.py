@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -13,6 +14,8 @@ REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
 PROGRAMS = {"rs274": "linuxcnc-uspace", "ogr2ogr": "gdal-bin", "ogrinfo": "gdal-bin"}
 """Program to the Debian package that has it."""
 MODULES = ("gmsh", "mypy")
+PYGCODE = "MECHWRIGHT_PYGCODE"
+"""Environment variable with the folder that pygcode is installed in."""
 
 # The machine's load must not decide whether a property holds.
 settings.register_profile(
@@ -29,6 +32,8 @@ def pytest_configure() -> None:
         f"{name} (Debian package {package})" for name, package in PROGRAMS.items() if not shutil.which(name)
     ]
     missing += [f"{name} (PyPI)" for name in MODULES if importlib.util.find_spec(name) is None]
+    if not (Path(os.environ.get(PYGCODE, "")) / "pygcode").is_dir():
+        missing.append(f"pygcode (PyPI), in the folder that {PYGCODE} names")
     if missing:
         pytest.exit(f"{REQUIRE_CLIENTS} is set, and these are missing: {', '.join(missing)}", returncode=1)
 
