@@ -9,6 +9,7 @@ import shapely
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.sections import sections
+from mechwright.tooling import Tool, ToolKind
 from mechwright_cam import svg
 from mechwright_cam.job import Job, Tab
 from mechwright_cam.trace import Stroke, Traced, trace
@@ -186,7 +187,7 @@ def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str
         if cuts:
             layers.append(svg.element("defs", svg.element("path", id=name, d=cuts)))
             layers.append(
-                svg.element("use", href=f"#{name}", **pen, stroke_width=tool.diameter, opacity=0.16)
+                svg.element("use", href=f"#{name}", **pen, stroke_width=_swath(tool, mine), opacity=0.16)
             )
             layers.append(svg.element("use", href=f"#{name}", **pen, stroke_width=width))
         arm = max(tool.radius, 0.4 * frame.letters)
@@ -196,6 +197,14 @@ def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str
             layers.append(svg.element("path", d=cross, **pen, stroke_width=width))
             layers.append(svg.element("circle", cx=x, cy=-y, r=tool.radius, **pen, stroke_width=width))
     return layers
+
+
+def _swath(tool: Tool, items: Sequence[Traced]) -> float:
+    """Width of what a tool cuts at the top face, mm: a pointed one is narrower than its diameter."""
+    if tool.kind is not ToolKind.CHAMFER:
+        return tool.diameter
+    depth = -min((item.bottom for item in items if item.bottom is not None), default=0.0)
+    return min(tool.diameter, tool.tip_diameter + 2 * depth * math.tan(math.radians(tool.point_angle / 2)))
 
 
 def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:

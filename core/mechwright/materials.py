@@ -1,4 +1,4 @@
-"""Workpiece materials: the one place that knows their densities, and how they are cut.
+"""Workpiece materials: the one place that knows their densities and elastic constants, and how they are cut.
 
 The cutting figures are ranges for starting values, rounded from what workshop handbooks and makers of solid
 carbide cutters commonly print for each group (mean of several, no single maker): unalloyed steel of about
@@ -22,6 +22,12 @@ class Material:
         As design files say it.
     density
         g/cm³.
+    modulus
+        Young's modulus, MPa.
+    poisson
+        Poisson's ratio.
+    strength
+        Yield or proof strength of the usual grade, MPa.
     speed
         Lowest and highest usual cutting speed of solid carbide, m/min.
     chip_share
@@ -36,6 +42,9 @@ class Material:
 
     name: str
     density: float
+    modulus: float
+    poisson: float
+    strength: float
     speed: tuple[float, float]
     chip_share: tuple[float, float]
     force: float
@@ -49,10 +58,12 @@ HSS_SPEED = 1 / 3
 MATERIALS = {
     material.name: material
     for material in (
-        Material("aluminium", 2.70, (100, 500), (0.004, 0.015), 700, 0.25, long_chips=True),
-        Material("brass", 8.50, (80, 300), (0.003, 0.012), 780, 0.18, long_chips=False),
-        Material("steel", 7.85, (50, 160), (0.002, 0.008), 1800, 0.20, long_chips=True),
-        Material("pom", 1.41, (100, 500), (0.005, 0.025), 120, 0.20, long_chips=True),
+        Material(
+            "aluminium", 2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, long_chips=True
+        ),
+        Material("brass", 8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, long_chips=False),
+        Material("steel", 7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1800, 0.20, long_chips=True),
+        Material("pom", 1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 120, 0.20, long_chips=True),
     )
 }
 

@@ -76,7 +76,7 @@ class FourBar:
     --------
     >>> bar = FourBar(40, 120, 80, 100)
     >>> bar.kind.value, round(bar.limits().time_ratio, 8)
-    ('crank-rocker', 1.35557329)
+    ('crank-rocker', 1.35557333)
     """
 
     crank: float

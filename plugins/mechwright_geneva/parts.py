@@ -9,6 +9,8 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
 from mechwright.geometry.segments import Point
@@ -26,6 +28,12 @@ if TYPE_CHECKING:
     import cadquery as cq
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
+
+_SITES = (0.25, 0.5, 0.75)
+"""Where tabs may stand on a piece of the rim, in shares of it: enough for four tabs even with three slots."""
+
+_TAB_ROOM = 4.0
+"""Least room for a tab on the rim, mm: twice a usual tab."""
 
 
 @lru_cache(32)
@@ -163,7 +171,7 @@ def _plate(
         features.append(feature)
         if isinstance(feature, Bore):
             inner.append(_hole(feature.centre, feature.diameter))
-    features.append(Profile("outside", outer, "outside", 0, thickness))
+    features.append(Profile("outside", outer, "outside", 0, thickness, _tab_sites(outer)))
     return Part(
         name,
         Outline(outer, tuple(inner), deviation),
@@ -173,6 +181,20 @@ def _plate(
         colour,
         tuple(features),
     )
+
+
+def _tab_sites(outer: Loop) -> tuple[tuple[Point, float], ...]:
+    """Places on the rim between two concave arcs, where a tab's mark touches nothing that works.
+
+    Where slots are cut through, the rim is too short for that: a tab may stand anywhere.
+    """
+    sites = []
+    for segment in outer.segments:
+        if segment.tag == "rim":
+            x, y = segment.at(np.array(_SITES)).T
+            chord = math.dist(segment.start, segment.end) * (_SITES[1] - _SITES[0])
+            sites += [((float(a), float(b)), chord) for a, b in zip(x, y, strict=True)]
+    return tuple(sites) if all(chord >= _TAB_ROOM for _, chord in sites) else ()
 
 
 def keyway_angle(m: Mechanism) -> float:

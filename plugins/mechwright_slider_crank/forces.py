@@ -11,7 +11,7 @@ from mechwright.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 
 MILLI = 1e-3
-"""kg mm/s² are mN and kg mm²/s² are mN mm: to N and N mm."""
+"""From mN, which kg, mm and s give, to N, from mN mm to N mm, and from N mm to N m."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from mechwright.errors import DesignError
 from mechwright.motion import Array, Channel, Motion, Scalar
 from mechwright.planar import Plane, acceleration_pole
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
-from mechwright_slider_crank.forces import JointForces, balance, joint_forces
+from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import body_poses, masses_of
@@ -38,10 +38,10 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     channels = {
         "time": Channel(phi / omega, "s"),
         "phi": Channel(phi, "rad"),
-        "omega": Channel(np.full(samples, omega), "rad/s"),
+        "omega_a": Channel(np.full(samples, omega), "rad/s"),
         **_slider(linkage, bodies),
         **_turning(bodies),
-        "mu": Channel(transmission_angle(linkage, phi), "rad"),
+        "transmission_angle": Channel(transmission_angle(linkage, phi), "rad"),
         **_coupler_point(params, bodies),
         **_poles(linkage, phi, bodies),
         **_forces(carried),
@@ -65,9 +65,9 @@ def _turning(bodies: Bodies) -> dict[str, Channel]:
     rod = bodies.rod.turning
     return {
         "sigma": Channel(rod.theta, "rad"),
-        "omega_rod": Channel(rod.omega, "rad/s"),
-        "alpha_rod": Channel(rod.alpha, "rad/s^2"),
-        "jerk_rod": Channel(rod.jerk, "rad/s^3"),
+        "omega_c": Channel(rod.omega, "rad/s"),
+        "alpha_c": Channel(rod.alpha, "rad/s^2"),
+        "jerk_c": Channel(rod.jerk, "rad/s^3"),
     }
 
 
@@ -86,16 +86,16 @@ def _coupler_point(params: SliderCrankParams, bodies: Bodies) -> dict[str, Chann
 
 
 def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channel]:
-    """The rod's acceleration pole on the ground (X, Y) and in the rod (x, y), for both assemblies."""
+    """The rod's acceleration pole on the ground and in the rod, for both assemblies."""
     other = SliderCrank(linkage.crank, linkage.rod, linkage.offset, linkage.direction, -linkage.branch)
     found = {}
     for ending, rod in (("", bodies.rod), ("_other", other.bodies(phi).rod)):
         pole = acceleration_pole(rod)
         for name, values in (
-            ("XG", pole.fixed.real),
-            ("YG", pole.fixed.imag),
-            ("xG", pole.moving.real),
-            ("yG", pole.moving.imag),
+            ("xG", pole.fixed.real),
+            ("yG", pole.fixed.imag),
+            ("xG_coupler", pole.moving.real),
+            ("yG_coupler", pole.moving.imag),
         ):
             found[name + ending] = Channel(values.copy(), "mm")
     return found
@@ -103,15 +103,15 @@ def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channe
 
 def _forces(carried: JointForces) -> dict[str, Channel]:
     named: dict[str, Plane] = {
-        "F_shaft": carried.shaft,
-        "F_crank_pin": carried.crank_pin,
-        "F_wrist_pin": carried.wrist_pin,
-        "F_guide": carried.guide,
-        "F_shaking": carried.shaking,
+        "force_shaft": carried.shaft,
+        "force_crank_pin": carried.crank_pin,
+        "force_wrist_pin": carried.wrist_pin,
+        "force_guide": carried.guide,
+        "shaking_force": carried.shaking,
     }
     found = {name: Channel(np.abs(force), "N") for name, force in named.items()}
-    found["M_guide"] = Channel(carried.guide_moment, "N*mm")
-    found["torque"] = Channel(carried.torque, "N*mm")
+    found["moment_guide"] = Channel(carried.guide_moment * MILLI, "N*m")
+    found["drive_torque"] = Channel(carried.torque * MILLI, "N*m")
     return found
 
 
@@ -127,16 +127,16 @@ def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
         return {
             "v_max": np.abs(slider.velocity),
             "a_max": np.abs(slider.acceleration),
-            "torque_max": np.abs(carried.torque),
-            "F_shaft_max": np.abs(carried.shaft),
-            "F_crank_pin_max": np.abs(carried.crank_pin),
-            "F_wrist_pin_max": np.abs(carried.wrist_pin),
-            "F_guide_max": np.abs(carried.guide),
-            "F_shaking_max": np.abs(carried.shaking),
+            "drive_torque_max": np.abs(carried.torque) * MILLI,
+            "force_shaft_max": np.abs(carried.shaft),
+            "force_crank_pin_max": np.abs(carried.crank_pin),
+            "force_wrist_pin_max": np.abs(carried.wrist_pin),
+            "force_guide_max": np.abs(carried.guide),
+            "shaking_force_max": np.abs(carried.shaking),
         }
 
     most = peaks(sizes)
-    units = {"v_max": "mm/s", "a_max": "mm/s^2", "torque_max": "N*mm"}
+    units = {"v_max": "mm/s", "a_max": "mm/s^2", "drive_torque_max": "N*m"}
     return {
         "stroke": Scalar(ends.stroke, "mm"),
         "time_ratio": Scalar(ends.time_ratio, ""),
@@ -144,15 +144,17 @@ def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
         "phi_near": Scalar(ends.near, "rad"),
         "s_far": Scalar(ends.far_position, "mm"),
         "s_near": Scalar(ends.near_position, "mm"),
-        "mu_min": Scalar(least_transmission_angle(params.crank, params.rod, params.offset), "rad"),
+        "least_transmission_angle": Scalar(
+            least_transmission_angle(params.crank, params.rod, params.offset), "rad"
+        ),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
         "mass_crank": Scalar(masses["crank"].mass, "kg"),
         "mass_rod": Scalar(masses["rod"].mass, "kg"),
         "mass_slider": Scalar(masses["slider"].mass, "kg"),
-        "balance_rod": Scalar(weights.rod.real, "kg*mm"),
-        "balance_rod_across": Scalar(weights.rod.imag, "kg*mm"),
-        "balance_crank": Scalar(weights.crank.real, "kg*mm"),
-        "balance_crank_across": Scalar(weights.crank.imag, "kg*mm"),
+        "balance_rod_x": Scalar(weights.rod.real, "kg*mm"),
+        "balance_rod_y": Scalar(weights.rod.imag, "kg*mm"),
+        "balance_crank_x": Scalar(weights.crank.real, "kg*mm"),
+        "balance_crank_y": Scalar(weights.crank.imag, "kg*mm"),
         "balance_rod_weight": Scalar(weights.rod_weight, "kg"),
     }
 

@@ -16,6 +16,8 @@ DOWEL_SHARE = 0.6
 """Diameter of the rails' dowels over that of the joint pins: there are four, and they hardly move."""
 LEAST_WALL = 2.0
 """mm, so that the wall of a small bore survives clamping."""
+LEAST_DOWEL = 1.5
+"""mm, the thinnest dowel whose hole a usual drill or end mill makes."""
 CORNER = 2.0
 """Corner radius of slider, rails and base, mm: sharp enough to look square, blunt enough to handle."""
 HEAD_SHARE = 1.6
@@ -38,8 +40,8 @@ class Sizes:
 
     @property
     def dowel(self) -> float:
-        """Diameter of the rails' dowels."""
-        return DOWEL_SHARE * self.pin
+        """Diameter of the rails' dowels: whole millimetres, as they are sold, but for the thinnest."""
+        return dowel_of(self.pin)
 
     @property
     def rod_bore(self) -> float:
@@ -72,6 +74,15 @@ class Sizes:
         return HEAD_SHARE * self.pin, HEAD_HEIGHT_SHARE * self.pin
 
 
+def dowel_of(pin: float) -> float:
+    """Diameter of the dowels beside a pin.
+
+    >>> dowel_of(6.0), dowel_of(1.5)
+    (4.0, 1.5)
+    """
+    return max(LEAST_DOWEL, float(round(DOWEL_SHARE * pin)))
+
+
 def sizes_of(params: SliderCrankParams) -> Sizes:
     """The sizes, those left out filled in."""
 
@@ -89,5 +100,5 @@ def sizes_of(params: SliderCrankParams) -> Sizes:
         params.bushing,
         given(params.slider_length, 1.5 * width),
         width,
-        given(params.rail, DOWEL_SHARE * pin + 2 * wall),
+        given(params.rail, dowel_of(pin) + 2 * wall),
     )

@@ -71,7 +71,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
             continue
         stroke, ratio = simulated(params.linkage)
         figures = {
-            "mu_min": Scalar(_transmission(params), "deg"),
+            "least_transmission_angle": Scalar(_transmission(params), "deg"),
             "stroke_simulated": Scalar(stroke, "mm"),
             "time_ratio_simulated": Scalar(ratio, ""),
             **_lengths(params),
@@ -130,7 +130,11 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
             f"phi_{number}": Scalar((math.degrees(angle) + wanted.slide_direction) % 360, "deg")
             for number, angle in enumerate(found.angles, start=1)
         }
-        figures = {"mu_min": Scalar(_transmission(params), "deg"), **_lengths(params), **angles}
+        figures = {
+            "least_transmission_angle": Scalar(_transmission(params), "deg"),
+            **_lengths(params),
+            **angles,
+        }
         candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
     if not candidates:
         notes.insert(0, _none_found(notes, best, wanted))

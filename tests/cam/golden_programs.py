@@ -30,6 +30,10 @@ def every_operation() -> Program:
         (Rapid(10, 10, 5), Drill(10, 10, -7.5, 1, 200), Drill(50, 10, -7.5, 1, 200), Rapid(z=5)),
     )
     deep = Operation("peck drill 5", (Rapid(50, 30, 5), Drill(50, 30, -17.5, 1, 180, peck=4), Rapid(z=5)))
+    chips = Operation(
+        "drill 5, chips broken",
+        (Rapid(20, 35, 5), Drill(20, 35, -9.5, 1, 190, peck=4, breaking=True), Rapid(z=5)),
+    )
     bore = Operation(
         "bore: helix",
         (
@@ -78,7 +82,7 @@ def every_operation() -> Program:
         5.0,
         (
             ToolSection(SPOT, 3000, "flood", (spots,)),
-            ToolSection(DRILL, 2400, "mist", (holes, deep)),
+            ToolSection(DRILL, 2400, "mist", (holes, deep, chips)),
             ToolSection(MILL, 8000, "flood", (bore, slot)),
             ToolSection(MILL, 8000, "off", (contour,)),
         ),

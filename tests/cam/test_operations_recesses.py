@@ -109,6 +109,22 @@ def test_a_closed_groove_keeps_its_end_walls():
     assert len(proof.unreachable) == 4
 
 
+FACE = Pocket("face", box(-60, -60, 60, 60), (), 0, 0.5)
+
+
+@pytest.mark.parametrize("margin", [None, 0, 20])
+@pytest.mark.parametrize("below", [(), (Pocket("recess", rounded_box(30, 20, 5), (), 0.5, 2),)])
+def test_a_recess_over_the_whole_part_faces_it(margin, below):
+    held = {"method": "bore", "clamp_diameter": 5} if margin == 0 else {}
+    features = (FACE, *below, Bore("bore", (0.0, 0.0), 8.0, 0.0, 6.0))
+    of = plate(bore(8), machined=(*features, OUTSIDE))
+    program, _ = proven(job(of, "mill-10", "mill-4", stock={"margin": margin}, hold=held))
+    names = [o.name for s in program.sections for o in s.operations]
+    assert names.count("face: face") == 1
+    if below:
+        assert names.index("face: face") < names.index("recess: rough")
+
+
 def test_the_program_without_the_groove_fails_the_proof_of_the_grooved_part():
     plain = job(recessed(), "mill-6")
     proof = prove(LinuxCncPost().write(plan(plain)), job(recessed(GROOVE), "mill-6"))

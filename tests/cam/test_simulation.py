@@ -146,6 +146,6 @@ def test_the_setup_sheet_has_picture_and_loads() -> None:
     )
     assert "data:image/png;base64," in page
     assert "feed in air" in page
-    assert "Thickest chip" in page
+    assert "Thickest<br>chip" in page
     assert len(page) < 400_000
     assert {tool.number for tool in TOOLS}

@@ -37,6 +37,15 @@ G0 Z1
 Z-14.75
 G1 Z-17.5
 G0 Z5
+(operation: drill 5, chips broken)
+X20 Y35
+Z1
+G1 Z-3 F190
+G0 Z-2.75
+G1 Z-7
+G0 Z-6.75
+G1 Z-9.5
+G0 Z5
 M9
 M5
 G53 G0 Z0

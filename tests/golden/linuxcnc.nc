@@ -33,6 +33,10 @@ G80
 G0 Y30
 G98 G83 X50 Y30 Z-17.5 R1 Q4 F180
 G80
+(operation: drill 5, chips broken)
+G0 X20 Y35
+G98 G73 X20 Y35 Z-9.5 R1 Q4 F190
+G80
 M9
 M5
 G53 G0 Z0

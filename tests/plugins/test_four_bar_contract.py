@@ -1,6 +1,9 @@
 """The four-bar under the kit that third parties use."""
 
+import math
 from typing import ClassVar
+
+import pytest
 
 from mechwright.testing import FamilyContract
 from mechwright_four_bar.family import FourBars
@@ -11,15 +14,15 @@ class TestFourBars(FamilyContract):
     examples = (
         {},
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
-        {"coupler_bend": 25, "bushing_wall": 0, "ground_angle": 30, "load_torque": 2, "speed": 300},
     )
     refused = (
-        ({"crank": 60}, "crank"),
+        ({"crank": 70}, "crank"),
+        ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
-        ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "coupler"),
+        ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "ground"),
         ({"crank": 8}, "crank"),
         ({"coupler_point_x": 3, "coupler_point_y": 0}, "coupler_point_x"),
-        ({"coupler_bend": 200}, "coupler_bend"),
+        ({"coupler_bend": 20, "web_width": 17}, "coupler_bend"),
         ({"coupler_point_x": 3}, "coupler_point_y"),
     )
     derivatives = (
@@ -32,7 +35,20 @@ class TestFourBars(FamilyContract):
         ("alpha_b", "jerk_b"),
     )
     input_rate = "omega_a"
+    variations: ClassVar = {"coupler_bend": (25,), "load_torque": (2,), "ground_angle": (30,)}
     requirements: ClassVar = {
         "path": ({"starts": 4000, "designs": 2, "tolerance": 0.1},),
         "poles": ({"starts": 800, "designs": 3},),
     }
+
+
+def test_a_bent_coupler_without_bushings_is_made_as_asked():
+    family = FourBars()
+    params = family.Params(coupler_bend=25, bushing_wall=0, ground_angle=30)
+    parts = {part.name: part for part in family.parts(params)}
+    assert not any(name.startswith("bushing") for name in parts)
+    outline = parts["coupler"].outline
+    assert outline.bounds[3] > 25
+    bores = sorted(-loop.area for loop in outline.inner)
+    assert bores == pytest.approx([math.pi / 4 * (6 + 0.03) ** 2] * 2)
+    assert parts["coupler"].outline.area > FourBars().parts(family.Params())[2].outline.area

@@ -130,3 +130,16 @@ def test_a_parallelogram_is_refused(lengths):
 def test_links_that_cannot_be_joined_are_refused():
     with pytest.raises(GeometryError, match="cannot be joined"):
         locus(*fractions((1, 10, 2, 3)), "fixed")
+
+
+def test_the_command_prints_a_table_or_json(capsys):
+    from mechwright.algebra import PlaneCurve
+    from mechwright_four_bar.__main__ import main
+
+    assert main(["3", "3", "5", "5"]) == 0
+    assert "degree 6, 3-fold circular points, 10 terms" in capsys.readouterr().out
+    assert main(["3", "6", "5", "8", "coupler", "--json"]) == 0
+    assert PlaneCurve.from_json(capsys.readouterr().out) == locus(*fractions((3, 6, 5, 8)), "coupler")
+    assert main(["3", "5", "3", "5"]) == 2
+    assert "parallelogram" in capsys.readouterr().err
+    assert main(["x", "5", "3", "5"]) == 2

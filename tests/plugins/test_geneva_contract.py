@@ -42,7 +42,7 @@ class TestGeneva(FamilyContract):
             "keyway_width": 2,
             "keyway_relief": 1.2,
         },
-        {**SMALL, "slots": 6, "law": "straight", "rollers": 2, "entry_radius": 70, "driver_keyway_width": 2},
+        {**SMALL, "slots": 6, "law": "straight", "entry_radius": 70, "driver_keyway_width": 2},
         {
             **SMALL,
             "law": "table",

@@ -18,7 +18,8 @@ from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
 
 ROOT = Path(__file__).parents[2]
-EXAMPLES = ("cycloidal", "prototype", "straight")
+EXAMPLES = {"cycloidal": "build", "prototype": "build", "straight": "cam"}
+"""How much of each is made here; the contract models a straight wheel, whose roller takes long to compare."""
 
 
 def rs274():
@@ -40,10 +41,10 @@ def run(*arguments):
     )
 
 
-@pytest.fixture(scope="module", params=EXAMPLES)
+@pytest.fixture(scope="module", params=list(EXAMPLES))
 def built(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param) / "out"
-    done = run("build", ROOT / "examples" / f"geneva-{request.param}.toml", "-o", folder)
+    done = run(EXAMPLES[request.param], ROOT / "examples" / f"geneva-{request.param}.toml", "-o", folder)
     assert done.returncode == 0, done.stderr
     return request.param, folder, done
 
@@ -56,15 +57,15 @@ def test_without_a_warning(built):
 
 
 def test_every_plate_is_proven(built):
-    _, folder, _ = built
+    name, folder, _ = built
     proofs = json.loads((folder / "proof.json").read_text(encoding="utf-8"))
     assert set(proofs) == {"wheel", "locking-disc", "crank"}
     for part, proof in proofs.items():
         assert 0 <= proof["gouge_max_mm"] <= TOLERANCES.gouge, part
         assert 0 <= proof["leftover_reachable_max_mm"] <= TOLERANCES.leftover, part
         assert (folder / f"{part}.dxf").stat().st_size > 1000
-        assert (folder / f"{part}.step").stat().st_size > 1000
-    assert (folder / "roller.step").exists()
+        assert EXAMPLES[name] == "cam" or (folder / f"{part}.step").stat().st_size > 1000
+    assert EXAMPLES[name] == "cam" or (folder / "roller.step").exists()
     assert not (folder / "roller.nc").exists()
 
 

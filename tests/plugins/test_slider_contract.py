@@ -27,18 +27,18 @@ class TestSliderCrank(FamilyContract):
         ({"rod_bend": 60}, "rod_bend"),
     )
     derivatives = (
-        ("phi", "omega"),
+        ("phi", "omega_a"),
         ("s", "v"),
         ("v", "a"),
         ("a", "jerk"),
-        ("sigma", "omega_rod"),
-        ("omega_rod", "alpha_rod"),
-        ("alpha_rod", "jerk_rod"),
+        ("sigma", "omega_c"),
+        ("omega_c", "alpha_c"),
+        ("alpha_c", "jerk_c"),
         ("xP", "vxP"),
         ("vyP", "ayP"),
         ("axP", "jxP"),
     )
-    input_rate = "omega"
+    input_rate = "omega_a"
     requirements: ClassVar = {
         "stroke": ({}, {"stroke": 100, "time_ratio": 1.2, "rod": 150}),
         "poles": ({"starts": 400}, {"starts": 400, "slide_direction": 20}),

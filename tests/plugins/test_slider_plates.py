@@ -175,7 +175,7 @@ def test_warnings():
 def test_the_torque_does_the_work_of_the_load():
     """Over a turn the drive's work is what a friction-free load takes: nothing, for a constant force."""
     motion = SliderCrankFamily().solve(SliderCrankParams(load=-100, speed=0.001), 3601)
-    phi, torque = motion.channels["phi"].values, motion.channels["torque"].values
+    phi, torque = motion.channels["phi"].values, motion.channels["drive_torque"].values * 1000
     half = np.searchsorted(phi, motion.scalars["phi_far"].value)
     work = np.concatenate(([0], np.cumsum((torque[1:] + torque[:-1]) / 2 * np.diff(phi))))
     assert abs(work[-1]) < 1e-6 * np.abs(work).max()

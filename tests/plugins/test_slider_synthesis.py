@@ -227,7 +227,7 @@ def test_designs_of_poles_turn_with_the_slide():
         assert b.params.slide_direction == 30
         assert a.params.crank == pytest.approx(b.params.crank, rel=1e-9)
         assert b.figures["phi_1"].value == pytest.approx((a.figures["phi_1"].value + 30) % 360, abs=1e-7)
-    ordered = [candidate.figures["mu_min"].value for candidate in one.candidates]
+    ordered = [candidate.figures["least_transmission_angle"].value for candidate in one.candidates]
     assert ordered == sorted(ordered, reverse=True)
 
 

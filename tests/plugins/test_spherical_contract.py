@@ -12,7 +12,11 @@ FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 class TestSpherical(FamilyContract):
     family = Spherical
-    examples: ClassVar = (PATH, {"five_bar": {"phase": 2, "common_arcs": True}}, FOUR_BAR)
+    examples: ClassVar = (
+        PATH,
+        {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}, "flat": {"make": False}},
+        FOUR_BAR,
+    )
     refused: ClassVar = (
         ({"radius": 40}, "radius"),
         ({"five_bar": {"travel": -190}}, "five_bar.travel"),
@@ -26,7 +30,7 @@ class TestSpherical(FamilyContract):
         ({**FOUR_BAR, "four_bar": {"ground": 180}}, "four_bar.ground"),
         ({**FOUR_BAR, "four_bar": {"ground": 20}}, "four_bar.travel"),
         ({**FOUR_BAR, "four_bar": {"input": 100}}, "four_bar.travel"),
-        ({**FOUR_BAR, "drive": {"gears": False}}, "drive"),
+        ({**FOUR_BAR, "drive": {"gears": False}, "flat": {"make": False}}, "drive"),
         ({"path_tolerance": 1}, "path_tolerance"),
         ({"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
         ({"hardware": {"gap": 0.1}}, "hardware.gap"),

@@ -122,7 +122,7 @@ WEIGHTS = {
     2: np.array([-9, 128, -1008, 8064, -14350, 8064, -1008, 128, -9]) / 5040,
     3: np.array([-7, 72, -338, 488, 0, -488, 338, -72, 7]) / 240,
 }
-STEP = LONG(1) / 1024
+STEP = LONG(1) / 4096
 
 
 @settings(max_examples=EXAMPLES)

@@ -95,6 +95,8 @@ class Macros:
                     self._obey(index, *self.words[index])
                 else:
                     yield index + 1, self._plain(self.lines[index])
+            except RecursionError:
+                raise fail(index + 1, "brackets are nested too deep") from None
             except (ValueError, OverflowError) as error:
                 if str(error).startswith("line "):
                     raise

@@ -16,6 +16,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.details import plan_detail
+from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.holes import (
     BorePlan,
@@ -136,6 +137,9 @@ class _Planner:
             for zone in zones:
                 if zone.top != top:
                     continue
+                if is_face(zone):
+                    self._face(zone, after)
+                    continue
                 drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
                 if drill is not None:
                     hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
@@ -144,6 +148,11 @@ class _Planner:
             after = frozenset(range(len(self.steps)))
         self._details(after, outside=False)
         return frozenset(range(len(self.steps)))
+
+    def _face(self, zone: Zone, after: frozenset[int]) -> None:
+        mill, stock = zone.mills[0], shapely.box(*self.job.stock)
+        depth = mill.cutting[self.job.part.material].step_down * mill.diameter
+        self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth))
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)

@@ -44,6 +44,8 @@ from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
+HANDY = 6.0
+"""Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 PAYS = 1.5
 """An intermediate roughing mill is at least this many times as wide as the finishing one."""
 MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
@@ -104,7 +106,8 @@ def _mills(every: Job) -> list[Tool]:
     part = every.part
     fit = usable_mills(every, -every.floor)
     x0, y0, x1, y1 = part.outline.bounds if part.outline is not None else (0.0, 0.0, 0.0, 0.0)
-    sensible = [mill for mill in fit if mill.diameter <= ROUGHING_SHARE * min(x1 - x0, y1 - y0)] or fit[-1:]
+    widest = max(HANDY, ROUGHING_SHARE * min(x1 - x0, y1 - y0))
+    sensible = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
     chosen: list[Tool] = []
     openings = []
     for feature in every.features:

@@ -8,7 +8,7 @@ from typing import ClassVar
 import pytest
 
 from mechwright.output import Post
-from mechwright.program import FeedArc, Move, Pause, Program
+from mechwright.program import Drill, FeedArc, Move, Pause, Program
 from mechwright.testing.programs import sample_program
 from mechwright.tooling import Tool
 
@@ -187,8 +187,16 @@ def _changed_move(move: Move) -> Iterator[tuple[str, Move]]:
         yield "the direction", replace(move, ccw=not move.ccw)
     # The rest of an arc hangs together: one number alone would leave no circle.
     free = {"z", "feed"} if isinstance(move, FeedArc) else {item.name for item in fields(move)}
+    if isinstance(move, Drill):
+        free -= {"breaking"}
+        if move.peck is not None and move.dwell == 0:  # a hole in one go breaks no chips
+            yield "the breaking of chips", replace(move, breaking=not move.breaking)
     for name in sorted(free):
         value = getattr(move, name)
         # A dwell of nothing is no dwell, and not every control can dwell in every cycle.
-        if value is not None and not (name == "dwell" and value == 0):
+        if name == "breaking" and isinstance(move, Drill):
+            # How a peck ends matters only where there are pecks.
+            if move.peck is not None:
+                yield name, replace(move, breaking=not move.breaking)
+        elif value is not None and not (name == "dwell" and value == 0):
             yield name, replace(move, **{name: value + _STEP})

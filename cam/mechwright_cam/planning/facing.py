@@ -1,0 +1,46 @@
+"""Facing: a recess without walls, all over the part, is taken off in straight rows."""
+
+import math
+
+import numpy as np
+import shapely
+
+from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.planning.zone import Zone
+from mechwright_cam.toolpath.path import line, polyline
+
+ROW = 0.7
+"""Distance of rows in cutter diameters: the edge that leaves the work then still cuts with its side."""
+PAST = 1.0
+"""The cutter runs out so far past the part, mm, before it turns to the next row."""
+
+
+def is_face(zone: Zone) -> bool:
+    """Whether nothing of the part stands beside the zone."""
+    return zone.must is not None and bool(shapely.is_empty(zone.keep))
+
+
+def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float) -> None:
+    """Write the rows to and fro, level by level; entered beside the stock, or by a ramp along a row."""
+    radius = pen.tool.radius
+    x0, y0, x1, y1 = zone.must.bounds if zone.must is not None else stock.bounds
+    count = math.ceil((y1 - y0) / (ROW * pen.tool.diameter))
+    rows = y0 + (np.arange(count) + 0.5) * (y1 - y0) / count
+    left, right = x0 - radius - PAST, x1 + radius + PAST
+    points = []
+    for number, y in enumerate(rows.tolist()):
+        points += [(left, y), (right, y)] if number % 2 == 0 else [(right, y), (left, y)]
+    path = polyline(points)
+    clear = shapely.distance(stock, shapely.Point(path.start)) > radius
+    first = type(path)(path.start, (line(path.start, (path.cuts[0].x, path.cuts[0].y)),))
+    above = zone.top
+    for z in levels(zone.top, zone.bottom, step_down):
+        pen.above(path.start)
+        if clear:
+            pen.sink(z)
+        else:
+            pen.sink(above)
+            pen.ramp(first, z)
+        pen.follow(path)
+        above = z
+    pen.retract()

@@ -1,0 +1,129 @@
+"""Cutting data, feeds, deflection, and what each field of a tool changes."""
+
+import math
+
+import pytest
+from planning_parts import LIBRARY, job, plate, rounded_box
+from pydantic import ValidationError
+
+from mechwright.materials import MATERIALS
+from mechwright.program import FeedArc
+from mechwright.tooling import CamSettings, Machine, Tool, ToolKind
+from mechwright_cam.library import Library
+from mechwright_cam.planning import check_tools, plan
+from mechwright_cam.planning.bending import deflection
+from mechwright_cam.planning.rates import rates
+from mechwright_cam.setup_sheet.facts import describe
+
+MILL = LIBRARY.get("mill-2")
+DEEP = 5 * MILL.diameter
+
+
+def codes(tool, thickness=10.0, **of):
+    found = check_tools(plate(thickness=thickness, **of), CamSettings(tools=(tool.name,)), Library((tool,)))
+    return {finding.code for finding in found}
+
+
+def changed(tool, **fields):
+    return Tool.model_validate({**tool.model_dump(), **fields})
+
+
+def test_deflection_of_a_plain_rod_is_the_closed_form():
+    length, diameter = 30.0, 6.0
+    rod = changed(LIBRARY.get("mill-6"), stick_out=length, flute_length=1e-3)
+    data, stuff = rod.cutting["steel"], MATERIALS["steel"]
+    chip = data.chip_load * math.sqrt(data.step_over)
+    teeth = max(1.0, rod.flutes * math.acos(1 - 2 * data.step_over) / math.tau)
+    depth = data.step_down * diameter
+    force = stuff.force * chip**-stuff.force_exponent * depth * chip * teeth
+    inertia = math.pi * diameter**4 / 64
+    assert deflection(rod, "steel", depth) == pytest.approx(
+        force * length**3 / (3 * 6.0e5 * inertia), rel=1e-6
+    )
+
+
+def test_a_2_mm_cutter_5_diameters_deep_is_a_warning():
+    assert "cam.deflection" in codes(MILL, DEEP, material="steel")
+    assert "cam.deflection" not in codes(LIBRARY.get("mill-6"), DEEP, material="steel")
+
+
+@pytest.mark.parametrize(
+    ("fields", "more"),
+    [
+        ({"stick_out": 30}, True),
+        ({"substrate": "hss"}, True),
+        ({"shank_diameter": 6}, False),
+        ({"flute_length": 3}, False),
+    ],
+)
+def test_what_stiffens_a_cutter(fields, more):
+    base = changed(MILL, stick_out=20)
+    bent, usual = (deflection(tool, "steel", DEEP) for tool in (changed(base, **fields), base))
+    assert bent != pytest.approx(usual)
+    assert (bent > usual) == more
+
+
+@pytest.mark.parametrize(("key", "factor"), [("chip_load", 10), ("chip_load", 0.1), ("cutting_speed", 10)])
+def test_a_slip_of_the_decimal_point_is_a_warning(key, factor):
+    tool = LIBRARY.get("mill-6")
+    data = tool.cutting["steel"]
+    wrong = data.model_copy(update={key: getattr(data, key) * factor})
+    slipped = tool.model_copy(update={"cutting": {"steel": wrong}})
+    assert "cam.cutting-data" in codes(slipped, 6.0, material="steel")
+    assert "cam.cutting-data" not in codes(tool, 6.0, material="steel")
+
+
+def test_high_speed_steel_is_slower():
+    assert "cam.cutting-data" in codes(changed(LIBRARY.get("mill-6"), substrate="hss"), 6.0)
+
+
+def test_the_library_is_within_the_usual_ranges():
+    for tool in LIBRARY:
+        if tool.kind in (ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL):
+            for name, data in tool.cutting.items():
+                low, high = MATERIALS[name].speed
+                assert low <= data.cutting_speed <= high
+                low, high = (share * tool.diameter for share in MATERIALS[name].chip_share)
+                assert low <= data.chip_load <= high, (tool.name, name)
+
+
+def test_chip_thinning_raises_the_feed_but_not_over_the_machine():
+    tool, machine = LIBRARY.get("mill-6"), Machine(max_feed=100000)
+    plain = rates(tool, "steel", machine)
+    thin = rates(tool, "steel", machine, math.radians(30))
+    assert thin.feed == pytest.approx(2 * plain.feed, abs=2)
+    assert (thin.ramp, thin.plunge, thin.spindle) == (plain.ramp, plain.plunge, plain.spindle)
+    assert rates(tool, "steel", Machine(max_feed=300), math.radians(30)).feed == 300
+
+
+def test_feed_is_reduced_in_tight_inside_corners():
+    of = job(plate(rounded_box(30, 20, 4, clockwise=True)), "mill-6")
+    (moves,) = [o.moves for s in plan(of).sections for o in s.operations if o.name == "opening-1: finish"]
+    full = max(m.feed for m in moves if hasattr(m, "feed"))
+    corners = [m for m in moves if isinstance(m, FeedArc) and m.ccw and math.hypot(m.i, m.j) < 1.2]
+    assert corners
+    for move in corners:  # the edge runs on a larger circle than the centre, at the planned feed
+        centre = math.hypot(move.i, move.j)
+        assert move.feed == pytest.approx(max(0.3 * full, full * centre / (centre + 3)), abs=1)
+    assert max(m.feed for m in corners) < 0.5 * full
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"kind": "bull-nose"}, "corner_radius"),
+        ({"corner_radius": 0.5}, "no other tool has one"),
+        ({"kind": "bull-nose", "corner_radius": 1.5}, "at most half"),
+        ({"kind": "chamfer-mill", "tip_diameter": 2}, "below the diameter"),
+        ({"stick_out": 5}, "at least flute_length"),
+    ],
+)
+def test_tools_that_cannot_be(fields, message):
+    with pytest.raises(ValidationError, match=message):
+        changed(MILL, **fields)
+
+
+def test_the_setup_sheet_names_kind_and_coating():
+    assert describe(changed(LIBRARY.get("mill-6"), coating="TiAlN")) == "end mill ⌀6, TiAlN, 3 flutes"
+    assert describe(LIBRARY.get("bull-6-r1")).startswith("bull nose ⌀6")
+    assert describe(LIBRARY.get("chamfer-6")) == "chamfer mill ⌀6, 90° point"
