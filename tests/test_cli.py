@@ -166,6 +166,7 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
             "gear.nc",
             "tool.tbl",
             "proof.json",
+            "gear.setup.html",
             "setup.html",
             "manifest.json",
         ]

@@ -25,9 +25,12 @@ from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import Proof, cut_through, prove, read
 from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.reach import cut_outline
-from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.setup_sheet.raster import simulated_view
 from mechwright_cam.setups import lay_out_setups, sides, turned_shape
+
+SUMMARY = "setup.html"
+"""The page of the whole job."""
 
 
 @dataclass(frozen=True)
@@ -216,10 +219,11 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     output.add("proof.json", json.dumps(proofs, indent=2) + "\n")
     sheets = [(item.job, item.program, proofs[item.program.name]) for item in made]
     pictures = {item.program.name: simulated_view(seen[item.program.name], item.job) for item in made}
-    page = setup_html(
-        sheets, suffix=post.suffix, tool_table=table, design=design.path.name, pictures=pictures
-    )
-    output.add("setup.html", page)
+    named = {"suffix": post.suffix, "tool_table": table, "design": design.path.name}
+    for sheet in sheets:
+        page = setup_html([sheet], **named, pictures=pictures, summary=SUMMARY)
+        output.add(sheet[1].name + SHEET, page)
+    output.add(SUMMARY, summary_html(sheets, name=design.name, **named))
     return findings
 
 

@@ -25,6 +25,7 @@ def setup_html(
     tool_table: str = "",
     design: str = "",
     pictures: Mapping[str, str] | None = None,
+    summary: str = "",
 ) -> str:
     """The setup sheets of some programs.
 
@@ -42,14 +43,16 @@ def setup_html(
         The design file it all comes from.
     pictures
         Program name to the picture of its simulated stock, an ``<svg>`` element of our own.
+    summary
+        The page of the whole job, which a sheet then leads to.
 
     Returns
     -------
     html
         A page that needs no other file and no network, and prints on A4. The same input gives the same text.
     """
-    environment = _environment()
-    template = environment.get_template("sheet.html")
+    pages = environment()
+    template = pages.get_template("sheet.html")
     sheets = []
     for job, program, proof in programs:
         sheet = _sheet(job, program, proof or {}, program.name + suffix)
@@ -57,7 +60,7 @@ def setup_html(
         body = template.render(**sheet, tool_table=tool_table, design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]
-    return environment.get_template("page.html").render(sheets=sheets, titles=titles)
+    return pages.get_template("page.html").render(sheets=sheets, titles=titles, summary=summary)
 
 
 def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str) -> dict[str, Any]:
@@ -94,8 +97,9 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
     }
 
 
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
+def environment() -> jinja2.Environment:
+    """The templates of this folder, with the functions that they use."""
+    found = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
@@ -103,5 +107,5 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.globals.update(duration=facts.duration, signed=signed)
-    return environment
+    found.globals.update(duration=facts.duration, signed=signed)
+    return found

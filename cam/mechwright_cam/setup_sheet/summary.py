@@ -1,0 +1,95 @@
+"""The page of a whole job: its programs, the tools of all of them, times and proofs. Imports jinja2."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mechwright.program import Program
+from mechwright.tooling import Tool
+from mechwright_cam.job import Job
+from mechwright_cam.setup_sheet import facts
+from mechwright_cam.setup_sheet.procedure import quantity
+from mechwright_cam.setup_sheet.sheet import environment
+from mechwright_cam.trace import trace
+
+SHEET = ".setup.html"
+"""Ending of the sheet of one program."""
+
+_FIGURES = ("gouge_max_mm", "leftover_reachable_max_mm", "unreachable_area_mm2", "unreachable_max_mm")
+"""What the page shows of a proof, in the order of its columns."""
+
+
+def summary_html(
+    programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]],
+    *,
+    name: str,
+    suffix: str = ".nc",
+    tool_table: str = "",
+    design: str = "",
+) -> str:
+    """The page of a whole job; it leads to the sheet of each program.
+
+    Parameters are those of :func:`mechwright_cam.setup_sheet.setup_html`; ``name`` is that of the job.
+    """
+    rows = [_row(job, program, proof or {}, suffix) for job, program, proof in programs]
+    verdicts = [row["verdict"] for row in rows]
+    times = [row["all_seconds"] for row in rows if row["all_seconds"] is not None]
+    return (
+        environment()
+        .get_template("summary.html")
+        .render(
+            name=name,
+            design=design,
+            tool_table=tool_table,
+            rows=rows,
+            tools=_tools(programs),
+            verdict=False if False in verdicts else None if None in verdicts else True,
+            total=sum(times) if times else None,
+        )
+    )
+
+
+def _row(job: Job, program: Program, proof: Mapping[str, Any], suffix: str) -> dict[str, Any]:
+    x0, y0, x1, y1 = job.stock
+    seconds = proof.get("time_estimate_s")
+    count = quantity(job)
+    return {
+        "part": job.part.name,
+        "side": job.side,
+        "sheet": program.name + SHEET,
+        "file_name": program.name + suffix,
+        "quantity": count,
+        "stock": f"{x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g}",
+        "material": job.part.material,
+        "work_offset": program.work_offset,
+        "tools": len(program.tools),
+        "seconds": seconds,
+        "all_seconds": None if seconds is None else count * seconds,
+        "verdict": facts.verdict(proof),
+        "figures": [proof.get(figure) for figure in _FIGURES],
+        "failed": [title for title, passed, _ in facts.check_rows(proof) if not passed],
+    }
+
+
+def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) -> list[dict[str, Any]]:
+    """One row per tool, by number, with what all programs ask of it."""
+    found: dict[int, dict[str, Any]] = {}
+    for job, program, proof in programs:
+        for row in facts.tool_rows(job, program, trace(program), proof or {}):
+            tool: Tool = row.tool
+            mine = found.setdefault(
+                tool.number,
+                {
+                    "tool": tool,
+                    "description": row.description,
+                    "programs": [],
+                    "bottom": 0.0,
+                    "stick_out": 0.0,
+                    "seconds": None,
+                },
+            )
+            mine["programs"].append(program.name)
+            mine["bottom"] = min(mine["bottom"], row.bottom)
+            mine["stick_out"] = max(mine["stick_out"], row.stick_out)
+            if row.seconds is not None:
+                mine["seconds"] = (mine["seconds"] or 0.0) + quantity(job) * row.seconds
+    return [found[number] for number in sorted(found)]
