@@ -59,7 +59,8 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
     code, out, _ = run("families", "--json")
     listing = json.loads(out)
     assert code == 0
-    assert [family["name"] for family in listing["families"]] == ["elliptic-gears"]
+    names = ["elliptic-gears", "four-bar", "geneva", "slider-crank", "spherical"]
+    assert [family["name"] for family in listing["families"]] == names
     assert {"step", "dxf", "stl", "3mf", "glb"} <= set(listing["formats"])
 
 
@@ -217,7 +218,7 @@ def test_a_program_with_comments_of_an_older_encoding_is_read(run: Run, tmp_path
     code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
     assert code == 2
     assert "old.nc: is no UTF-8 text" in err
-    program.write_text("G21\n#1 = 2\nM30\n")
+    program.write_text("G21\nG92 X0\nM30\n")
     code, _, err = run("verify", program, "--design", EXAMPLE, "--part", "gear")
     assert code == 2
     assert "old.nc: line 2: " in err

@@ -9,8 +9,8 @@ from mechwright.testing.imports import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 
-ON_DEMAND = ("mechwright.testing", "mechwright.algebra")
-"""Packages that only those import who use them, with what they need."""
+ON_DEMAND = ("mechwright.testing", "mechwright.algebra", "mechwright.laws.table")
+"""What only those import who use it, with what it needs."""
 
 
 def core_modules():

@@ -21,7 +21,7 @@ from mechwright_four_bar.pole_search import poles_of
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REQUIREMENTS = sorted(
     path.name
-    for path in EXAMPLES.glob("*.requirement.toml")
+    for path in EXAMPLES.glob("*-requirement.toml")
     if 'family = "four-bar"' in path.read_text(encoding="utf-8")
 )
 
@@ -48,7 +48,7 @@ def test_the_crank_rocker_has_its_poles_where_it_says():
     text = (EXAMPLES / "crank-rocker-three-poles.toml").read_text(encoding="utf-8")
     places = [complex(float(x), float(y)) for x, y in re.findall(r"\((-?[\d.]+), (-?[\d.]+)\)", text)]
     params = load(EXAMPLES / "crank-rocker-three-poles.toml", host()).params
-    asked = load_requirement(EXAMPLES / "crank-rocker-three-poles.requirement.toml", host()).table
+    asked = load_requirement(EXAMPLES / "crank-rocker-poles-requirement.toml", host()).table
     assert places == [complex(*pole) for pole in asked.poles]
     first = np.radians(float(re.search(r"crank angle of ([\d.]+) degrees", text)[1]))
     found = poles_of(bar_of(params), first + np.radians(asked.crank_turns))

@@ -1,0 +1,34 @@
+"""Every example can be read; that they build without a warning is tested family by family."""
+
+from pathlib import Path
+
+import pytest
+
+from mechwright.design import load
+from mechwright.findings import Severity
+from mechwright.host import host
+from mechwright.requirement import load_requirement
+
+EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
+REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]
+DESIGNS = [path for path in EXAMPLES if path not in REQUIREMENTS]
+
+
+def test_every_family_has_a_design_and_every_synthesis_a_requirement() -> None:
+    families = host().families
+    assert {load(path, host()).family.name for path in DESIGNS} == set(families)
+    able = {name for name, entry in families.items() if entry.item.requirements}
+    assert {load_requirement(path, host()).family.name for path in REQUIREMENTS} == able
+
+
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+def test_a_design_has_no_fault_and_says_what_it_is(path: Path) -> None:
+    design = load(path, host())
+    found = design.family.check(design.params)
+    assert [finding for finding in found if finding.severity is not Severity.NOTE] == []
+    assert path.read_text(encoding="utf-8").startswith("# ")
+
+
+@pytest.mark.parametrize("path", REQUIREMENTS, ids=lambda path: path.stem)
+def test_a_requirement_says_how_it_is_met(path: Path) -> None:
+    assert f"mechwright synthesize examples/{path.name}" in path.read_text(encoding="utf-8")
