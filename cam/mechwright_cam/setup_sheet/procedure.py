@@ -10,6 +10,7 @@ setter (N) and where a tool's tip does (Zn), a setter of height h gives
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mechwright.part import Bore
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.posts.offsets import setting_words
@@ -64,8 +65,9 @@ def steps(
 
 def origin_words(job: Job) -> str:
     """What X0 Y0 is."""
+    bored = any(isinstance(feature, Bore) and feature.centre == (0.0, 0.0) for feature in job.features)
     return {
-        "axis": "the axis of the part (its bore)",
+        "axis": "the axis of the part" + (" (its bore)" if bored else ""),
         "corner": "the lower left corner of the stock",
         "centre": "the centre of the stock",
     }[job.settings.origin]
