@@ -131,7 +131,7 @@ def _step(slope: Array, r: Array, damping: Array) -> Array:
     diagonal = np.einsum("nii->ni", normal)
     # What the residuals do not depend on still needs a pivot; it then stays where it is.
     ridge = damping[:, None] * diagonal + np.finfo(float).tiny + 1e-15 * diagonal.max(axis=1, keepdims=True)
-    gradient = np.einsum("nki,nk->ni", slope, r)
+    gradient = (r[:, None, :] @ slope)[:, 0]
     normal = normal + ridge[:, :, None] * np.eye(slope.shape[2])
     change = -np.linalg.solve(normal, gradient[:, :, None])[:, :, 0]
     length = np.abs(change).max(axis=1, keepdims=True)
