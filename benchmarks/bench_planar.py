@@ -45,7 +45,7 @@ def silent(done, what):
 
 def poles(rotations, *places):
     def run():
-        found, _ = through_poles(np.array(places), np.radians(rotations), 3000, 1, silent)
+        found, _ = through_poles(np.array(places), np.radians(rotations), 6000, 1, silent)
         return f"{len(found)} solutions"
 
     return run

@@ -6,10 +6,10 @@ import numpy as np
 
 from mechwright.findings import Finding, Severity
 from mechwright.motion import Scalar
+from mechwright.multistart import distinct
 from mechwright.synthesis import Progress, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION
-from mechwright_four_bar.multistart import distinct
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.path_search import PathSolution, search
 from mechwright_four_bar.requirements import PathRequirement

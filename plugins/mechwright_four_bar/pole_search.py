@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechwright.motion import Array
+from mechwright.multistart import distinct, least_squares
 from mechwright.planar import Plane
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.multistart import distinct, least_squares
 from mechwright_four_bar.pole_equations import PoleProblem
 
 RESIDUAL = 1e-10

@@ -1,10 +1,10 @@
 """Slider-cranks whose coupler has its acceleration pole in given places (seed document 000).
 
-In the slide frame the pole of a crank angle φ is G = a exp(i φ) (1 + 1/(i α - ω²)): two equations for each
-pole. With the crank's rotation between two poles given, a, c, e and the first angle are four unknowns for
-four equations; with free angles three poles give six equations for six unknowns. Very many random starts go
-through Levenberg and Marquardt's method at once, for each assembly by itself, so that no solution changes its
-assembly between poles. A solution is certified: its residual is bounded in interval arithmetic.
+Each pole is two equations. With the crank's rotation between two poles given, a, c, e and the first angle are
+four unknowns for four equations; with free angles three poles give six equations for six unknowns. Very many
+random starts go through Levenberg and Marquardt's method at once, for each assembly by itself, so that no
+solution changes its assembly between poles. A solution is certified: its residual is bounded in interval
+arithmetic.
 """
 
 import math
@@ -15,25 +15,27 @@ import numpy as np
 from flint import acb, arb, ctx
 
 from mechwright.motion import Array
-from mechwright.multistart import distinct, solve_all
+from mechwright.multistart import distinct, least_squares
 from mechwright.planar import Plane
 from mechwright_slider_crank.figures import least_transmission_angle
+from mechwright_slider_crank.pole_equations import PoleProblem
 
 ACCURACY = 1e-10
-"""Largest certified distance of a pole from its place, over the largest distance of a pole from the pivot."""
+"""mm, largest certified distance of a pole from its place. What misses it turns so barely that lengths
+rounded to a double move the pole that far."""
 
-_SAME = 1e-6
-"""Solutions closer than this, relative, are one."""
+_ROUGHLY_SAME, _SAME = 1e-6, 1e-8
+"""Solutions whose lengths (in shares) and angles (in radians) agree so far are one, before and after the last
+steps."""
 
-_FIRST, _NEAR, _POLISH = 30, 1e-2, 200
-"""Steps of every start, the residual that makes a start worth more, and how many more it then gets: most
-starts are lost at once, and badly conditioned solutions are slow at the end."""
+_STEPS = 100
+"""Most steps of a start: one in a thousand of those that arrive takes more."""
 
-_FAR_SHARE = 0.3
-"""Share of starts with a short crank and a slide line far off, where a few solutions lie."""
+_ARRIVED = 1e-26
+"""Sum of squares, over the farthest pole's distance, at which a start is done."""
 
-_ANGLES, _CHANCE = 90, 1.0
-"""Angles of a turn among which a start chooses, and how freely."""
+_NEAR, _LAST_STEPS = 1e-20, 8
+"""Sum of squares from which a start is a solution, and the steps that it then gets, to rounding."""
 
 _DIGITS = 40
 """Digits of the certificate: enough to leave no doubt about a residual of 1e-10."""
@@ -68,18 +70,6 @@ class Found:
         return least_transmission_angle(self.crank, self.rod, self.offset)
 
 
-def pole(phi: Array, crank: Array, rod: Array, offset: Array, branch: int) -> Plane:
-    """The acceleration pole in the slide frame; arrays broadcast; NaN where nothing can be assembled."""
-    pin = crank * np.exp(1j * phi)
-    t = offset - pin.imag
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        w = branch * np.sqrt(rod * rod - t * t)
-        turn = -pin.real / w
-        bend = (pin.imag + t * turn * turn) / w
-        place: Plane = pin * (1 + 1 / (1j * bend - turn * turn))
-    return place
-
-
 def through_poles(
     poles: Plane,
     rotations: Array,
@@ -107,81 +97,52 @@ def through_poles(
         start that ended with a crank that turns, mm.
     """
     scale = float(np.abs(poles).max())
-    wanted = poles / scale
+    turns = np.concatenate(([0.0], rotations)) if rotations.size else None
     found: list[Found] = []
     best = math.inf
     for number, branch in enumerate((1, -1)):
-        heard(number / 2, f"{starts} starts, slider {'ahead of' if branch > 0 else 'behind'} the crank pin")
-        equations = _equations(wanted, rotations, branch)
-        x, error = solve_all(equations, _random(wanted, rotations, branch, starts, seed), _FIRST)
-        turning = np.exp(x[:, 1]) > np.exp(x[:, 0]) + np.abs(x[:, 2])
-        best = min(best, scale * float(np.min(error, where=turning, initial=math.inf)))
-        near = x[turning & (error < _NEAR)]
-        x, error = solve_all(equations, near, _POLISH)
-        good = x[error < ACCURACY]
-        good[:, 3:] = np.angle(np.exp(1j * good[:, 3:]))
-        for row in good[distinct(good, _SAME)]:
-            solution = _certified(row, wanted, rotations, branch, scale)
-            if solution.residual <= ACCURACY * scale:
+        what = f"{starts} starts, slider {'ahead of' if branch > 0 else 'behind'} the crank pin"
+
+        def alive(part: float, number: int = number, what: str = what) -> None:
+            heard((number + part) / 2, what)
+
+        problem = PoleProblem(poles / scale, turns, branch)
+        rng = np.random.default_rng([seed, number])
+        x, costs = least_squares(
+            problem.residual, problem.starts(starts, rng), _STEPS, _ARRIVED, alive, problem.slopes
+        )
+        if costs.size:
+            best = min(best, scale * float(np.abs(problem.residual(x[np.argmin(costs)])).max()))
+        near = x[np.argsort(costs, kind="stable")][: np.count_nonzero(costs < _NEAR)]
+        near = near[distinct(_features(problem, near), _ROUGHLY_SAME)]
+        good, _ = least_squares(problem.residual, near, _LAST_STEPS, 0.0, slopes=problem.slopes)
+        for row in good[distinct(_features(problem, good), _SAME)]:
+            solution = _certified(problem, row, scale)
+            if solution.residual <= ACCURACY:
                 found.append(solution)
     heard(1.0, f"{len(found)} solutions")
     return sorted(found, key=lambda one: (-one.transmission, one.crank)), best
 
 
-def _angles(x: Array, rotations: Array) -> Array:
-    """Crank angles (n, poles) of rows of unknowns."""
-    if rotations.size == 0:
-        return x[:, 3:]
-    return x[:, 3:4] + np.concatenate(([0.0], rotations))
+def _features(problem: PoleProblem, x: Array) -> Array:
+    """Numbers in which equal solutions agree, whatever their angles' full turns."""
+    a, c, e = problem.lengths(x)
+    phi = problem.angles(x)
+    return np.column_stack((np.log(a), np.log(c), e / c, np.cos(phi), np.sin(phi)))
 
 
-def _equations(wanted: Plane, rotations: Array, branch: int) -> Callable[[Array], Array]:
-    """Residuals of rows (log a, log c, e, angles)."""
-
-    def residuals(x: Array) -> Array:
-        with np.errstate(over="ignore", invalid="ignore"):
-            a, c = np.exp(x[:, :1]), np.exp(x[:, 1:2])
-        miss = pole(_angles(x, rotations), a, c, x[:, 2:3], branch) - wanted
-        return np.concatenate((miss.real, miss.imag), axis=1)
-
-    return residuals
-
-
-def _random(wanted: Plane, rotations: Array, branch: int, starts: int, seed: int) -> Array:
-    """Starting points that can be assembled at every angle."""
-    rng = np.random.default_rng(seed)
-    # Most solutions have sizes like the poles' distances; some have a short crank beside a far slide line, or
-    # a rod that only just lets the crank round.
-    far = rng.random(starts) < _FAR_SHARE
-    a = np.exp(rng.normal(np.where(far, -3.0, -0.5), 1.0))
-    e = rng.choice((-1.0, 1.0), starts) * np.exp(rng.normal(np.where(far, 0.5, -1.0), 1.0))
-    c = (a + np.abs(e)) * (1 + np.exp(rng.normal(np.where(far, -4.0, -0.7), 1.5)))
-    grid = np.linspace(-math.pi, math.pi, _ANGLES, endpoint=False)
-    if rotations.size:
-        turned = grid[:, None] + np.concatenate(([0.0], rotations))
-        places = pole(turned, a[:, None, None], c[:, None, None], e[:, None, None], branch)
-        miss = np.abs(places - wanted).max(axis=2)[:, None]
-    else:
-        places = pole(grid, a[:, None], c[:, None], e[:, None], branch)
-        miss = np.abs(places[:, None] - wanted[:, None])
-    # The nearest angle, or by chance another one that is near: a pole's path may come by several times.
-    chance = np.exp(_CHANCE * rng.standard_exponential(miss.shape))
-    angles = grid[np.argmin(miss * chance, axis=2)]
-    return np.column_stack((np.log(a), np.log(c), e, angles))
-
-
-def _certified(row: Array, wanted: Plane, rotations: Array, branch: int, scale: float) -> Found:
+def _certified(problem: PoleProblem, row: Array, scale: float) -> Found:
     """The solution in mm, with the bound of its residual."""
-    a, c, e = scale * math.exp(row[0]), scale * math.exp(row[1]), scale * float(row[2])
-    angles = _angles(row[None], rotations)[0]
+    a, c, e = (scale * float(length) for length in problem.lengths(row))
+    first = row[3:] if problem.turns is None else np.repeat(row[3:], len(problem.turns))
+    turns = np.zeros(len(first)) if problem.turns is None else problem.turns
+    first = np.angle(np.exp(1j * first))
     with ctx.workdps(_DIGITS):
         worst = max(
-            _distance(a, c, e, branch, float(row[3]) if rotations.size else float(phi), turn, place * scale)
-            for phi, turn, place in zip(
-                angles, (0.0, *rotations) if rotations.size else (0.0,) * len(wanted), wanted, strict=True
-            )
+            _distance(a, c, e, problem.branch, float(phi), float(turn), complex(place) * scale)
+            for phi, turn, place in zip(first, turns, problem.targets, strict=True)
         )
-    return Found(a, c, e, branch, tuple(float(phi) for phi in angles), worst)
+    return Found(a, c, e, problem.branch, tuple(float(phi) for phi in first + turns), worst)
 
 
 def _distance(a: float, c: float, e: float, branch: int, phi: float, turn: float, place: complex) -> float:

@@ -51,7 +51,7 @@ class PolesRequirement(Parameters):
         description="Crank angle from the first pole to the second; [] with three poles: free angles.",
     )
     slide_direction: Degrees = Field(0.0, ge=-360, le=360, description="Direction of the slide.")
-    starts: int = Field(3000, ge=10, le=100_000, description="Random starting points for each assembly.")
+    starts: int = Field(6000, ge=10, le=100_000, description="Random starting points for each assembly.")
     seed: int = Field(1, ge=0, le=2**31, description="Seed of the random starting points.")
 
     @model_validator(mode="after")

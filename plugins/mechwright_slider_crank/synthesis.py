@@ -175,7 +175,7 @@ def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequireme
         f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; "
         f"{nearest}",
         best if math.isfinite(best) else None,
-        ACCURACY * max(math.hypot(*place) for place in wanted.poles),
+        ACCURACY,
         "mm",
         "move a pole, change the rotation, or give more starts",
     )

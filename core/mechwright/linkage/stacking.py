@@ -151,44 +151,57 @@ def stack(
     GeometryError
         There is no way; the message names the pairs that no layers keep apart.
     """
+    choices = [plate.layers or tuple(range(1, max(2, len(plates)))) for plate in plates]
+    allowed = {plate.name: set(choice) for plate, choice in zip(plates, choices, strict=True)}
+    # What lies below all plates of a spindle in every layering, as the ground does, need not be measured.
+    reached = {
+        spindle.name: [
+            plate
+            for plate in plates
+            if plate.name not in spindle.plates
+            and max(allowed[plate.name]) >= min(min(allowed[name]) for name in spindle.plates)
+        ]
+        for spindle in spindles
+    }
     close = _Closeness(plates, spindles, poses, clearance)
     apart = {frozenset(pair) for pair in neighbours}
     clashes = {
         frozenset((a.name, b.name))
         for number, a in enumerate(plates)
         for b in plates[:number]
-        if frozenset((a.name, b.name)) not in apart and close.plates(a, b)
+        if allowed[a.name] & allowed[b.name]
+        and frozenset((a.name, b.name)) not in apart
+        and close.plates(a, b)
     }
     blocked = {
         spindle.name: {
-            plate.name
-            for plate in plates
-            if plate.name not in spindle.plates and close.spindle(spindle, plate, spindle.radius)
+            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.radius)
         }
         for spindle in spindles
     }
     covered = {
         spindle.name: {
-            plate.name
-            for plate in plates
-            if plate.name not in spindle.plates and close.spindle(spindle, plate, spindle.head)
+            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.head)
         }
         for spindle in spindles
         if spindle.head > 0
     }
     best: tuple[tuple[float, ...], dict[str, int]] | None = None
-    choices = [plate.layers or tuple(range(1, len(plates))) for plate in plates]
+    place = {plate.name: number for number, plate in enumerate(plates)}
+    meeting = [(place[one], place[two]) for one, two in map(sorted, clashes)]
     for chosen in product(*choices):
-        layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
+        if best is not None and max(chosen) > best[0][0]:
+            continue
         if set(chosen) != set(range(max(chosen) + 1)):
             continue  # an empty layer only makes spindles longer
+        if any(chosen[one] == chosen[two] for one, two in meeting):
+            continue
+        layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
         if any(len({layer[name] for name in group}) > 1 for group in together):
             continue
         ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
         cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
         if best is not None and cost >= best[0]:
-            continue
-        if any(layer[one] == layer[two] for one, two in map(tuple, clashes)):
             continue
         if any(ends[s][0] <= layer[p] <= ends[s][1] for s, found in blocked.items() for p in found):
             continue
@@ -259,6 +272,8 @@ class _Closeness:
         self.poses = poses
         self.steps = {name: _step(points) for name, points in self.placed.items()}
         self.areas: dict[str, NDArray[np.object_]] = {}
+        self.axes: dict[str, tuple[NDArray[np.object_], Array]] = {}
+        self.room: dict[tuple[str, str], float] = {}
 
     def plates(self, one: Plate, two: Plate) -> bool:
         """Whether two plates come too close in plan."""
@@ -275,13 +290,18 @@ class _Closeness:
         """Whether a plate comes too close to a spindle of this radius."""
         import shapely
 
-        centre = np.array([[spindle.centre.real, spindle.centre.imag]])
-        axis = _placed(centre, self.poses[spindle.body])
-        distance = shapely.distance(self._area(plate.name), shapely.points(axis[:, 0])) - radius
-        if spindle.body == plate.body:
-            return bool(distance[0] < self.limit)
-        moved = self.steps[plate.name] + _step(axis)
-        return bool((distance < self.limit + moved / 2).any())
+        if spindle.name not in self.axes:
+            centre = np.array([[spindle.centre.real, spindle.centre.imag]])
+            axis = _placed(centre, self.poses[spindle.body])
+            self.axes[spindle.name] = shapely.points(axis[:, 0]), _step(axis)
+        points, step = self.axes[spindle.name]
+        if (spindle.name, plate.name) not in self.room:
+            if spindle.body == plate.body:
+                room = shapely.distance(self._area(plate.name)[:1], points[:1])
+            else:
+                room = shapely.distance(self._area(plate.name), points) - (self.steps[plate.name] + step) / 2
+            self.room[spindle.name, plate.name] = float(room.min())
+        return self.room[spindle.name, plate.name] - radius < self.limit
 
     def _area(self, name: str) -> "NDArray[np.object_]":
         import shapely
