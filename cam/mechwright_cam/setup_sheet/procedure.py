@@ -10,6 +10,7 @@ setter (N) and where a tool's tip does (Zn), a setter of height h gives
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mechwright.part import Bore
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.posts.offsets import setting_words
@@ -232,6 +233,9 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
             f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set "
             f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
         )
+    fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
+    if fits:
+        lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
         lines.append(
