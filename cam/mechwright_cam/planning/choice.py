@@ -73,8 +73,9 @@ def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: sha
 
 
 FILLS = 0.9
-"""A place that holds a disc of this share of a mill is as wide as the mill: a corner between walls that meet
-at 25 degrees or more holds no such disc of which a mill a little larger does not reach a part."""
+"""Share of a mill's radius. Where a disc of this size has room that a mill with its allowance cannot enter,
+the walls are parallel, and as far apart as the mill is wide: a corner of 25 degrees or more has no such room
+for mills from 1 mm and the usual allowance on."""
 
 
 def outside_mills(mills: list[Tool], part: shapely.Geometry, allowance: float) -> list[Tool]:
