@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 
 from mechwright.details import Detail
 from mechwright.errors import DesignError, GeometryError
+from mechwright.fits import Fit
 from mechwright.geometry import Arc, Loop, Outline
 from mechwright.geometry.segments import Point
 
@@ -54,13 +55,17 @@ class Profile:
 
 @dataclass(frozen=True)
 class Bore:
-    """A round hole."""
+    """A round hole.
+
+    With a ``fit`` the diameter is the middle of its tolerance; drawing and program note its limits.
+    """
 
     name: str
     centre: Point
     diameter: float
     top: float
     depth: float
+    fit: Fit | None = None
 
 
 @dataclass(frozen=True)

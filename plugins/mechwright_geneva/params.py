@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
+from mechwright.fits import HoleClass
 from mechwright.materials import MATERIALS, material
 from mechwright.parameters import Parameters
 from mechwright.units import Millimetres, RevPerMin, Unit
@@ -106,6 +107,13 @@ class GenevaParams(Parameters):
     crank_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the crank plate.")
     pin_diameter: Millimetres = Field(
         6.0, ge=0.5, le=150, description="Diameter of the rollers' pins, and of their holes in the crank."
+    )
+    pin_fit: Literal["none"] | HoleClass = Field(
+        "H7",
+        description=(
+            "ISO 286 class to the middle of which the pins' holes are made: F7 runs on an h6 pin, "
+            "H7 locates it, N7 and P7 hold it; none for the bare diameter."
+        ),
     )
     fixing: Millimetres = Field(
         4.0, ge=0, le=30, description="Diameter of the dowels that join stacked plates; 0 for none."

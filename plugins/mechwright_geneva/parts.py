@@ -9,19 +9,19 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from mechwright.fits import Fit, hole_fit
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Colour, Feature, Instance, Part, Pocket, Profile
 from mechwright_geneva.crank import crank_loop
-from mechwright_geneva.fixings import driver_dowels, hub_dowels, island_places, web_place
+from mechwright_geneva.fixings import driver_dowels, driver_room, hub_dowels, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import DRIVER, WHEEL, island_body, roller_body
 from mechwright_geneva.openings import driver_opening, wheel_opening
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
+from mechwright_geneva.tabs import tab_sites
 from mechwright_geneva.wheel import Wheel
 
 if TYPE_CHECKING:
@@ -29,11 +29,9 @@ if TYPE_CHECKING:
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
 
-_SITES = (0.25, 0.5, 0.75)
-"""Where tabs may stand on a piece of the rim, in shares of it: enough for four tabs even with three slots."""
 
-_TAB_ROOM = 4.0
-"""Least room for a tab on the rim, mm: twice a usual tab."""
+_RELIEVED = 0.1
+"""Share of its depth from which on a relief takes tabs."""
 
 
 @lru_cache(32)
@@ -94,6 +92,10 @@ def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point
             params.material,
             tuple(Instance(island_body(k), params.floor) for k in range(m.slots)),
             BRONZE,
+            (
+                *(Bore(f"dowel-{k}", place, params.fixing, 0, depth) for k, place in enumerate(own, start=1)),
+                Profile("outside", island, "outside", 0, depth, tab_sites(island)),
+            ),
         ),
     ]
 
@@ -105,14 +107,18 @@ def _driver(m: Mechanism) -> list[Part]:
     dowels = driver_dowels(m)
     loop, deviation = lock_loop(m)
     top = params.thickness + params.axial_gap
-    disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL)
+    # A relief leaves the disc's radius so gently that its ends still lock: tabs stand where it is deep.
+    deep = m.lock - _RELIEVED * (m.lock - driver_room(m)[1])
+    disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL, within=deep)
+    fit = _pin_fit(params)
     pins = [
         Bore(
             f"pin-{k + 1}",
             (m.crank * math.cos(k * m.pitch), m.crank * math.sin(k * m.pitch)),
-            params.pin_diameter,
+            params.pin_diameter if fit is None else fit.middle,
             0,
             params.crank_thickness,
+            fit,
         )
         for k in range(params.rollers)
     ]
@@ -122,9 +128,14 @@ def _driver(m: Mechanism) -> list[Part]:
     return [disc, crank]
 
 
+def _pin_fit(params: GenevaParams) -> Fit | None:
+    return None if params.pin_fit == "none" else hole_fit(params.pin_diameter, params.pin_fit)
+
+
 def _roller(m: Mechanism) -> Part:
-    """The roller with its stud, a part to buy or to turn."""
-    params = m.params
+    """The roller with its stud, a part to buy or to turn; a stud pressed in is shown as it then is."""
+    params, fit = m.params, _pin_fit(m.params)
+    shown = params.pin_diameter if fit is None else min(params.pin_diameter, fit.middle)
     foot = m.params.thickness - m.roller_length
     stud = params.axial_gap + params.crank_thickness
 
@@ -132,7 +143,7 @@ def _roller(m: Mechanism) -> Part:
         import cadquery as cq
 
         roller = cq.Solid.makeCylinder(m.roller, m.roller_length)
-        pin = cq.Solid.makeCylinder(params.pin_diameter / 2, stud, cq.Vector(0, 0, m.roller_length))
+        pin = cq.Solid.makeCylinder(shown / 2, stud, cq.Vector(0, 0, m.roller_length))
         fused = roller.fuse(pin)
         return fused if isinstance(fused, cq.Solid) else fused.Solids()[0]
 
@@ -152,6 +163,7 @@ def _plate(
     z: float,
     colour: Colour,
     more: "list[Pocket] | list[Bore] | None" = None,
+    within: float = math.inf,
 ) -> Part:
     """A plate with its opening, its dowel holes, and what else is cut into it, the outside last."""
     features: list[Feature] = []
@@ -171,7 +183,7 @@ def _plate(
         features.append(feature)
         if isinstance(feature, Bore):
             inner.append(_hole(feature.centre, feature.diameter))
-    features.append(Profile("outside", outer, "outside", 0, thickness, _tab_sites(outer)))
+    features.append(Profile("outside", outer, "outside", 0, thickness, tab_sites(outer, within)))
     return Part(
         name,
         Outline(outer, tuple(inner), deviation),
@@ -181,20 +193,6 @@ def _plate(
         colour,
         tuple(features),
     )
-
-
-def _tab_sites(outer: Loop) -> tuple[tuple[Point, float], ...]:
-    """Places on the rim between two concave arcs, where a tab's mark touches nothing that works.
-
-    Where slots are cut through, the rim is too short for that: a tab may stand anywhere.
-    """
-    sites = []
-    for segment in outer.segments:
-        if segment.tag == "rim":
-            x, y = segment.at(np.array(_SITES)).T
-            chord = math.dist(segment.start, segment.end) * (_SITES[1] - _SITES[0])
-            sites += [((float(a), float(b)), chord) for a, b in zip(x, y, strict=True)]
-    return tuple(sites) if all(chord >= _TAB_ROOM for _, chord in sites) else ()
 
 
 def keyway_angle(m: Mechanism) -> float:

@@ -58,7 +58,8 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
-    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part))]
+    fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
+    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits]
     return drawing(part.outline, "\n".join(text), curves, blind(part))
 
 

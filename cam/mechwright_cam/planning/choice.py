@@ -72,6 +72,26 @@ def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: sha
     return low
 
 
+FILLS = 0.9
+"""Share of a mill's radius. Where a disc of this size has room that a mill with its allowance cannot enter,
+the walls are parallel, and as far apart as the mill is wide: a corner of 25 degrees or more has no such room
+for mills from 1 mm and the usual allowance on."""
+
+
+def outside_mills(mills: list[Tool], part: shapely.Geometry, allowance: float) -> list[Tool]:
+    """The mills for an outside without those as wide as one of its slots, as far as a smaller one is there.
+
+    Such a mill would cut with its whole width, and leave no stock to finish on either wall.
+    """
+    return [m for m in mills if m is mills[-1] or not _fills_a_slot(m.radius, part, max(allowance, BIAS))]
+
+
+@lru_cache(maxsize=64)
+def _fills_a_slot(radius: float, part: shapely.Geometry, allowance: float) -> bool:
+    only = shapely.difference(closing(part, radius + allowance), closing(part, radius + BIAS))
+    return not shapely.is_empty(shapely.buffer(only, -FILLS * radius, quad_segs=8))
+
+
 def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
     """The middle of the largest circle in an opening, and its radius, mm."""
     line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)

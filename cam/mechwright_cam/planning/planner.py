@@ -356,6 +356,11 @@ class _Planner:
             f"stock {x1 - x0:.2f} x {y1 - y0:.2f} x {job.thickness:g} mm, from X{x0:.3f} Y{y0:.3f}",
             f"origin: {where[job.settings.origin]}, Z0 on top of the stock",
         ]
+        notes += [
+            f"{f.name}: Ø{f.fit.text}, made to {f.diameter:g}"
+            for f in job.features
+            if isinstance(f, Bore) and f.fit
+        ]
         drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
         if drills:
             below = max(point_length(drill) for drill in drills) + job.settings.breakthrough

@@ -21,6 +21,7 @@ from mechwright_cam.planning.choice import (
     SAME_REACH,
     entry_place,
     finishing_choice,
+    outside_mills,
     path_radius,
     roomy_mills,
     usable_mills,
@@ -115,7 +116,7 @@ def _mills(every: Job) -> list[Tool]:
             openings.append(feature)
         elif isinstance(feature, Profile):
             shape = shapely.Polygon(feature.loop.flatten())
-            roughing = _roughing(every, sensible, shape)
+            roughing = outside_mills(_roughing(every, sensible, shape), shape, every.settings.stock_to_leave)
             finest = _finest_needed(roughing, shape, every.settings.corner_mill)
             chosen += [roughing[0], *_between(every, roughing, finest, shape), finest]
     for feature in openings:

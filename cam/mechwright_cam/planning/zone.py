@@ -23,7 +23,7 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
+from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
 from mechwright_cam.planning.recess import reached_share, recess
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
@@ -190,6 +190,7 @@ def outer_zones(job: Job) -> list[Zone]:
         part = shapely.Polygon(feature.loop.flatten())
         # A mill too wide for the frame is as good as none, for finishing as well.
         mills = roughing_mills(job, usable_mills(job, -job.floor), part)
+        mills = outside_mills(mills, part, job.settings.stock_to_leave)
         clear, channel = _channel(job, part, mills[0])
         finisher = finishing_choice(mills, part)
 

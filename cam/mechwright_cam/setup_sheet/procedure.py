@@ -234,6 +234,9 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
             f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set "
             f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
         )
+    fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
+    if fits:
+        lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
         lines.append(

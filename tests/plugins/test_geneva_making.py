@@ -1,0 +1,152 @@
+"""How the parts are made: fits of the studs' holes, tabs, and cutters of grooves and slots."""
+
+import math
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import pytest
+import shapely
+
+from mechwright.design import load
+from mechwright.fits import hole_fit
+from mechwright.host import host
+from mechwright.part import Bore, Pocket, Profile
+from mechwright.program import FeedArc
+from mechwright_cam.exporters.dxf import part as drawing
+from mechwright_cam.job import make_job
+from mechwright_cam.library import load_library
+from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning.choice import outside_mills
+from mechwright_cam.setup_sheet.procedure import _run
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.parts import parts_of
+
+ROOT = Path(__file__).parents[2]
+LIBRARY = load_library(None)
+
+
+def example(name):
+    return load(ROOT / "examples" / f"geneva-{name}.toml", host())
+
+
+def parts(name, **changes):
+    params = GenevaParams(**{**example(name).params.model_dump(exclude_none=True), **changes})
+    return {part.name: part for part in parts_of(params)}
+
+
+def job_of(part, *tools, **changes):
+    settings = example("cycloidal").cam.model_copy(update={"tools": tools, **changes})
+    return make_job(part, settings, choose_tools(part, settings, LIBRARY))
+
+
+@pytest.mark.parametrize("name", ["F7", "H7", "N7", "P7"])
+def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
+    crank = parts("cycloidal", pin_fit=name)["crank"]
+    (pin,) = [f for f in crank.features if isinstance(f, Bore) and f.name == "pin-1"]
+    fit = hole_fit(6, name)
+    assert pin.diameter == fit.middle != 6
+    text = drawing(crank).decode("cp1252")
+    assert f"pin-1: %%c{fit.text}" in text
+    job = job_of(crank)
+    program = plan(job)
+    assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in program.notes
+    assert any(f"pin-1 ⌀{fit.text}" in line for line in _run(job, "G54", "crank.ngc").lines)
+    ((tool, moves),) = [
+        (section.tool, operation.moves)
+        for section in program.sections
+        for operation in section.operations
+        if operation.name == "pin-1: finish"
+    ]
+    widest = max(2 * (math.hypot(m.i, m.j) + tool.radius) for m in moves if isinstance(m, FeedArc))
+    assert fit.lower < widest - 6 < fit.upper
+
+
+def test_without_a_fit_the_hole_is_bare():
+    crank = parts("cycloidal", pin_fit="none")["crank"]
+    (pin,) = [f for f in crank.features if isinstance(f, Bore) and f.name == "pin-1"]
+    assert (pin.diameter, pin.fit) == (6, None)
+
+
+def test_a_stud_pressed_in_does_not_stand_in_the_crank():
+    for name, diameter in (("P7", 5.986), ("H7", 6)):
+        box = parts("cycloidal", pin_fit=name)["roller"].build().BoundingBox()
+        assert box.xmax == pytest.approx(5, abs=1e-6)
+        volume = parts("cycloidal", pin_fit=name)["roller"].build().Volume()
+        assert volume == pytest.approx(math.pi * (25 * 10 + diameter**2 / 4 * 8.5), rel=1e-6)
+
+
+DESIGNS = {
+    "cycloidal": partial(parts, "cycloidal"),
+    "prototype": partial(parts, "prototype"),
+    "straight": partial(parts, "straight"),
+    "backed": partial(parts, "cycloidal", construction="backed", fixing=3),
+    "two rollers": partial(parts, "straight", rollers=2),
+}
+
+
+@pytest.mark.parametrize("design", DESIGNS.values(), ids=DESIGNS)
+def test_no_tab_stands_on_a_wall_that_works(design):
+    met = 0
+    for part in design().values():
+        if part.outline is None:
+            continue
+        (outside,) = [f for f in part.features if isinstance(f, Profile) and f.side == "outside"]
+        working = [s for s in outside.loop.segments if s.tag not in ("rim", "relief", "crank", "hub")]
+        job = make_job(part, example("cycloidal").cam, LIBRARY.tools)
+        assert len(job.tabs) == 4
+        plate = shapely.Polygon(outside.loop.flatten())
+        for tab in job.tabs:
+            assert tab.width >= 0.8
+            assert shapely.intersects(tab.shape, plate)
+            for segment in working:
+                assert not shapely.intersects(tab.shape, shapely.LineString(segment.flatten(0.01)))
+                met += 1
+    assert met >= 8
+
+
+def test_tabs_of_the_disc_are_in_the_deep_of_its_relief():
+    disc = parts("cycloidal")["locking-disc"]
+    sites = disc.features[-1].tab_sites
+    assert len(sites) >= 6
+    assert max(math.hypot(*place) for place, _ in sites) < 66 < 70
+
+
+def cutters(part, *tools):
+    """Operations of groove 1 and of the outside, with the diameters of their cutters."""
+    job = job_of(part, *tools)
+    return {
+        operation.name: section.tool.diameter
+        for section in plan(job).sections
+        for operation in section.operations
+        if operation.name.startswith(("groove-1", "outside"))
+    }
+
+
+def one_groove():
+    wheel = parts("prototype")["wheel"]
+    keep = [f for f in wheel.features if not (isinstance(f, Pocket) and f.name != "groove-1")]
+    return replace(wheel, machined=tuple(keep))
+
+
+def test_a_groove_is_roughed_and_both_walls_finished():
+    used = {name: d for name, d in cutters(one_groove()).items() if name.startswith("groove")}
+    assert {"groove-1: rough", "groove-1: finish"} <= set(used)
+    assert max(used.values()) <= 0.7 * 10.05
+
+
+def test_a_groove_is_cut_at_full_width_only_if_asked():
+    used = cutters(one_groove(), "mill-10", "mill-6", "drill-8", "spot-6")
+    assert used["groove-1: finish"] == 6
+    used = cutters(one_groove(), "mill-10", "drill-10")
+    assert used["groove-1: finish"] == 10
+
+
+def test_a_straight_slot_is_not_cut_at_full_width():
+    wheel = parts("straight")["wheel"]
+    used = cutters(wheel)
+    assert used["outside: finish"] < 8 < used["outside: rough"]
+    shape = shapely.Polygon(wheel.outline.outer.flatten())
+    mills = [LIBRARY.get(f"mill-{d}") for d in (16, 8, 6)]
+    assert [m.diameter for m in outside_mills(mills, shape, 0.2)] == [16, 6]
+    assert outside_mills(mills[:2], shape, 0.2) == mills[:2]
