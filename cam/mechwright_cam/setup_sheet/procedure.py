@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
+from mechwright_cam.nest import Nest
 from mechwright_cam.posts.offsets import setting_words
 from mechwright_cam.svg import signed
 
@@ -65,7 +66,9 @@ def steps(
 def origin_words(job: Job) -> str:
     """What X0 Y0 is."""
     return {
-        "axis": "the axis of the part (its bore)",
+        "axis": f"the axis of {job.part.placed[0].label} (its bore)"
+        if isinstance(job.part, Nest)
+        else "the axis of the part (its bore)",
         "corner": "the lower left corner of the stock",
         "centre": "the centre of the stock",
     }[job.settings.origin]
