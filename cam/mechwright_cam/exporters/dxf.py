@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-import shapely
 from ezdxf import units
 from ezdxf._options import options
 from ezdxf.filemanagement import new
@@ -25,9 +24,9 @@ from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.exporters.curves import cubic, vertices
 from mechwright_cam.exporters.formats import Curves
-from mechwright_cam.nest import Nest, outlines_of
 
 if TYPE_CHECKING:
+    import shapely
     from ezdxf.document import Drawing
     from ezdxf.layouts.layout import Modelspace
 
@@ -59,6 +58,8 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     GeometryError
         The part has no outline, or a segment cannot be had in the wanted curves.
     """
+    from mechwright_cam.nest import Nest, outlines_of
+
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
     text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part))]
@@ -81,6 +82,8 @@ def drawing(
     axes: Sequence[Point] = ((0.0, 0.0),),
 ) -> bytes:
     """The drawing of plates and of the recesses in them, with lines of text below."""
+    import shapely
+
     with _fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
@@ -108,7 +111,7 @@ def drawing(
     return stream.getvalue().encode(document.output_encoding)
 
 
-def _recess(space: "Modelspace", feature: Feature, plates: shapely.Geometry, curves: Curves) -> None:
+def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", curves: Curves) -> None:
     """The edges of a recess, cut off where it is open."""
     match feature:
         case Bore():
