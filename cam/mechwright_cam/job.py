@@ -15,6 +15,7 @@ cut
 Planner and proof both start from a job and from nothing else, so that the proof does not depend on the plan.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -25,8 +26,10 @@ import shapely
 from mechwright.details import Detail, moved
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, Part, Profile
 from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright_cam.nest import Nest, moved_feature, outlines_of
+from mechwright_cam.toolpath.offsets import filled
 
 TAB_REACH = 1.0
 """How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
@@ -63,7 +66,7 @@ class Job:
     Parameters
     ----------
     part
-        A plate part.
+        A plate part, or a nest of several.
     settings
         The table ``[cam]``.
     tools
@@ -106,30 +109,17 @@ class Job:
         return -self.thickness - self.settings.breakthrough
 
     @cached_property
-    def target(self) -> shapely.Polygon:
-        """The finished part seen from above."""
-        assert self.part.outline is not None  # noqa: S101 - make_job refuses the others
-        return shapely.transform(
-            self.part.outline.polygon(), lambda points: points - (self.origin[0], self.origin[1])
-        )
+    def target(self) -> shapely.Geometry:
+        """The finished part seen from above; of a nest all parts."""
+        plates = [outline.polygon() for outline in outlines_of(self.part)]
+        whole = plates[0] if len(plates) == 1 else shapely.MultiPolygon(plates)
+        return shapely.transform(whole, lambda points: points - (self.origin[0], self.origin[1]))
 
     @cached_property
     def features(self) -> tuple[Feature, ...]:
         """The part's features in work coordinates."""
         x, y = -self.origin[0], -self.origin[1]
-        placed: list[Feature] = []
-        for feature in self.part.features:
-            match feature:
-                case Bore():
-                    centre = (feature.centre[0] + x, feature.centre[1] + y)
-                    placed.append(replace(feature, centre=centre))
-                case Profile():
-                    sites = tuple(((site[0] + x, site[1] + y), width) for site, width in feature.tab_sites)
-                    placed.append(replace(feature, loop=feature.loop.moved(x, y), tab_sites=sites))
-                case Pocket():
-                    islands = tuple(loop.moved(x, y) for loop in feature.islands)
-                    placed.append(replace(feature, boundary=feature.boundary.moved(x, y), islands=islands))
-        return tuple(placed)
+        return tuple(moved_feature(feature, x, y) for feature in self.part.features)
 
     @cached_property
     def details(self) -> tuple[Detail, ...]:
@@ -182,6 +172,11 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
         (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
     )
     if settings.hold.method == "bore":
+        if isinstance(part, Nest):
+            raise DesignError(
+                f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
+                'cannot be clamped one by one; use method = "tabs", or no cam.nest'
+            )
         return replace(placed, clamp=_clamp(placed))
     return replace(placed, tabs=_tabs(placed, max(mx, my)))
 
@@ -214,7 +209,7 @@ def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
             ring = shapely.LinearRing(feature.loop.flatten())
             width = hold.tab_width or _tab_width(feature, hold.tabs)
             for at in _tab_places(feature, ring, hold.tabs, width):
-                shape = _tab_shape(ring, at, width, reach)
+                shape = _tab_shape(ring, at, width, _frame_at(job.part, ring, at, width, reach))
                 tabs.append(Tab(shape, hold.tab_height - job.thickness, width))
     return tuple(tabs)
 
@@ -255,17 +250,33 @@ def _tab_places(feature: Profile, ring: shapely.LinearRing, count: int, width: f
     return sorted(chosen)
 
 
-def _tab_shape(ring: shapely.LinearRing, at: float, width: float, reach: float) -> shapely.Polygon:
-    """A rectangle across the wall: TAB_REACH inwards, ``reach`` outwards, ``width`` wide."""
-    step = min(width / 2, ring.length / 100)
+def _frame_at(part: Part, ring: shapely.LinearRing, at: float, width: float, reach: float) -> float:
+    """How far a tab reaches outwards: to the stock's edge, in a nest to the middle between two parts."""
+    if not isinstance(part, Nest):
+        return reach
+    far = float(shapely.Polygon(ring).length)
+    x, y, (tx, ty) = _across(ring, at, min(width / 2, ring.length / 100))
+    way = shapely.LineString([(x, y), (x + far * ty, y - far * tx)])
+    halfway = filled(shapely.buffer(shapely.Polygon(ring), part.gap / 2))
+    inside = shapely.get_coordinates(shapely.intersection(way, halfway))
+    return float(max(math.hypot(px - x, py - y) for px, py in inside.tolist()))
+
+
+def _across(ring: shapely.LinearRing, at: float, step: float) -> tuple[float, float, Point]:
+    """A point of a ring, and the unit vector along it there."""
     a = ring.interpolate((at - step) % ring.length)
     b = ring.interpolate((at + step) % ring.length)
     middle = ring.interpolate(at)
     length = a.distance(b)
-    tx, ty = (b.x - a.x) / length, (b.y - a.y) / length
+    return middle.x, middle.y, ((b.x - a.x) / length, (b.y - a.y) / length)
+
+
+def _tab_shape(ring: shapely.LinearRing, at: float, width: float, reach: float) -> shapely.Polygon:
+    """A rectangle across the wall: TAB_REACH inwards, ``reach`` outwards, ``width`` wide."""
+    x, y, (tx, ty) = _across(ring, at, min(width / 2, ring.length / 100))
     nx, ny = ty, -tx  # outwards of a counter-clockwise ring
     corners = [
-        (middle.x + along * tx + out * nx, middle.y + along * ty + out * ny)
+        (x + along * tx + out * nx, y + along * ty + out * ny)
         for along, out in (
             (-width / 2, -TAB_REACH),
             (width / 2, -TAB_REACH),

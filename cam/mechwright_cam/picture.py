@@ -12,6 +12,7 @@ from mechwright.sections import sections
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam import svg
 from mechwright_cam.job import Job, Tab
+from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.trace import Stroke, Traced, trace
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#56b4e9", "#5d5d5d")
@@ -104,15 +105,27 @@ def _thin(job: Job) -> float:
 
 
 def _part(job: Job, frame: Frame) -> str:
-    outline = job.part.outline
-    assert outline is not None  # noqa: S101 - a job is about a plate
-    placed = outline.moved(-job.origin[0], -job.origin[1])
-    data = "".join(svg.path(loop.flatten(DETAIL), close=True) for loop in placed.loops)
+    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in outlines_of(job.part)]
+    data = "".join(svg.path(loop.flatten(DETAIL), close=True) for one in placed for loop in one.loops)
     plate = svg.element(
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
-    return plate + _gone(job, frame) + _recesses(job, frame)
+    return plate + _gone(job, frame) + _recesses(job, frame) + _names(job, frame)
+
+
+def _names(job: Job, frame: Frame) -> str:
+    """In a nest, which part is which."""
+    if not isinstance(job.part, Nest):
+        return ""
+    words = []
+    for one in job.part.placed:
+        middle = one.outline.polygon().representative_point()
+        x, y = middle.x - job.origin[0], middle.y - job.origin[1]
+        if abs(y) < frame.letters and x > 0:  # below the axis X
+            y -= 1.6 * frame.letters
+        words.append(_tag(x, y, one.label, frame))
+    return "".join(words)
 
 
 def _gone(job: Job, frame: Frame) -> str:
@@ -153,8 +166,11 @@ def _holding(job: Job, frame: Frame) -> str:
 
 def _outer_end(job: Job, tab: Tab) -> Point:
     """A place for a tab's name: on the tab, towards the frame."""
-    middle, centre = job.target.centroid, tab.shape.centroid
+    own = min(shapely.get_parts(job.target), key=lambda part: float(shapely.distance(part, tab.shape)))
+    middle, centre = own.centroid, tab.shape.centroid
     far = max(tab.shape.exterior.coords, key=lambda p: math.hypot(p[0] - middle.x, p[1] - middle.y))
+    if isinstance(job.part, Nest):  # the neighbour's tab may end where this one does
+        return centre.x, centre.y
     return (centre.x + 2 * far[0]) / 3, (centre.y + 2 * far[1]) / 3
 
 
@@ -246,11 +262,12 @@ def _dimensions(job: Job, frame: Frame) -> str:
     x0, y0, x1, y1 = job.stock
     px0, py0, px1, py1 = job.target.bounds
     step = 1.7 * frame.letters
+    what = "parts" if isinstance(job.part, Nest) else "part"
     rows = [
         _level((x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}", frame),
-        _level((px0, px1), y1 + step, y1, f"part {px1 - px0:.2f}", frame),
+        _level((px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}", frame),
         _upright((y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}", frame),
-        _upright((py0, py1), x1 + step, x1, f"part {py1 - py0:.2f}", frame),
+        _upright((py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}", frame),
     ]
     # How far the origin is from the edges that are probed, unless it is on them.
     if x0 < 0:

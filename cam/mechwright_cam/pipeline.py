@@ -21,10 +21,12 @@ from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
 from mechwright_cam.limits import check_machine
+from mechwright_cam.nest import Nest
+from mechwright_cam.nesting import arranged
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import Proof, cut_through, prove, read
 from mechwright_cam.proof.simulation import simulate
-from mechwright_cam.reach import cut_outline
+from mechwright_cam.reach import cut_outlines
 from mechwright_cam.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.setup_sheet.raster import simulated_view
 from mechwright_cam.setups import lay_out_setups, sides, turned_shape
@@ -66,21 +68,36 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         One for each part, and one more where the underside is milled as well; fewer if a finding is an
         error.
     """
-    _check_part_names(design, parts)
     library = _library(design)
+    cut_parts = arranged(design, parts, library)
+    _check_part_names(design, (*parts, *cut_parts))
     findings: list[Finding] = []
     jobs: list[Job] = []
-    for part in parts:
+    for part in cut_parts:
         laid, found = lay_out_setups(part, design.cam_of(part.name), library)
         found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
     tops = [job for job in jobs if job.side == "top"]
-    if len(tops) == len(parts):
-        cut = {job.part.name: _in_part_coordinates(cut_outline(job), job) for job in tops}
-        findings += design.family.check_cut(design.params, cut)
+    if len(tops) == len(cut_parts):
+        copies: dict[str, list[shapely.Polygon]] = {}
+        for job in tops:
+            for name, outline in _cut_parts(job):
+                copies.setdefault(name, []).append(outline)
+        # The copies of a part in a nest may be left different by their neighbours: the family sees all.
+        for number in range(max(map(len, copies.values()), default=0)):
+            cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
+            findings += [f for f in design.family.check_cut(design.params, cut) if f not in findings]
     return findings, jobs
+
+
+def _cut_parts(job: Job) -> list[tuple[str, shapely.Polygon]]:
+    """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
+    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job)]
+    if isinstance(job.part, Nest):
+        return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
+    return [(job.part.name, cut[0])]
 
 
 def _library(design: Design) -> Library:
@@ -185,6 +202,12 @@ def dialect_of(post: Post) -> Dialect:
         ) from None
 
 
+def cut_parts(design: Design) -> dict[str, Part]:
+    """Every part of a design by its name, and the nests of its plates."""
+    parts = design.family.parts(design.params)
+    return {part.name: part for part in (*parts, *arranged(design, plates(parts), _library(design)))}
+
+
 def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
     """Add drawing, program, tool table, setup sheet and proof of every plate part to ``output``.
 
@@ -200,7 +223,8 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     made: list[Machined] = []
     for place, job in enumerate(jobs):
         made.append(machine(_after(made[-1], job, post) if job.side == "underside" else job, post, place))
-    for part in parts:
+    nests = [job.part for job in jobs if isinstance(job.part, Nest)]
+    for part in (*parts, *nests):
         output.add(f"{part.name}{drawing.suffix}", drawing.part(part))
     for item in made:
         for stem, text in item.files.items():
@@ -252,8 +276,9 @@ def verify(
         except (KeyError, PluginError):
             known = sorted({*DIALECTS, *(host.posts if host else ())})
             raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
-    _check_part_names(design, plates(design.family.parts(design.params)))
     library, cam = _library(design), design.cam_of(part.name)
+    parts = plates(design.family.parts(design.params))
+    _check_part_names(design, (*parts, *arranged(design, parts, library)))
     _, under = sides(part)
     if underside or under:
         jobs, found = lay_out_setups(part, cam, library)

@@ -152,16 +152,16 @@ def opening_keep(opening: shapely.Polygon, margin: float) -> shapely.Polygon:
     return shapely.box(x0 - margin, y0 - margin, x1 + margin, y1 + margin).difference(opening)
 
 
-def cut_outline(job: Job) -> shapely.Polygon:
+def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     """The target as the chosen cutters leave it: corners that none of them reaches stay filled.
 
-    Each wall is judged with the cutter that finishes it, the one :func:`plan` takes.
+    There is one for the part, or one for each part of a nest, work coordinates. Each wall is judged with the
+    cutter that finishes it, the one :func:`plan` takes.
     """
     from mechwright_cam.planning.zone import inner_zones, outer_zones
 
-    outside: shapely.Geometry = shapely.Polygon(job.target.exterior)
-    for zone in outer_zones(job)[:1]:
-        outside = closing(zone.wall, zone.finisher.radius)
+    plates = polygons(job.target)
+    walls = [closing(zone.wall, zone.finisher.radius) for zone in outer_zones(job) if zone.tabs is None]
     holes = [
         shapely.Point(bore.centre).buffer(bore.diameter / 2, quad_segs=256)
         for bore in job.features
@@ -171,5 +171,17 @@ def cut_outline(job: Job) -> shapely.Polygon:
         if zone.bottom == job.floor:
             radius = zone.finisher.radius
             holes.append(grow(grow(zone.clear, -radius, PRECISION), radius, PRECISION))
-    cut = outside.difference(shapely.union_all(holes)) if holes else outside
-    return max(polygons(cut), key=lambda part: float(part.area))
+    opened = shapely.union_all(holes)
+    cut = []
+    for plate in plates:
+        own = [wall for wall in walls if shapely.intersects(wall, plate)]
+        outside = own[0] if own else shapely.Polygon(plate.exterior)
+        left = polygons(outside.difference(opened) if holes else outside)
+        cut.append(max(left, key=lambda part: float(part.area)))
+    return tuple(cut)
+
+
+def cut_outline(job: Job) -> shapely.Polygon:
+    """The only one of :func:`cut_outlines`, of a job that is no nest."""
+    (outline,) = cut_outlines(job)
+    return outline

@@ -4,6 +4,7 @@ They are cut into the top face when the shape is made. A solid does not show the
 by a note; program and proof do. Depths are measured downwards from the top face.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -73,14 +74,18 @@ class Engraving:
 Detail = Chamfer | Thread | Engraving
 
 
-def moved(detail: Detail, x: float, y: float) -> Detail:
-    """The detail shifted, mm."""
+def moved(detail: Detail, x: float, y: float, angle: float = 0.0) -> Detail:
+    """The detail turned about the origin, rad, then shifted, mm."""
+    c, s = math.cos(angle), math.sin(angle)
+
+    def at(point: Point) -> Point:
+        return c * point[0] - s * point[1] + x, s * point[0] + c * point[1] + y
+
     match detail:
         case Chamfer():
-            return Chamfer(detail.name, detail.loop.moved(x, y), detail.side, detail.width)
+            return Chamfer(detail.name, detail.loop.moved(x, y, angle), detail.side, detail.width)
         case Thread():
-            centre = (detail.centre[0] + x, detail.centre[1] + y)
-            return Thread(detail.name, centre, detail.diameter, detail.pitch, detail.depth)
+            return Thread(detail.name, at(detail.centre), detail.diameter, detail.pitch, detail.depth)
         case Engraving():
-            strokes = tuple(tuple((px + x, py + y) for px, py in stroke) for stroke in detail.strokes)
+            strokes = tuple(tuple(at(point) for point in stroke) for stroke in detail.strokes)
             return Engraving(detail.name, strokes, detail.depth, detail.width)

@@ -6,7 +6,7 @@ from typing import Any
 
 from mechwright.errors import DesignError
 
-WHOLE_JOB = ("control", "tool_library", "post")
+WHOLE_JOB = ("control", "tool_library", "post", "nest")
 """Keys of ``[cam]`` that hold for the whole job: one control reads its programs, from one set of tools."""
 
 _EXCLUSIVE = ({"margin"}, {"length", "width"})

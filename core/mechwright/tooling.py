@@ -112,6 +112,24 @@ class Stock(Parameters):
         return self
 
 
+class Nesting(Parameters):
+    """Several parts of one material and thickness on one plate; without the table each has its own."""
+
+    name: str = Field(
+        "nest", min_length=1, max_length=40, description="Name of the nest, and stem of its files."
+    )
+    parts: tuple[str, ...] = Field(
+        (), description="Names of the parts; empty: all that go together, one nest per plate thickness."
+    )
+    gap: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=300,
+        description="Between the parts; by default two of the widest channels and 3 mm.",
+    )
+    turn: bool = Field(True, description="Parts may be turned by 90 degrees to save stock.")
+
+
 class Hold(Parameters):
     """How the part is held while its outside is cut."""
 
@@ -206,6 +224,7 @@ class CamSettings(Parameters):
     measured: Measured = Field(Measured(), description="Offsets as measured.")
     stock: Stock = Field(Stock(), description="The plate.")
     hold: Hold = Field(Hold(), description="How the part is held.")
+    nest: Nesting | None = Field(None, description="A table [cam.nest] puts several parts on one plate.")
     climb: bool = Field(True, description="Climb milling; false cuts conventionally.")
     coolant: Literal["flood", "mist", "off"] = Field("flood", description="Coolant while cutting.")
     clearance: Millimetres = Field(

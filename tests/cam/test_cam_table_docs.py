@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 from pydantic import BaseModel
 
@@ -15,6 +16,10 @@ PAGE = (ROOT / "docs" / "cam-table.md").read_text(encoding="utf-8")
 def fields(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, object, str]]:
     for key, field in model.model_fields.items():
         default = field.get_default(call_default_factory=True)
+        inner = [kind for kind in get_args(field.annotation) if isinstance(kind, type)]
+        for kind in inner:  # a table that may be left out
+            if issubclass(kind, BaseModel):
+                yield from fields(kind, f"{prefix}{key}.")
         if isinstance(default, BaseModel):
             yield from fields(type(default), f"{prefix}{key}.")
         else:

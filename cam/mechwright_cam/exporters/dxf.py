@@ -17,6 +17,7 @@ from ezdxf.filemanagement import new
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
+from mechwright.geometry.segments import Point
 from mechwright.geometry.trim import stretches
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.sections import blind
@@ -25,6 +26,7 @@ from mechwright_cam.exporters.curves import cubic, vertices
 from mechwright_cam.exporters.formats import Curves
 
 if TYPE_CHECKING:
+    import shapely
     from ezdxf.document import Drawing
     from ezdxf.layouts.layout import Modelspace
 
@@ -56,11 +58,14 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     GeometryError
         The part has no outline, or a segment cannot be had in the wanted curves.
     """
+    from mechwright_cam.nest import Nest, outlines_of
+
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
     fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
     text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits]
-    return drawing(part.outline, "\n".join(text), curves, blind(part))
+    axes = [(one.x, one.y) for one in part.placed] if isinstance(part, Nest) else [(0.0, 0.0)]
+    return drawing(outlines_of(part), "\n".join(text), curves, blind(part), axes)
 
 
 def _note(feature: Feature) -> str:
@@ -71,9 +76,15 @@ def _note(feature: Feature) -> str:
 
 
 def drawing(
-    outline: Outline, text: str = "", curves: Curves = "spline", recesses: Sequence[Feature] = ()
+    outlines: Sequence[Outline],
+    text: str = "",
+    curves: Curves = "spline",
+    recesses: Sequence[Feature] = (),
+    axes: Sequence[Point] = ((0.0, 0.0),),
 ) -> bytes:
-    """The drawing of an outline and of the recesses in it, with lines of text below."""
+    """The drawing of plates and of the recesses in them, with lines of text below."""
+    import shapely
+
     with _fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
@@ -81,14 +92,17 @@ def drawing(
         for name, (colour, linetype, weight) in LAYERS.items():
             document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
         space = document.modelspace()
-        _loop(space, outline.outer, "OUTLINE", curves)
-        for loop in outline.inner:
-            _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
+        for outline in outlines:
+            _loop(space, outline.outer, "OUTLINE", curves)
+            for loop in outline.inner:
+                _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
+        plates = shapely.union_all([outline.polygon() for outline in outlines])
         for feature in recesses:
-            _recess(space, feature, outline, curves)
-        _centres(space, outline, [f for f in recesses if isinstance(f, Bore)])
-        _frame(document, outline)
-        x0, y0, _, _ = outline.bounds
+            _recess(space, feature, plates, curves)
+        inner = [loop for outline in outlines for loop in outline.inner]
+        _centres(space, inner, [f for f in recesses if isinstance(f, Bore)], axes)
+        x0, y0, x1, y1 = plates.bounds
+        _frame(document, (x0, y0, x1, y1))
         for row, line in enumerate(text.splitlines()):
             place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
             space.add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
@@ -98,7 +112,7 @@ def drawing(
     return stream.getvalue().encode(document.output_encoding)
 
 
-def _recess(space: "Modelspace", feature: Feature, outline: Outline, curves: Curves) -> None:
+def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", curves: Curves) -> None:
     """The edges of a recess, cut off where it is open."""
     match feature:
         case Bore():
@@ -109,7 +123,7 @@ def _recess(space: "Modelspace", feature: Feature, outline: Outline, curves: Cur
             loops = (feature.boundary, *feature.islands)
     attributes = {"layer": "POCKET"}
     for loop in loops:
-        edges = stretches(loop, outline.polygon())
+        edges = stretches(loop, plates)
         if edges == list(loop.segments):
             _loop(space, loop, "POCKET", curves)
             continue
@@ -160,20 +174,24 @@ def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], 
             )
 
 
-def _centres(space: "Modelspace", outline: Outline, blind_bores: Sequence[Bore]) -> None:
-    bores = [loop.segments[0] for loop in outline.inner if loop.is_circle]
+def _centres(
+    space: "Modelspace", inner: Sequence[Loop], blind_bores: Sequence[Bore], axes: Sequence[Point]
+) -> None:
+    bores = [loop.segments[0] for loop in inner if loop.is_circle]
     crosses = {arc.centre: arc.radius for arc in bores if isinstance(arc, Arc)}
     crosses |= {bore.centre: bore.diameter / 2 for bore in blind_bores if bore.centre not in crosses}
-    crosses.setdefault((0.0, 0.0), OVERHANG)
+    for axis in axes:
+        if not any(math.dist(axis, centre) <= TOLERANCES.closure for centre in crosses):
+            crosses[axis] = OVERHANG
     for (x, y), radius in crosses.items():
         arm = radius + OVERHANG
         space.add_line((x - arm, y), (x + arm, y), dxfattribs={"layer": "CENTRE"})
         space.add_line((x, y - arm), (x, y + arm), dxfattribs={"layer": "CENTRE"})
 
 
-def _frame(document: "Drawing", outline: Outline) -> None:
+def _frame(document: "Drawing", bounds: tuple[float, float, float, float]) -> None:
     """What a viewer shows when the file is opened."""
-    x0, y0, x1, y1 = outline.bounds
+    x0, y0, x1, y1 = bounds
     document.modelspace().reset_extents((x0, y0, 0.0), (x1, y1, 0.0))
     document.set_modelspace_vport(1.2 * max(y1 - y0, x1 - x0), center=((x0 + x1) / 2, (y0 + y1) / 2))
 

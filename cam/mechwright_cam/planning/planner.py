@@ -13,6 +13,7 @@ from mechwright.part import Bore
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
+from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.details import plan_detail
@@ -32,7 +33,7 @@ from mechwright_cam.planning.holes import (
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
-from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_zones
+from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_walls
 from mechwright_cam.threads import together
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
@@ -181,9 +182,8 @@ class _Planner:
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:
         check_clamp(self.job)
-        zones = outer_zones(self.job)
         before = len(self.steps)
-        if zones:
+        for zones in outer_walls(self.job):
             self._wall(zones, after, zones[0].mills)
         self._details(frozenset(range(len(self.steps))), outside=True)
         return frozenset(range(before, len(self.steps)))
@@ -346,13 +346,14 @@ class _Planner:
     def _notes(self) -> tuple[str, ...]:
         job = self.job
         x0, y0, x1, y1 = job.stock
+        nest = job.part if isinstance(job.part, Nest) else None
         where = {
-            "axis": "axis of the part",
+            "axis": f"axis of {nest.placed[0].label}" if nest else "axis of the part",
             "corner": "lower left corner of the stock",
             "centre": "centre of the stock",
         }
         notes = [
-            f"part {job.part.name}, {job.part.material}, {job.thickness:g} mm thick",
+            f"{'nest' if nest else 'part'} {job.part.name}, {job.part.material}, {job.thickness:g} mm thick",
             f"stock {x1 - x0:.2f} x {y1 - y0:.2f} x {job.thickness:g} mm, from X{x0:.3f} Y{y0:.3f}",
             f"origin: {where[job.settings.origin]}, Z0 on top of the stock",
         ]

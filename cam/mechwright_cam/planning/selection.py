@@ -15,6 +15,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
+from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.choice import (
     ROOMY,
@@ -106,8 +107,8 @@ def _mills(every: Job) -> list[Tool]:
     """The end mills of the choice; ``every`` has the whole library."""
     part = every.part
     fit = usable_mills(every, -every.floor)
-    x0, y0, x1, y1 = part.outline.bounds if part.outline is not None else (0.0, 0.0, 0.0, 0.0)
-    widest = max(HANDY, ROUGHING_SHARE * min(x1 - x0, y1 - y0))
+    boxes = [outline.bounds for outline in outlines_of(part)]
+    widest = max(HANDY, ROUGHING_SHARE * min(min(x1 - x0, y1 - y0) for x0, y0, x1, y1 in boxes))
     sensible = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
     chosen: list[Tool] = []
     openings = []
@@ -142,7 +143,8 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
     """The mills for an outside: with tabs only those whose channel leaves a frame."""
-    if every.settings.hold.method != "tabs" or every.settings.stock == Stock():
+    open_ = every.settings.stock == Stock() and not isinstance(every.part, Nest)
+    if every.settings.hold.method != "tabs" or open_:
         return mills
     return roughing_mills(every, mills, part, framed=True)
 

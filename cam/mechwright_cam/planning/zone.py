@@ -23,6 +23,7 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
+from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
 from mechwright_cam.planning.recess import reached_share, recess
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
@@ -177,8 +178,13 @@ def inner_zones(job: Job) -> list[Zone]:
 
 
 def outer_zones(job: Job) -> list[Zone]:
-    """The outside: one zone, or two with tabs, above and below their tops."""
-    zones = []
+    """The outsides: one zone each, or two with tabs, above and below their tops."""
+    return [zone for wall in outer_walls(job) for zone in wall]
+
+
+def outer_walls(job: Job) -> list[list[Zone]]:
+    """The zones of :func:`outer_zones`, outside by outside: a nest has several."""
+    walls = []
     for feature in job.features:
         if not (isinstance(feature, Profile) and feature.side == "outside"):
             continue
@@ -203,18 +209,21 @@ def outer_zones(job: Job) -> list[Zone]:
             through=True,
             channel=channel,
         )
+        zones: list[Zone] = []
         top = -feature.top
-        if job.tabs:
+        own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
+        if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
-            height = math.ceil(max(tab.top for tab in job.tabs) * 10**DECIMALS - 1e-6) / 10**DECIMALS
-            tabs = shapely.union_all([tab.shape for tab in job.tabs])
+            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - 1e-6) / 10**DECIMALS
+            tabs = shapely.union_all([tab.shape for tab in own])
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             name = f"{feature.name} below the tabs"
             below = clear.difference(tabs)
             zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
         else:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
-    return zones
+        walls.append(zones)
+    return walls
 
 
 def roughing_mills(
@@ -228,8 +237,14 @@ def roughing_mills(
     fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill))]
     if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
-    x0, y0, x1, y1 = part.bounds
     least = channel_width(job, mills[-1])
+    apart = _neighbour(job, part)
+    if apart < 2 * least + FRAME:
+        raise DesignError(
+            f"cam.nest.gap: {apart:.2f} mm between the parts of {job.part.name} leave no frame between two "
+            f"channels of {least:.2f} mm; use at least {math.ceil(2 * least + FRAME):g} mm"
+        )
+    x0, y0, x1, y1 = part.bounds
     margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
     raise DesignError(
         f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
@@ -255,7 +270,21 @@ def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
         and y0 - far >= job.stock[1]
         and x1 + far <= job.stock[2]
         and y1 + far <= job.stock[3]
+        and _neighbour(job, part) >= width + far - NEARLY
     )
+
+
+NEARLY = 1e-6
+"""Gaps are compared to this, mm: parts that were placed at a distance have it but for rounding."""
+
+
+def _neighbour(job: Job, part: shapely.Geometry) -> float:
+    """Distance of an outside from the next part of a nest, mm; inf where it is alone."""
+    if not isinstance(job.part, Nest):
+        return math.inf
+    # A turned polygon is not the same to the last digit; its own plate is the one it overlaps.
+    others = [one for one in polygons(job.target) if not shapely.intersects(one, part)]
+    return min((float(shapely.distance(one, part)) for one in others), default=math.inf)
 
 
 def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
@@ -298,6 +327,7 @@ __all__ = [
     "bottom_of",
     "check_clamp",
     "inner_zones",
+    "outer_walls",
     "outer_zones",
     "polygons",
     "roughing_mills",

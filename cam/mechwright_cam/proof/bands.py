@@ -9,6 +9,7 @@ from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, quarter
+from mechwright_cam.toolpath.offsets import filled
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def floor_of(feature: Feature, job: Job) -> Shape:
     """The part of :func:`inside_of` that lies on the plate: a recess may be drawn beyond its edge."""
     view = inside_of(feature)
     if isinstance(feature, Pocket):
-        view = shapely.intersection(view, shapely.Polygon(job.target.exterior))
+        view = shapely.intersection(view, filled(job.target))
     return view
 
 

@@ -66,7 +66,8 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
     tabs = [grow(tab.shape, scrap, ROUGHLY) for tab in job.tabs]
     pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
-    others = pieces[~shapely.intersects(pieces, job.target.representative_point())]
+    inside = shapely.point_on_surface(shapely.get_parts(job.target))
+    others = pieces[~shapely.intersects(pieces[:, None], inside).any(axis=1)]
     ends = np.array([shapely.dwithin(others, tab, ROUGHLY) for tab in tabs]).reshape(len(tabs), len(others))
     frame = ends.sum(axis=0) >= 2
     for tab, row in zip(job.tabs, ends, strict=True):

@@ -19,7 +19,7 @@ from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
-from mechwright_cam.proof.plane import Shape, swept
+from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
@@ -28,6 +28,10 @@ from mechwright_cam.timing import step_times
 
 SWEPT = 0.01
 """Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
+
+
+BESIDE = 0.5
+"""The cut around an outside is looked for so near to it, mm: half of the least frame between two channels."""
 
 
 def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
@@ -171,7 +175,9 @@ def _depth_check(scene: Scene) -> Check:
         floor = -min(feature.top + feature.depth, job.thickness)
         shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
-            shape = shapely.difference(stock_shape(job), shape)
+            # At its own wall: further away, in a nest, are the cuts around its neighbours.
+            around = shapely.intersection(grow(shape, BESIDE, SWEPT), stock_shape(job))
+            shape = shapely.difference(around, shape)
         if shape.is_empty or shape.area <= NEAR:
             continue
         shapely.prepare(shape)

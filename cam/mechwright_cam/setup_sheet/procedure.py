@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from mechwright.part import Bore
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
+from mechwright_cam.nest import Nest
 from mechwright_cam.posts.offsets import setting_words
 from mechwright_cam.svg import signed
 
@@ -66,8 +67,9 @@ def steps(
 def origin_words(job: Job) -> str:
     """What X0 Y0 is."""
     bored = any(isinstance(feature, Bore) and feature.centre == (0.0, 0.0) for feature in job.features)
+    of = job.part.placed[0].label if isinstance(job.part, Nest) else "the part"
     return {
-        "axis": "the axis of the part" + (" (its bore)" if bored else ""),
+        "axis": f"the axis of {of}" + (" (its bore)" if bored else ""),
         "corner": "the lower left corner of the stock",
         "centre": "the centre of the stock",
     }[job.settings.origin]

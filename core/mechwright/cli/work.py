@@ -184,7 +184,7 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool, control: st
     findings = list(design.family.check(design.params))
     if errors(findings):
         _refuse(findings, path)
-    parts = {part.name: part for part in design.family.parts(design.params)}
+    parts = pipeline.cut_parts(design)
     from mechwright_cam.setups import UNDERSIDE
 
     name = part_name if part_name in parts else part_name.removesuffix(UNDERSIDE)
