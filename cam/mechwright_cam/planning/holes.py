@@ -12,6 +12,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, through
@@ -154,17 +155,30 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     if plan.drill is not None:
         first = max(first, min(widest, plan.drill.radius + step - mill.radius))
     count = math.ceil((widest - first) / step - 1e-9) + 1
-    for number in range(count):
-        radius = widest if number == count - 1 else first + number * (widest - first) / (count - 1)
-        _helix(job, bore, pen, radius, data.step_down * mill.diameter)
+    radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
+    bottom = bottom_of(job, bore.top, bore.depth)
+    leave = floor_allowance(job, -bore.top, bottom)
+    for radius in radii:
+        _helix(job, bore, pen, radius, data.step_down * mill.diameter, bottom + leave)
+    if leave > 0:
+        _floor(job, bore, pen, radii, bottom)
     pen.retract()
     return True
 
 
-def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float) -> None:
+def _floor(job: Job, bore: Bore, pen: Pen, radii: list[float], bottom: float) -> None:
+    """The floor of a blind bore in one pass: sunk along the innermost ring, then ring by ring outwards."""
+    for radius in radii:
+        turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+        pen.straight(turn.start)
+        pen.ramp(turn, bottom)
+        pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
+    pen.straight(bore.centre)
+
+
+def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float, bottom: float) -> None:
     """Down along a helix, once round at the bottom, and to the middle."""
     turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
-    bottom = bottom_of(job, bore.top, bore.depth)
     # A little less than the steepest, for rounding.
     pitch = min(step_down, math.tau * radius * pen.slope * 0.999)
     pen.above(turn.start)
