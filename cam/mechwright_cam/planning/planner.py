@@ -232,7 +232,7 @@ class _Planner:
         """Rough a recess to just above its floor, finish the floor, then the wall from top to bottom."""
         finest, allowance = zone.finisher, self.job.settings.stock_to_leave
         rough, floor = layers(zone, leave)
-        cuts = self._cleared(rough, self._clearing_mill(rough, zone.mills))
+        cuts = self._cleared(rough, zone.mills)
         cleared = [mill for _, mill, _ in cuts]
         for mill in [m for m in zone.mills if m.diameter > finest.diameter]:
             cut = self._roughing(rough, mill, allowance)
