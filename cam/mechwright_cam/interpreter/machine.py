@@ -254,6 +254,8 @@ class _Machine(Modal):
             math.nan if "Y" in axes else self.y,
             math.inf if "Z" in axes else self.z,
         )
+        if "Z" in axes and self.dialect.home_cancels_length:
+            self._set(length_offset=None, length=None)
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
         here = {"X": self.x, "Y": self.y, "Z": self.z}
@@ -449,7 +451,7 @@ class _Machine(Modal):
         for code in block.m:
             if code in {0, 1}:
                 by_hand = self.dialect.tool_by_t and self.rows and self.rows[-1][0] == Kind.TOOL
-                self._row(Kind.STOP, block.line, self.x, self.y, self.z)
+                self._row(Kind.MAYBE if code else Kind.STOP, block.line, self.x, self.y, self.z)
                 if by_hand:  # whoever has touched the tool off has left it somewhere
                     self._lose_place()
                     self.z = math.nan
