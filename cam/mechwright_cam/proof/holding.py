@@ -6,10 +6,11 @@ import shapely
 from mechwright.part import Profile
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import inside_of, stock_shape
-from mechwright_cam.proof.leftover import ROUNDING, Sweep, sweeps
+from mechwright_cam.proof.leftover import ROUNDING
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.sweep import Sweep, sweeps
 
 ROUGHLY = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
@@ -41,7 +42,7 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     for sweep in cut:
         for way in ways:
             shapely.prepare(way)
-            if shapely.dwithin(way, sweep.chains, sweep.radius).any():
+            if shapely.dwithin(way, sweep.beside(way), sweep.radius).any():
                 return False
     return True
 
@@ -51,7 +52,8 @@ def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     shapely.prepare(region)
     shapes: list[Shape] = []
     for sweep in cut:
-        near = sweep.chains[shapely.dwithin(region, sweep.chains, sweep.radius)]
+        chains = sweep.beside(region)
+        near = chains[shapely.dwithin(region, chains, sweep.radius)]
         shapes.append(swept(near, sweep.radius, ROUGHLY))
     return shapes
 

@@ -17,13 +17,14 @@ from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
-from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps
+from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.proof.sweep import sweeps
 from mechwright_cam.timing import step_times
 
 SWEPT = 0.01
