@@ -122,7 +122,7 @@ class Machine(Moving):
         for code in block.m:
             if code in {0, 1}:
                 by_hand = self.dialect.tool_by_t and self.rows and self.rows[-1][0] == Kind.TOOL
-                self._row(Kind.STOP, block.line, self.x, self.y, self.z)
+                self._row(Kind.MAYBE if code else Kind.STOP, block.line, self.x, self.y, self.z)
                 if by_hand:  # whoever has touched the tool off has left it somewhere
                     self._lose_place()
                     self.z = math.nan

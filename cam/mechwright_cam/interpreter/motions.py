@@ -74,6 +74,8 @@ class Moving(Modal):
             math.nan if "Y" in axes else self.y,
             math.inf if "Z" in axes else self.z,
         )
+        if "Z" in axes and self.dialect.home_cancels_length:
+            self._set(length_offset=None, length=None)
 
     def _machine_move(self, block: Block, words: dict[str, float]) -> None:
         """G53: machine coordinates, whose place in the work the text does not know."""
