@@ -22,13 +22,11 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
-from mechwright_cam.proof.sweep import Sweep, sweeps
+from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 
-ROUNDING = 1e-4
-"""A path that should reach the underside may be short by the last decimal of the program, mm."""
 VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
@@ -64,8 +62,9 @@ class Remains:
     """x, y, z, depth, area of each unreachable place, mm, deepest first."""
 
 
-def remains(paths: Paths, job: Job) -> Remains:
+def remains(sweeps: Sweeps, job: Job) -> Remains:
     """Measure the stock that the program leaves around the part."""
+    paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
     if not mills:
@@ -78,7 +77,7 @@ def remains(paths: Paths, job: Job) -> Remains:
     for band in reversed(bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs))):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
-        groups = sweeps(paths, height, band.bottom)
+        groups = sweeps.at(height, band.bottom)
         key = id(band.keep)
         if key not in closings:
             closings[key] = closing(band.keep, smallest)

@@ -12,6 +12,8 @@ from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 
+ROUNDING = 1e-4
+"""A path that should reach the underside may be short by the last decimal of the program, mm."""
 SWEEP_CHORD = 0.0005
 """Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
 
@@ -40,24 +42,51 @@ class Sweep:
         same = owner[:-1] == owner[1:]
         return Chords(points[:-1][same], points[1:][same])
 
+    @cached_property
+    def _extents(self) -> tuple[Array, Array]:
+        """Least and greatest x and y (m, 2) of each piece, mm."""
+        points, owner = self._points
+        first = np.searchsorted(owner, np.arange(len(self.pieces)))
+        return np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
+
+    def stays_inside(self, box: shapely.Polygon) -> bool:
+        """Whether nothing that is swept reaches the edge of a rectangle along the axes, nor beyond."""
+        least, most = self._extents
+        x0, y0, x1, y1 = box.bounds
+        reach = self.radius + NEAR
+        return bool(((least > (x0 + reach, y0 + reach)) & (most < (x1 - reach, y1 - reach))).all())
+
     def beside(self, shape: shapely.Geometry) -> Geometries:
         """Those of the paths that may come within the radius of a shape."""
-        points, owner = self._points
+        least, most = self._extents
         x0, y0, x1, y1 = shape.bounds
         reach = self.radius + NEAR
-        count = len(self.pieces)
-        least, most = np.full((2, count), np.inf), np.full((2, count), -np.inf)
-        for axis in (0, 1):
-            np.minimum.at(least[axis], owner, points[:, axis])
-            np.maximum.at(most[axis], owner, points[:, axis])
-        near = (least[0] <= x1 + reach) & (most[0] >= x0 - reach)
-        near &= (least[1] <= y1 + reach) & (most[1] >= y0 - reach)
-        return self.paths.chains(self.pieces.only(near), SWEEP_CHORD)
+        near = (least <= (x1 + reach, y1 + reach)) & (most >= (x0 - reach, y0 - reach))
+        return self.paths.chains(self.pieces.only(np.flatnonzero(near.all(axis=1))), SWEEP_CHORD)
 
 
-def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
-    """What is cut at ``bottom`` by the feed moves that go down to ``height``."""
-    cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-    pieces = paths.below(height, steps=cutting)
-    radius = np.round(paths.radius_at(pieces, bottom), 6)
-    return [Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])]
+class Sweeps:
+    """What is cut at different heights, each worked out once."""
+
+    def __init__(self, paths: Paths) -> None:
+        self.paths = paths
+        self._known: dict[tuple[float, float], list[Sweep]] = {}
+
+    def at(self, height: float, bottom: float) -> list[Sweep]:
+        """What is cut at ``bottom`` by feed moves that go down to ``height``, smallest radius first."""
+        if (height, bottom) not in self._known:
+            self._known[height, bottom] = self._cut(height, bottom)
+        return self._known[height, bottom]
+
+    def _cut(self, height: float, bottom: float) -> list[Sweep]:
+        paths = self.paths
+        cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
+        pieces = paths.below(height, steps=cutting)
+        radius = np.round(paths.radius_at(pieces, bottom), 6)
+        return [
+            Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
+        ]
+
+    def through(self, thickness: float) -> list[Sweep]:
+        """What is cut at the underside of a plate."""
+        return self.at(-thickness + ROUNDING, -thickness)
