@@ -24,8 +24,9 @@ from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
+from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
 from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
 
