@@ -39,6 +39,7 @@ class Spot:
     depth: float
 
 
+@lru_cache(maxsize=16)
 def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     """What a cutter of ``radius`` leaves of everything around ``keep``, mm.
 
@@ -126,10 +127,8 @@ def leaves_much_more(
     This is a first look: no means that it may be so all the same.
     """
     walls = thinned(keep)
-    reached = grow(roughly_swollen(keep, finer), -finer - ROUGHLY, ROUGH)
-    return bool(
-        (_deep(_much(keep, radius, limit + ROUGHLY), walls, near) & ~_deep(reached, walls, near)).any()
-    )
+    left = _deep(grow(roughly_swollen(keep, finer), -finer - ROUGHLY, ROUGH), walls, near)
+    return bool((_deep(_much(keep, radius, limit + ROUGHLY), walls, near) & ~left).any())
 
 
 def _much(keep: shapely.Geometry, radius: float, limit: float) -> shapely.Geometry:
