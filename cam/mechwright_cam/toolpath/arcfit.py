@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 
@@ -31,6 +32,8 @@ FRACTIONS = np.linspace(0, 1, SAMPLES + 2)[1:-1, None]
 """Where they stand between both ends."""
 GREATEST_RADIUS = 2000.0
 """A flatter arc, mm, is printed with too few significant digits; it becomes lines."""
+LAST_DIGIT = 1e-4
+"""A vertex this near to the line past it is one of rounding, mm: no bend of the path."""
 
 Index = NDArray[np.intp]
 Axes = tuple[Array, ...]
@@ -204,10 +207,18 @@ def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:
     ends = [(rounded(x), rounded(y)) for x, y in points.tolist()]
     cuts: list[Cut] = []
     here = ends[0]
+    line_from: Point | None = None
+    passed: list[Point] = []  # what the present line has left out since then
     for is_line, k, end in zip(straight, height, ends[1:], strict=True):
         if end == here:
             continue
         if is_line:
+            if line_from is not None and _straight_on(line_from, [*passed, here], end):
+                passed.append(here)
+                here = line_from
+                cuts.pop()
+            else:
+                line_from, passed = here, []
             cuts.append(line(here, end))
         else:
             dx, dy = end[0] - here[0], end[1] - here[1]
@@ -215,5 +226,18 @@ def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:
             centre = ((here[0] + end[0]) / 2 - k * dy / chord, (here[1] + end[1]) / 2 + k * dx / chord)
             # Less than half a circle: with the centre on the left it turns to the left.
             cuts.append(arc(here, end, centre, 1 if k > 0 else -1))
+            line_from = None
         here = end
     return Path(ends[0], tuple(cuts))
+
+
+def _straight_on(first: Point, passed: Sequence[Point], last: Point) -> bool:
+    """Whether one line serves: what it passes stands off by rounding only, and it never turns back."""
+    dx, dy = last[0] - first[0], last[1] - first[1]
+    length, before = math.hypot(dx, dy), 0.0
+    for x, y in ((x - first[0], y - first[1]) for x, y in passed):
+        along = x * dx + y * dy
+        if along < before or abs(x * dy - y * dx) > LAST_DIGIT * length:
+            return False
+        before = along
+    return 0 < before <= length * length
