@@ -35,7 +35,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it."""
     if keep.is_empty:
         return None
-    pieces = _distinct(paths, _about(paths, paths.below(top - NEAR), keep))
+    pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
     if len(pieces) == 0:
         return None
     radius = paths.radius_at(pieces, top)
@@ -79,7 +79,7 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     return np.flatnonzero(near)
 
 
-def _distinct(paths: Paths, pieces: Pieces) -> Pieces:
+def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     """Each plan-view piece once, at its lowest: passes repeat at every depth."""
     pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
     run, step = paths.run, pieces.step

@@ -9,6 +9,7 @@ import shapely
 from mechwright.motion import Array
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 
@@ -81,7 +82,8 @@ class Sweeps:
     def _cut(self, height: float, bottom: float) -> list[Sweep]:
         paths = self.paths
         cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-        pieces = paths.below(height, steps=cutting)
+        pieces = distinct(paths, paths.below(height, steps=cutting))
+        pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
         radius = np.round(paths.radius_at(pieces, bottom), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
