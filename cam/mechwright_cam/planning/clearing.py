@@ -40,6 +40,9 @@ FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
+OVERLAP = 1.5 * ROUGH
+"""What a cut takes is made larger by this than by the cut before, mm: then their chords keep apart along
+walls, where shapes that all but coincide would cross at every corner. Tests of what is clear allow for it."""
 COARSE_FIT = 2 * ROUGH
 """How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
 lines again."""
@@ -120,8 +123,9 @@ class Roughing:
         self.blocked = self._blocked(0)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
-        self.reach = grow(self.free, tool.radius, ROUGH)
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
+        self.over = zone.over + min(OVERLAP, self.sliver / 2)
+        self.reach = grow(self.free, tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
@@ -148,6 +152,7 @@ class Roughing:
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
         self.zone.left = shapely.difference(self.zone.left, self.reach)
+        self.zone.over = self.over
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
@@ -157,7 +162,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.left, self.tool.radius - CLEAR, ROUGH)
+        near = grow(self.zone.left, self.tool.radius + self.zone.over - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -211,7 +216,8 @@ class Roughing:
         shapely.prepare(self.room)
         found: list[Piece] = []
         blocked, core = self.blocked, self.core
-        near = grow(core, self.sliver + radius + CLEAR, ROUGH)
+        wanted = grow(core, radius, ROUGH)
+        near = grow(wanted, self.sliver + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
@@ -221,7 +227,7 @@ class Roughing:
                 if not polygons(core):
                     return found
                 blocked = self._blocked(order)
-            wanted = grow(core, radius, ROUGH)
+                wanted = grow(core, radius, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):

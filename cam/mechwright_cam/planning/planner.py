@@ -243,7 +243,7 @@ class _Planner:
         cuts += [self._rough(self._roughing(rough, finest, allowance)), *self._rough_heavy(rough, finest)]
         cuts += [self._floored(floor, mill) for mill in [*(m for m in cleared if m is not finest), finest]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
-        zone.left = shapely.union(rough.left, floor.left)
+        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
         for written in [*cuts, self._finish(zone)]:
             after = self._step(*written, after)
 
