@@ -22,7 +22,7 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Hold, Stock, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Hold, Stock
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
@@ -193,7 +193,7 @@ def _with_room(job: Job) -> CamSettings:
     settings, side = job.settings, job.settings.second_side
     if settings.stock != Stock():
         return settings
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     margin = widest + FRAME + WALL + side.dowel_diameter + WALL
     return settings.model_copy(update={"stock": Stock(margin=math.ceil(margin))})
 
@@ -210,7 +210,7 @@ def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
         mx = my = wanted.margin or 0.0
     inset = WALL + diameter / 2
     along = (x0 - mx + inset, x1 + mx - inset) if side.flip == "x" else (y0 - my + inset, y1 + my - inset)
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     need = widest + FRAME + WALL + diameter + WALL
     if (mx if side.flip == "x" else my) < need:
         raise DesignError(

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import SLACK, Zone
+from mechwright_cam.planning.zone import CUSP, SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
     BIAS,
@@ -48,6 +49,8 @@ BESIDE = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
 """Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
+MANY = 0.5
+"""A round mill that would need more than twice its rings to make a floor roughs with its own step first."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +101,8 @@ class Roughing:
         Direction.
     only
         The stock worth an effort; all that is left if None.
+    ridges
+        Only the floor of ``only`` is to be cut: what stands there is no higher than the zone's ridges.
     """
 
     def __init__(
@@ -108,6 +113,8 @@ class Roughing:
         step_over: float,
         climb: bool,
         only: shapely.Geometry | None = None,
+        *,
+        ridges: bool = False,
     ) -> None:
         self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
@@ -115,11 +122,18 @@ class Roughing:
         self.fit = COARSE_FIT if coarse else FIT
         # The shape that the cutter's edge must not enter.
         self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
+        self.ridges = ridges
+        self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
+        fine = min(self.step, 2 * TIGHT * self.foot)
+        self.smooth = ridges or fine >= MANY * self.step
+        if self.smooth:
+            self.step = fine
         self.blocked = grow(self.keep, tool.radius, self.chord)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
-        self.reach = grow(self.free, tool.radius, ROUGH)
+        self.wide = self.foot if self.smooth else tool.radius
+        self.reach = grow(self.free, self.foot if ridges else tool.radius, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
         self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
@@ -133,7 +147,17 @@ class Roughing:
 
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
-        self.zone.left = shapely.difference(self.zone.left, self.reach)
+        zone = self.zone
+        if self.ridges:
+            zone.ridges = shapely.difference(zone.ridges, self.reach)
+            return
+        if self.foot < self.tool.radius:
+            taken = shapely.intersection(zone.left, self.reach)
+            if self.smooth:
+                taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
+            zone.ridges = shapely.union(zone.ridges, taken)
+            zone.ridge_height = max(zone.ridge_height, self.tool.nose)
+        zone.left = shapely.difference(zone.left, self.reach)
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
@@ -143,7 +167,8 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.left, self.tool.radius - CLEAR, ROUGH)
+        stock = shapely.union(self.zone.left, self.zone.ridges) if self.ridges else self.zone.left
+        near = grow(stock, self.tool.radius - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -174,7 +199,7 @@ class Roughing:
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
         beside = np.zeros(len(paths), dtype=bool)
-        if self.only is not None and self.tool.centre_cutting:
+        if self.only is not None and not self.ridges and self.tool.centre_cutting:
             thick = grow(self.only, radius - CLEAR, ROUGH)
             beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
@@ -202,11 +227,11 @@ class Roughing:
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), self.sliver)
+                take = opened(shapely.difference(take, grow(blocked, self.wide - CLEAR, ROUGH)), self.sliver)
                 if not polygons(take):
                     return found
                 blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, radius - self.sliver, ROUGH)
+            wanted = grow(take, (self.foot if self.ridges else radius) - self.sliver, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
@@ -249,13 +274,16 @@ class Roughing:
 
     def write(self, pen: Pen, step_down: float) -> None:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
-        heights = levels(self.zone.top, self.zone.bottom, step_down)
+        zone = self.zone
+        bottom = zone.bottom_for(self.tool)
+        top = min(zone.top, bottom + zone.ridge_height) if self.ridges else zone.top
+        heights = levels(top, bottom, step_down)
         for cavity in self.cavities():
             first = cavity.runs[0]
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
-                _spiral(pen, first.path, self.zone.top, heights)
+                _spiral(pen, first.path, top, heights)
             else:
-                _levels(pen, cavity, self.zone.top, heights)
+                _levels(pen, cavity, top, heights)
         pen.retract()
 
 

@@ -11,10 +11,11 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import entry_place
+from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
@@ -103,9 +104,16 @@ class _Planner:
         return frozenset({len(self.steps) - 1})
 
     def _moves(
-        self, tool: Tool, write: Callable[[Pen], object], engagement: float = math.pi / 2
+        self,
+        tool: Tool,
+        write: Callable[[Pen], object],
+        engagement: float = math.pi / 2,
+        depth: float = math.inf,
     ) -> tuple[Move, ...]:
-        speed = rates(tool, self.job.part.material, self.job.settings.machine, engagement)
+        """The moves that ``write`` makes; a cut is ``depth`` mm deep where that makes chips thinner."""
+        settings = self.job.settings
+        depth = depth if settings.chip_thinning else math.inf
+        speed = rates(tool, self.job.part.material, settings.machine, engagement, depth)
         pen = Pen(tool, speed, self.clearance, self.slope)
         write(pen)
         return tuple(pen.moves)
@@ -205,13 +213,13 @@ class _Planner:
         for zone in zones:
             for written in self._cleared(zone, self._clearing_mill(zone, mills)):
                 after = self._step(*written, after)
-        for mill in [m for m in mills if m.diameter > finest.diameter]:
+        for mill in roughers(mills, finest):
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
             if max(zip(zones, cuts, strict=True), key=lambda pair: pair[0].height)[1].share >= WORTH_A_TOOL:
                 for written in together(self._rough, cuts):
                     after = self._step(*written, after)
-        for layer in together(partial(self._finished, mill=finest), zones):
+        for layer in together(self._finished, zones):
             # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             for written in layer:
                 after = self._step(*written, after)
@@ -226,13 +234,14 @@ class _Planner:
 
     def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
         data = mill.cutting[self.job.part.material]
+        allowance = zone.allowance_for(mill, allowance)
         return Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb)
 
     def _rough(self, cut: Roughing) -> Cut:
         zone, mill = cut.zone, cut.tool
         what = "rough the rest" if zone.begun else "rough"
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
-        moves = self._moves(mill, lambda pen: cut.write(pen, step_down))
+        moves = self._moves(mill, lambda pen: cut.write(pen, step_down), depth=_pass(zone, mill, step_down))
         cut.commit()
         if not zone.begun:
             zone.forget_waste(mill, self.job.settings.stock_to_leave)
@@ -246,7 +255,8 @@ class _Planner:
             return []
         from mechwright_cam.planning import adaptive
 
-        area = shapely.difference(zone.clear, zone.rough_keep(max(settings.stock_to_leave, COARSE_FROM)))
+        allowance = zone.allowance_for(mill, max(settings.stock_to_leave, COARSE_FROM))
+        area = shapely.difference(zone.clear, zone.rough_keep(allowance))
         limit = math.radians(settings.engagement)
         wanted = [part for part in polygons(area) if shapely.intersects(part, zone.left)]
         area = shapely.union_all(wanted)
@@ -258,27 +268,47 @@ class _Planner:
         depth = min(settings.adaptive_depth * mill.diameter, mill.flute_length)
         moves = self._moves(
             mill,
-            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom, depth, settings.climb),
+            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom_for(mill), depth, settings.climb),
             limit if settings.chip_thinning else math.pi / 2,
+            _pass(zone, mill, depth),
         )
+        zone.leave_ridges(mill, reached)
         zone.left = shapely.difference(zone.left, reached)
         zone.begun = True
         return [(f"{zone.name}: clear", mill, moves)]
 
-    def _finished(self, zone: Zone, mill: Tool) -> list[Cut]:
-        """The last cuts of one layer."""
+    def _finished(self, zone: Zone) -> list[Cut]:
+        """The last cuts of one layer, with a flat end mill before a finer round one."""
         settings = self.job.settings
-        cuts = [
-            self._rough(self._roughing(zone, mill, settings.stock_to_leave)),
-            *self._rough_heavy(zone, mill),
-        ]
-        moves = self._moves(zone.finisher, Finishing(zone, settings).write)
-        if not moves:
-            raise ToolError(
-                f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {self.job.part.name}; "
-                "list a smaller end mill"
-            )
-        return [*cuts, (f"{zone.name}: finish", zone.finisher, moves)]
+        cuts: list[Cut] = []
+        for mill in (zone.finisher,) if zone.before is None else (zone.before, zone.finisher):
+            cuts.append(self._rough(self._roughing(zone, mill, settings.stock_to_leave)))
+            cuts += self._rough_heavy(zone, mill)
+            cuts += self._ridges(zone, mill)
+            deep = _pass(zone, mill, settings.finish_step * mill.diameter)
+            moves = self._moves(mill, Finishing(zone, settings, mill).write, depth=deep)
+            if not moves:
+                raise ToolError(
+                    f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; "
+                    "list a smaller end mill"
+                )
+            cuts.append((f"{zone.name}: finish", mill, moves))
+        return cuts
+
+    def _ridges(self, zone: Zone, mill: Tool) -> list[Cut]:
+        """Make the floor flat where round mills have left fillets or cusps on it."""
+        if shapely.is_empty(zone.ridges):
+            return []
+        data = mill.cutting[self.job.part.material]
+        allowance = zone.allowance_for(mill, self.job.settings.stock_to_leave)
+        cut = Roughing(
+            zone, mill, allowance, data.step_over, self.job.settings.climb, only=zone.ridges, ridges=True
+        )
+        step_down = data.step_down * mill.diameter
+        deep = _pass(zone, mill, min(step_down, zone.ridge_height))
+        moves = self._moves(mill, lambda pen: cut.write(pen, step_down), depth=deep)
+        cut.commit()
+        return [(f"{zone.name}: floor", mill, moves)]
 
     def _rough_heavy(self, zone: Zone, mill: Tool) -> list[Cut]:
         """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
@@ -310,6 +340,21 @@ class _Planner:
             # The corners at the tabs are as low as the tabs: no load worth a pass.
             thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))
         return opened(thick, SLIVER)
+
+    def _below(self) -> list[str]:
+        """How far tools go below the plate that are not full at their tip."""
+        job, notes = self.job, []
+        drills = [point_length(step.tool) for step in self.steps if step.tool.kind is ToolKind.DRILL]
+        round_ones = [
+            step.tool.nose
+            for step in self.steps
+            if step.tool.nose > 0 and _lowest(step.moves) < job.floor - TOLERANCES.closure
+        ]
+        for what, tips, where in (("drills", drills, "holes"), ("round mills", round_ones, "cuts")):
+            if tips:
+                below = max(tips) + job.settings.breakthrough
+                notes.append(f"{what} go {below:.2f} mm below the stock: leave room under the {where}")
+        return notes
 
     def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
         """The wanted steps in runs of one tool; steps outside count as done."""
@@ -362,11 +407,20 @@ class _Planner:
             for f in job.features
             if isinstance(f, Bore) and f.fit
         ]
-        drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
-        if drills:
-            below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
-            notes.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")
+        notes += self._below()
         return tuple(notes)
+
+
+def _pass(zone: Zone, mill: Tool, step: float) -> float:
+    """Depth of the even passes that are no deeper than ``step``, mm."""
+    height = zone.top - zone.bottom_for(mill)
+    return height / max(1, math.ceil(height / step - 1e-9))
+
+
+def _lowest(moves: tuple[Move, ...]) -> float:
+    """Lowest z of some moves, mm."""
+    heights = (getattr(move, "z", None) for move in moves)
+    return min((z for z in heights if z is not None), default=math.inf)
 
 
 def _named(detail: Detail) -> str:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 import shapely
@@ -12,7 +13,7 @@ from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
 from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, outlines_of
@@ -36,6 +37,7 @@ from mechwright_cam.planning.zone import (
     bores,
     bottom_of,
     check_clamp,
+    floor_mill,
     inner_zones,
     outer_zones,
     roughing_mills,
@@ -50,8 +52,6 @@ HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 PAYS = 1.5
 """An intermediate roughing mill is at least this many times as wide as the finishing one."""
-MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
-"""Cutters whose chip load goes with their diameter."""
 HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
@@ -68,8 +68,9 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
 
     The choice: the largest roughing mill that is sensible for the size of the part and leaves a frame in the
     stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
-    one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Only
-    mills long enough for the cut and with cutting data for the material count.
+    one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Mills
+    are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
+    with cutting data for the material count.
 
     Raises
     ------
@@ -83,8 +84,9 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    every = Job(part, settings, library.tools, (0.0, 0.0), _stock(part, settings))
-    mills = _mills(every)
+    flat = tuple(tool for tool in library.tools if tool.nose == 0)
+    every = Job(part, settings, flat, (0.0, 0.0), _stock(part, settings))
+    mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
@@ -139,6 +141,19 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     return [
         _finest_needed(able, shapes.keep, every.settings.corner_mill, shapes.must if shapes.open else None)
     ]
+
+
+def _floor_mills(every: Job) -> list[Tool]:
+    """The round mills for floors with a fillet."""
+    found = []
+    for feature in every.features:
+        if isinstance(feature, Pocket) and feature.floor_radius > 0:
+            bottom = bottom_of(every, feature.top, feature.depth)
+            mills = usable_mills(every, -bottom, feature.floor_radius)
+            shapes = recess(every, feature, mills[0].diameter, bottom)
+            near = shapes.must if shapes.open else None
+            found.append(floor_mill(every, feature, mills, shapes.keep, near))
+    return found
 
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
@@ -284,10 +299,10 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
 def _travel(job: Job) -> list[Finding]:
     """Whether the machine is large enough: the least that the finest end mill travels around the part."""
     machine = job.settings.machine
-    if not job.end_mills:
+    if not job.mills:
         return []
     x0, y0, x1, y1 = job.target.bounds
-    around = job.end_mills[-1].diameter
+    around = job.mills[-1].diameter
     axes = (("x", x1 - x0 + around, machine.travel_x), ("y", y1 - y0 + around, machine.travel_y))
     return [
         Finding(
@@ -378,14 +393,15 @@ def _remarks(job: Job) -> list[Finding]:
                     "take a smaller tool",
                 )
             )
-        if tool.kind is ToolKind.END_MILL and -job.floor > SLENDER * tool.diameter:
+        deep = tool.nose - job.floor
+        if tool.kind in MILLS and deep > SLENDER * tool.diameter:
             found.append(
                 Finding(
                     "cam.slender",
                     Severity.NOTE,
                     "cam.tools",
-                    f"{tool.name} cuts {-job.floor:g} mm deep, {-job.floor / tool.diameter:.1f} diameters",
-                    -job.floor / tool.diameter,
+                    f"{tool.name} cuts {deep:g} mm deep, {deep / tool.diameter:.1f} diameters",
+                    deep / tool.diameter,
                     SLENDER,
                     "",
                 )
@@ -425,7 +441,8 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
 
 def _bending(job: Job, tool: Tool) -> list[Finding]:
     """Whether a slender mill bends too much; the deepest cut counts."""
-    bent = deflection(tool, job.part.material, -job.floor)
+    deep = tool.nose - job.floor
+    bent = deflection(tool, job.part.material, deep)
     if bent <= MOST:
         return []
     return [
@@ -433,7 +450,7 @@ def _bending(job: Job, tool: Tool) -> list[Finding]:
             "cam.deflection",
             Severity.WARNING,
             "cam.tools",
-            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {-job.floor:g} mm deep in {job.part.name}",
+            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}",
             bent,
             MOST,
             "mm",

@@ -19,12 +19,21 @@ from typing import Literal
 
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
+from mechwright_cam.planning.choice import (
+    finishing_choice,
+    last_mills,
+    makes_floor,
+    outside_mills,
+    roomy_mills,
+    usable_mills,
+)
 from mechwright_cam.planning.recess import reached_share, recess
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
@@ -34,6 +43,9 @@ SLACK = 0.02
 
 TAB_SLACK = 4 * ROUGH
 """Roughing keeps off tabs by all that its thinned path may be off, mm."""
+
+CUSP = TOLERANCES.leftover / 2
+"""Height of what may stand between the cuts of a round mill on a floor, mm: half of what may stay."""
 
 HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
@@ -62,11 +74,21 @@ class Zone:
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
+    below: bool = False
+    """Whether the cut ends below the underside of the plate."""
+    before: Tool | None = None
+    """A flat end mill that finishes before the finisher, which is a finer round one."""
+    floor_radius: float = 0.0
+    """Fillet that is to stay between floor and wall, mm."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
     begun: bool = field(default=False, init=False)
     """Whether an end mill has been in it."""
+    ridges: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
+    """Where round mills have cleared all but the floor: fillets at its edge, cusps between their cuts."""
+    ridge_height: float = field(default=0.0, init=False)
+    """Height of the ridges above the floor, mm."""
     _rough: dict[float, shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -88,6 +110,26 @@ class Zone:
     def height(self) -> float:
         """Height of the layer, mm."""
         return self.top - self.bottom
+
+    def bottom_for(self, mill: Tool) -> float:
+        """How deep a mill goes, z in mm: out of the plate with all of its rounded corner."""
+        return self.bottom - mill.nose if self.below else self.bottom
+
+    def allowance_for(self, mill: Tool, allowance: float) -> float:
+        """What a mill leaves on the wall, mm, so that a fillet stays at its foot.
+
+        A corner of radius c at a distance a from the wall touches a fillet of radius f if a + c = f.
+        """
+        return max(allowance, self.floor_radius - mill.nose)
+
+    def leave_ridges(self, mill: Tool, cleared: shapely.Geometry) -> None:
+        """Note what a round mill leaves on the floor of a region that it has cleared closely."""
+        if mill.nose > 0 and not self.through:
+            foot = float(cutter(mill).radius_at(CUSP))
+            self.ridges = shapely.union(
+                self.ridges, shapely.difference(cleared, grow(cleared, foot - mill.radius, ROUGH))
+            )
+            self.ridge_height = max(self.ridge_height, mill.nose)
 
     def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
@@ -144,7 +186,8 @@ def inner_zones(job: Job) -> list[Zone]:
         ):
             continue
         bottom = bottom_of(job, feature.top, feature.depth)
-        mills = usable_mills(job, -bottom)
+        radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+        mills = usable_mills(job, -bottom, radius)
         shapes = recess(job, feature, mills[0].diameter, bottom)
         if shapely.is_empty(shapes.must):
             raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
@@ -155,7 +198,11 @@ def inner_zones(job: Job) -> list[Zone]:
             )
         mills = roomy_mills(mills, shapes.must)
         near = shapes.must if shapes.open else None
-        finisher = finishing_choice(mills, shapes.keep, near)
+        if radius > 0:
+            last = [floor_mill(job, feature, mills, shapes.keep, near)]
+        else:
+            last = last_mills(mills, shapes.keep, near)
+        finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutter needs
             run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
             shapes = recess(job, feature, run_out, bottom)
@@ -170,11 +217,32 @@ def inner_zones(job: Job) -> list[Zone]:
             "pocket" if isinstance(feature, Pocket) else "inside",
             bottom == job.floor,
             shapes.must if shapes.open else None,
+            below=bottom == job.floor,
+            before=last[0] if len(last) > 1 else None,
+            floor_radius=radius,
         )
         if shapes.open:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
         zones.append(zone)
     return zones
+
+
+def floor_mill(
+    job: Job,
+    feature: Pocket | Profile,
+    mills: list[Tool],
+    keep: shapely.Geometry,
+    near: shapely.Geometry | None,
+) -> Tool:
+    """The mill that makes a floor with a fillet; raises ToolError if none has its radius."""
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    able = [mill for mill in mills if makes_floor(mill, radius)]
+    if not able:
+        raise ToolError(
+            f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
+            f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
+        )
+    return finishing_choice(able, keep, near)
 
 
 def outer_zones(job: Job) -> list[Zone]:
@@ -198,7 +266,8 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         mills = roughing_mills(job, usable_mills(job, -job.floor), part)
         mills = outside_mills(mills, part, job.settings.stock_to_leave)
         clear, channel = _channel(job, part, mills[0])
-        finisher = finishing_choice(mills, part)
+        last = last_mills(mills, part)
+        finisher = last[-1]
 
         layer = partial(
             Zone,
@@ -208,6 +277,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             kind="outside",
             through=True,
             channel=channel,
+            before=last[0] if len(last) > 1 else None,
         )
         zones: list[Zone] = []
         top = -feature.top
@@ -219,9 +289,9 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             name = f"{feature.name} below the tabs"
             below = clear.difference(tabs)
-            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
+            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
         else:
-            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
         walls.append(zones)
     return walls
 

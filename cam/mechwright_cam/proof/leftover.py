@@ -1,10 +1,12 @@
 """Stock that stays where none should be.
 
 The cutters of the program sweep, at the bottom of each band, the discs around the part of their path that
-reaches it; higher up they sweep at least that. What the smallest of them could reach is everything outside
-the closing of the finished part by its radius. The stock on a wall is, at samples of the reachable wall, the
-distance to the nearest path less that cutter's radius. Where it is nothing a disc touches the wall, and the
-band of one diameter along the wall is clear; so walls need no areas. Floors do, and get them.
+reaches it; higher up they sweep at least that. Above a floor the bottom is taken as high as stock may be
+left: so the cusps between the cuts of a ball count as they should. What the cutters could reach is everything
+outside the closing of the finished part by the radius of the smallest, or less with round ones
+(``reachable``). The stock on a wall is, at samples of the reachable wall, the distance to the nearest path
+less that cutter's radius. Where it is nothing a disc touches the wall, and the band of one diameter along the
+wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
 """
@@ -20,12 +22,13 @@ import shapely
 from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
+from mechwright.tooling import MILLS
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
-from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
+from mechwright_cam.proof.paths import NEAR, Paths, Pieces
+from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
+from mechwright_cam.proof.reachable import Layer, Reach
 from mechwright_cam.proof.wall import Wall
 
 ROUNDING = 1e-4
@@ -53,6 +56,8 @@ BESIDE = 0.1
 """How far from its expected place a finishing path is looked for first, mm; found or not, the proof holds."""
 SWEEP_CHORD = 0.0005
 """Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
+PARTS = ("step", "first", "last", "low")
+"""The arrays of Pieces."""
 COARSE = 0.002
 """Accuracy of areas that are not reported, mm: a fifth of the leftover limit."""
 
@@ -85,11 +90,11 @@ class Sweep:
         )
 
 
-def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
-    """What is cut at ``bottom`` by the feed moves that go down to ``height``."""
+def sweeps(paths: Paths, height: float, level: float) -> list[Sweep]:
+    """What is cut at the height ``level`` by the feed moves that go down to ``height``."""
     cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-    pieces = paths.below(height, steps=cutting)
-    radius = np.round(paths.radius_at(pieces, bottom), 6)
+    pieces = _settled(paths, paths.below(height, steps=cutting), level)
+    radius = np.round(paths.radius_at(pieces, level), 6)
     groups = []
     for one in np.unique(radius[radius > NEAR]):
         group = pieces.only(radius == one)
@@ -97,39 +102,77 @@ def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
     return groups
 
 
+def _settled(paths: Paths, pieces: Pieces, level: float) -> Pieces:
+    """Pieces of known width at ``level``: a round cutter on a ramp counts where it is as wide as it gets."""
+    nose = paths.cutter.nose[pieces.step]
+    high = np.maximum(paths.start[pieces.step, 2], paths.end[pieces.step, 2])
+    ramps = (
+        (nose > 0) & (high > pieces.low) & (np.nan_to_num(paths.run.length[pieces.step]) > high - pieces.low)
+    )
+    if not ramps.any():
+        return pieces
+    parts = [pieces.only(~ramps)]
+    for one in np.unique(nose[ramps]).tolist():
+        parts.append(paths.below(level - one, steps=pieces.step[ramps & (nose == one)]))
+    every = Pieces(*(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS))
+    return every.only(np.argsort(every.step, kind="stable"))
+
+
 def remains(paths: Paths, job: Job) -> Remains:
     """Measure the stock that the program leaves around the part."""
     used = set(paths.run.tool[paths.steps].tolist())
-    mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
+    mills = [t for n, t in paths.tools.items() if n in used and t.kind in MILLS]
     if not mills:
         return Remains(0.0, None, ())
+    reach = Reach(mills, PLAY)
     smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
-    closings: dict[int, Shape] = {}
+    rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
-    for band in bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs)):
+    slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
+    every = bands(job, (*(tab.top + slack for tab in job.tabs), *_above_floors(job, reach)))
+    layers: list[Layer] = [(band.top, band.keep) for band in every]
+    for place, band in enumerate(every):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
-        groups = sweeps(paths, height, band.bottom)
-        if id(band.keep) not in closings:
-            closings[id(band.keep)] = closing(band.keep, smallest)
+        level = band.bottom + (0.0 if underside else TOLERANCES.leftover)
+        groups = sweeps(paths, height, level)
+        tips = [one.bottom for one in every[place:]]
+        if id(band.keep) not in rests or reach.noses:
+            rests[id(band.keep)] = reach.rest(layers, place, level, tips)
         lowest[id(band.keep)] = band, groups  # of one cross-section the lowest band is swept least
-        tabs = [tab.shape for tab in job.tabs if tab.top + TAB_SLACK >= band.top - NEAR]
-        reached = closings[id(band.keep)]
+        reached = rests[id(band.keep)]
         aside = None
-        if tabs:
-            reached = closing(shapely.union_all([band.keep, *tabs]), smallest)
+        beside = [_tabs_at(job, one, slack) for one in every]
+        if beside[place]:
+            held = [
+                (b.top, shapely.union_all([b.keep, *tabs])) for b, tabs in zip(every, beside, strict=True)
+            ]
+            reached = reach.rest(held, place, level, tips)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
-            aside = shapely.union_all([grow(tab, widest, COARSE) for tab in tabs])
-        thick, place = _on_walls(reached, aside, job, groups, smallest)
-        for depth, where in ((min(thick, 2 * smallest), place), _on_floors(reached, band, job, groups)):
-            if where is not None and depth > worst:
-                worst, at = depth, (*where, band.bottom)
+            aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
+        narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
+        thick, where = _on_walls(reached, aside, job, groups, narrow)
+        floors = _on_floors(reached, band, job, groups)
+        for depth, spot in ((min(thick, 2 * smallest), where), floors):
+            if spot is not None and depth > worst:
+                worst, at = depth, (*spot, band.bottom)
     beyond = [
-        spot for key, (band, groups) in lowest.items() for spot in _beyond(closings[key], band, job, groups)
+        spot for key, (band, groups) in lowest.items() for spot in _beyond(rests[key], band, job, groups)
     ]
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
+
+
+def _above_floors(job: Job, reach: Reach) -> list[float]:
+    """Heights from which on round mills are as wide as they get above the floors."""
+    floors = {feature.top + feature.depth for feature in job.features}
+    return [nose - floor for nose in reach.noses for floor in floors if floor < job.thickness - NEAR]
+
+
+def _tabs_at(job: Job, band: Band, slack: float) -> list[Shape]:
+    """The tabs that a band touches."""
+    return [tab.shape for tab in job.tabs if tab.top + slack >= band.top - NEAR]
 
 
 def _on_walls(
@@ -280,4 +323,4 @@ def _deepest_points(parts: Any, edge: Boundary) -> tuple[Array, Array]:
 
 def _round_ended(group: Sweep, job: Job) -> bool:
     """Whether the sweep is a drill's: only those get into corners of the closing (a hole of their size)."""
-    return all(abs(group.radius - mill.radius) > NEAR for mill in job.end_mills)
+    return all(abs(group.radius - mill.radius) > NEAR for mill in job.mills)
