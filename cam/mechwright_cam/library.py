@@ -1,7 +1,7 @@
 """The tool library: cutters in a TOML file that a person can extend."""
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -9,7 +9,7 @@ from pathlib import Path
 from mechwright.design import read_table, read_toml
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
-from mechwright.tooling import Tool
+from mechwright.tooling import CuttingChange, CuttingData, Tool
 
 BUILT_IN = Path(__file__).with_name("data") / "tools.toml"
 """The file of the cutters that come with the program."""
@@ -56,6 +56,27 @@ class Library:
         """The library with more cutters; one of a known name replaces the known one."""
         merged = {tool.name: tool for tool in self.tools} | {tool.name: tool for tool in tools}
         return Library(tuple(merged.values()))
+
+    def cutting(self, changes: Mapping[str, CuttingChange]) -> "Library":
+        """The library with cutting data of a design over its own, by the name of the tool.
+
+        They hold for every material that the tool cuts. With a speed and a chip load they also stand for a
+        material that the library has no data for.
+
+        Raises
+        ------
+        ToolError
+            There is no such tool.
+        """
+        return self.extended(tuple(_changed(self.get(name), change) for name, change in changes.items()))
+
+
+def _changed(tool: Tool, change: CuttingChange) -> Tool:
+    said = change.model_dump(exclude_none=True)
+    cutting = {name: data.model_copy(update=said) for name, data in tool.cutting.items()}
+    if "cutting_speed" in said and "chip_load" in said:
+        cutting = dict.fromkeys(MATERIALS, CuttingData(**said)) | cutting
+    return tool.model_copy(update={"cutting": cutting})
 
 
 @cache

@@ -74,7 +74,8 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     findings: list[Finding] = []
     jobs: list[Job] = []
     for part in cut_parts:
-        laid, found = lay_out_setups(part, design.cam_of(part.name), library)
+        cam = design.cam_of(part.name)
+        laid, found = lay_out_setups(part, cam, library.cutting(cam.cutting))
         found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
@@ -101,16 +102,17 @@ def _cut_parts(job: Job) -> list[tuple[str, shapely.Polygon]]:
 
 
 def _library(design: Design) -> Library:
-    """The cutters at hand; a name in ``tools`` that is none of them is a mistake in the file."""
+    """The cutters at hand; the name of one that is none of them is a mistake in the file."""
     library = load_library(design.tool_library)
     tables = {"cam": design.cam, **{f"cam.part.{name}": cam for name, cam in design.part_cam.items()}}
     for where, cam in tables.items():
-        for name in cam.tools:
+        named = {"tools": cam.tools, "cutting": cam.cutting, "measured.lengths": cam.measured.lengths}
+        for key, name in ((key, name) for key, names in named.items() for name in names):
             try:
                 library.get(name)
             except ToolError as error:
-                raise ToolError(f"{design.path}: {where}.tools: {error}") from error
-    return library
+                raise ToolError(f"{design.path}: {where}.{key}: {error}") from error
+    return library.cutting(design.cam.cutting)
 
 
 def _check_part_names(design: Design, parts: Sequence[Part]) -> None:
@@ -276,7 +278,8 @@ def verify(
         except (KeyError, PluginError):
             known = sorted({*DIALECTS, *(host.posts if host else ())})
             raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
-    library, cam = _library(design), design.cam_of(part.name)
+    cam = design.cam_of(part.name)
+    library = _library(design).cutting(cam.cutting)
     parts = plates(design.family.parts(design.params))
     _check_part_names(design, (*parts, *arranged(design, parts, library)))
     _, under = sides(part)

@@ -1,9 +1,13 @@
 """What a check has to say about a design."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, TypeVar
+
+from mechwright.errors import DesignError
+
+S = TypeVar("S")
 
 
 class Severity(StrEnum):
@@ -61,3 +65,19 @@ class Finding:
 def errors(findings: Iterable[Finding]) -> list[Finding]:
     """Give the findings that forbid building."""
     return [finding for finding in findings if finding.severity is Severity.ERROR]
+
+
+def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[Finding, ...]:
+    """Run checks one after the other, up to the first that finds an error: later ones rely on the earlier."""
+    found: list[Finding] = []
+    for check in checks:
+        found += check(subject)
+        if errors(found):
+            break
+    return tuple(found)
+
+
+def refuse(findings: Iterable[Finding]) -> None:
+    """Raise the first error among the findings as a DesignError; do nothing if there is none."""
+    for finding in errors(findings):
+        raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")

@@ -38,6 +38,19 @@ class CuttingData(Parameters):
     step_over: Ratio = Field(0.4, gt=0, le=1, description="Width of one roughing pass, in diameters.")
 
 
+class CuttingChange(Parameters):
+    """What a design says of a tool's cutting data; what it leaves out stays as the library has it."""
+
+    cutting_speed: MetresPerMin | None = Field(None, gt=0, le=2000, description="Speed of the cutting edge.")
+    chip_load: Millimetres | None = Field(
+        None, gt=0, le=2, description="Feed per tooth; per lip for a drill."
+    )
+    step_down: Ratio | None = Field(
+        None, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
+    )
+    step_over: Ratio | None = Field(None, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+
+
 class Tool(Parameters):
     """A cutter in its holder."""
 
@@ -227,6 +240,9 @@ class CamSettings(Parameters):
         (), description="Names of the cutters to use; empty: chosen from the library."
     )
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
+    cutting: dict[str, CuttingChange] = Field(
+        default_factory=dict, description="Tool name to cutting data, over those of the library."
+    )
     machine: Machine = Field(Machine(), description="The mill.")
     post: Posting = Field(Posting(), description="How the program is written.")
     second_side: SecondSide = Field(SecondSide(), description="The second side.")

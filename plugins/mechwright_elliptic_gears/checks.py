@@ -5,11 +5,11 @@ so the first group with an error ends the list.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, until_error
 from mechwright.materials import material
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
@@ -46,8 +46,8 @@ _CACHED = 32
 @lru_cache(_CACHED)
 def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the part can be built."""
-    found: list[Finding] = []
-    groups: tuple[Callable[[EllipticGearParams], Iterator[Finding]], ...] = (
+    return until_error(
+        params,
         _rack,
         undercut_findings,
         _tip,
@@ -57,11 +57,6 @@ def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
         _mesh,
         _figures,
     )
-    for group in groups:
-        found += group(params)
-        if errors(found):
-            break
-    return tuple(found)
 
 
 def _rack(params: EllipticGearParams) -> Iterator[Finding]:

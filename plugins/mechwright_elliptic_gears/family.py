@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.errors import DesignError
 from mechwright.family import Family
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, refuse
 from mechwright.parameters import Parameters
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
@@ -50,8 +49,7 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.checks import findings
         from mechwright_elliptic_gears.parts import parts_of
 
-        for finding in errors(findings(params)):
-            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        refuse(findings(params))
         return parts_of(params)
 
     def check_cut(

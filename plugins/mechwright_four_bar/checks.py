@@ -5,12 +5,12 @@ sound, so the first group with an error ends the list.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
@@ -35,8 +35,8 @@ _CACHED = 64
 @lru_cache(_CACHED)
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    found: list[Finding] = []
-    groups: tuple[Callable[[FourBarParams], Iterator[Finding]], ...] = (
+    return until_error(
+        params,
         _turning,
         _transmission,
         _room,
@@ -44,11 +44,6 @@ def findings(params: FourBarParams) -> tuple[Finding, ...]:
         _figures,
         _bearings,
     )
-    for group in groups:
-        found += group(params)
-        if errors(found):
-            break
-    return tuple(found)
 
 
 def _turning(params: FourBarParams) -> Iterator[Finding]:

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.errors import DesignError
 from mechwright.family import Family
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, refuse
 from mechwright.parameters import Parameters
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
@@ -48,8 +47,7 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.checks import findings
         from mechwright_four_bar.plates import parts_of
 
-        for finding in errors(findings(params)):
-            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        refuse(findings(params))
         return parts_of(params)
 
     def synthesise(

@@ -5,10 +5,10 @@ list.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
@@ -25,21 +25,11 @@ _CACHED = 32
 @lru_cache(_CACHED)
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    found = list(feasibility(params))
-    if errors(found):
-        return tuple(found)
-    m = mechanism_of(params)
-    groups: tuple[Callable[[Mechanism], Iterator[Finding]], ...] = (
-        slot_findings,
-        body_findings,
-        load_findings,
-        _figures,
-    )
-    for group in groups:
-        found += group(m)
-        if errors(found):
-            break
-    return tuple(found)
+    return until_error(params, feasibility, _mechanism_findings)
+
+
+def _mechanism_findings(params: GenevaParams) -> tuple[Finding, ...]:
+    return until_error(mechanism_of(params), slot_findings, body_findings, load_findings, _figures)
 
 
 def _figures(m: Mechanism) -> Iterator[Finding]:

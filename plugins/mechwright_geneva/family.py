@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.errors import DesignError
 from mechwright.family import Family
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, refuse
 from mechwright.parameters import Parameters
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
@@ -48,8 +47,7 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.checks import findings
         from mechwright_geneva.parts import parts_of
 
-        for finding in errors(findings(params)):
-            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        refuse(findings(params))
         return parts_of(params)
 
     def synthesise(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright.errors import DesignError
-from mechwright.findings import errors
+from mechwright.findings import refuse
 from mechwright.laws import Peaks
 from mechwright.motion import Array, Channel, Motion, Poses, Scalar
 from mechwright_geneva.contact import contact, loads
@@ -50,8 +50,7 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     from mechwright_geneva.feasible import feasibility
 
-    for finding in errors(feasibility(params)):
-        raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    refuse(feasibility(params))
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60
     theta_d = np.linspace(0, math.tau, samples)

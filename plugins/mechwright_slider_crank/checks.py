@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from mechwright.errors import GeometryError, MechwrightError
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, until_error
 from mechwright_slider_crank.figures import least_transmission_angle, limits
 from mechwright_slider_crank.forces import JointForces, balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
@@ -40,15 +40,7 @@ _CACHED = 16
 @lru_cache(_CACHED)
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    found = [*_turns(params)]
-    if not errors(found):
-        found += _webs(params)
-    if not errors(found):
-        found += _drawn(params)
-    if not errors(found):
-        found += _carried(params)
-        found += _figures(params)
-    return tuple(found)
+    return until_error(params, _turns, _webs, _drawn, _carried, _figures)
 
 
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:

@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.errors import DesignError
 from mechwright.family import Family
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, refuse
 from mechwright.parameters import Parameters
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
@@ -51,8 +50,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         from mechwright_slider_crank.checks import findings
         from mechwright_slider_crank.plates import parts_of
 
-        for finding in errors(findings(params)):
-            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        refuse(findings(params))
         return parts_of(params)
 
     def synthesise(

@@ -5,12 +5,12 @@ so the first group with an error ends the list.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, until_error
 from mechwright.motion import Array
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.jets import Turning
@@ -35,19 +35,14 @@ _CACHED = 32
 @lru_cache(_CACHED)
 def findings(params: SphericalParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that it can be built."""
-    found: list[Finding] = []
-    groups: tuple[Callable[[SphericalParams], Iterator[Finding]], ...] = (
+    return until_error(
+        params,
         _pins,
         _assembly,
         _path,
         hardware_findings,
         _figures,
     )
-    for group in groups:
-        found += group(params)
-        if errors(found):
-            break
-    return tuple(found)
 
 
 def _pins(params: SphericalParams) -> Iterator[Finding]:

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.errors import DesignError
 from mechwright.family import Family
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, refuse
 from mechwright.parameters import Parameters
 from mechwright.synthesis import Progress, Synthesis
 from mechwright_spherical.params import SphericalParams
@@ -51,8 +50,7 @@ class Spherical(Family[SphericalParams]):
         from mechwright_spherical.checks import findings
         from mechwright_spherical.parts import parts_of
 
-        for finding in errors(findings(params)):
-            raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+        refuse(findings(params))
         return parts_of(params)
 
     def synthesise(

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import get_args
+from typing import get_args, get_origin
 
 from pydantic import BaseModel
 
@@ -19,7 +19,8 @@ def fields(model: type[BaseModel], prefix: str = "") -> Iterator[tuple[str, obje
         inner = [kind for kind in get_args(field.annotation) if isinstance(kind, type)]
         for kind in inner:  # a table that may be left out
             if issubclass(kind, BaseModel):
-                yield from fields(kind, f"{prefix}{key}.")
+                by_name = "TOOL." if get_origin(field.annotation) is dict else ""
+                yield from fields(kind, f"{prefix}{key}.{by_name}")
         if isinstance(default, BaseModel):
             yield from fields(type(default), f"{prefix}{key}.")
         else:

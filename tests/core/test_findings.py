@@ -1,6 +1,9 @@
 import json
 
-from mechwright.findings import Finding, Severity, errors
+import pytest
+
+from mechwright.errors import DesignError
+from mechwright.findings import Finding, Severity, errors, refuse, until_error
 
 UNDERCUT = Finding(
     "gear.undercut",
@@ -29,3 +32,25 @@ def test_only_errors_forbid_building():
     warning = Finding("a.b", Severity.WARNING, "teeth", "look", remedy="think")
     assert errors([warning, UNDERCUT, warning]) == [UNDERCUT]
     assert errors([]) == []
+
+
+def test_checks_run_up_to_the_first_error():
+    warning = Finding("a.b", Severity.WARNING, "teeth", "look", remedy="think")
+    asked = []
+
+    def check(found):
+        return lambda subject: asked.append(subject) or found
+
+    assert until_error("design", check([warning]), check([UNDERCUT, warning]), check([warning])) == (
+        warning,
+        UNDERCUT,
+        warning,
+    )
+    assert asked == ["design", "design"]
+
+
+def test_the_first_error_is_raised_as_one_line():
+    warning = Finding("a.b", Severity.WARNING, "teeth", "look", remedy="think")
+    refuse([warning])
+    with pytest.raises(DesignError, match="teeth: flank 3 is undercut; use 17 teeth or more"):
+        refuse([warning, UNDERCUT])
