@@ -73,12 +73,17 @@ def last_mills(
 
 
 def roughers(mills: Sequence[Tool], finest: Tool) -> list[Tool]:
-    """The mills that rough before the finest: the wider ones, and round ones as wide, whose edges last."""
+    """The mills that rough before the finest: the wider ones, and round ones as wide, whose edges last.
+
+    Before a ball every other mill roughs, for a ball takes long to make a floor.
+    """
+    is_ball = finest.nose == finest.radius
     return [
         mill
         for mill in mills
         if mill.diameter > finest.diameter
         or (mill is not finest and mill.diameter == finest.diameter and mill.nose > finest.nose)
+        or (is_ball and mill.nose < mill.radius)
     ]
 
 

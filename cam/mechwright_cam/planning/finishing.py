@@ -44,7 +44,8 @@ class Finishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all rings."""
         zone = self.zone
-        heights = levels(zone.top, zone.bottom_for(self.tool), self.settings.finish_step * self.tool.diameter)
+        step = self.settings.finish_step * self.tool.diameter
+        heights = levels(zone.top, zone.bottom_for(self.tool), step)
         heights += heights[-1:] * self.settings.spring_passes
         waiting = self._pieces()
         while waiting:

@@ -20,6 +20,7 @@ from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
+from mechwright_cam.planning.grooves import groove
 from mechwright_cam.planning.holes import (
     BorePlan,
     drill_moves,
@@ -251,7 +252,7 @@ class _Planner:
     def _cleared(self, zone: Zone, mill: Tool) -> list[Cut]:
         """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
         settings = self.job.settings
-        if settings.clearing != "adaptive" or zone.kind == "outside":
+        if settings.clearing != "adaptive" or zone.kind == "outside" or zone.snug:
             return []
         from mechwright_cam.planning import adaptive
 
@@ -281,6 +282,8 @@ class _Planner:
         """The last cuts of one layer, with a flat end mill before a finer round one."""
         settings = self.job.settings
         cuts: list[Cut] = []
+        if zone.snug:
+            return [self._groove(zone, zone.finisher)]
         for mill in (zone.finisher,) if zone.before is None else (zone.before, zone.finisher):
             cuts.append(self._rough(self._roughing(zone, mill, settings.stock_to_leave)))
             cuts += self._rough_heavy(zone, mill)
@@ -294,6 +297,19 @@ class _Planner:
                 )
             cuts.append((f"{zone.name}: finish", mill, moves))
         return cuts
+
+    def _groove(self, zone: Zone, mill: Tool) -> Cut:
+        """All of a groove that the mill fills."""
+        settings = self.job.settings
+        step = mill.cutting[self.job.part.material].step_down * mill.diameter
+        deep = _pass(zone, mill, step)
+        moves = self._moves(mill, lambda pen: groove(zone, settings, pen, step), depth=deep)
+        if not moves:
+            raise ToolError(
+                f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; draw it as "
+                f"wide as the mill, {mill.diameter:g} mm, or wider"
+            )
+        return f"{zone.name}: groove", mill, moves
 
     def _ridges(self, zone: Zone, mill: Tool) -> list[Cut]:
         """Make the floor flat where round mills have left fillets or cusps on it."""

@@ -20,12 +20,15 @@ from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.choice import (
     ROOMY,
+    SAME_RADIUS,
     SAME_REACH,
     entry_place,
     finishing_choice,
+    long_enough,
     outside_mills,
     path_radius,
     roomy_mills,
+    roughers,
     usable_mills,
 )
 from mechwright_cam.planning.details import plan_detail
@@ -37,14 +40,14 @@ from mechwright_cam.planning.zone import (
     bores,
     bottom_of,
     check_clamp,
-    floor_mill,
+    floor_mills,
     inner_zones,
     outer_zones,
     roughing_mills,
     through,
 )
 from mechwright_cam.reach import closed_area, closing, leaves_at_most, remainder
-from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
+from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons, thinned
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
@@ -137,6 +140,11 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     shapes = recess(every, feature, able[0].diameter, bottom)
     if shapely.is_empty(shapes.must):
         return []
+    if isinstance(feature, Pocket) and feature.floor_radius > 0:
+        # The wall is for a round mill; a flat one clears what is further away, if there is room.
+        inner = polygons(grow(shapes.must, -feature.floor_radius, ROUGH))
+        width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
+        return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
     able = roomy_mills(able, shapes.must)
     return [
         _finest_needed(able, shapes.keep, every.settings.corner_mill, shapes.must if shapes.open else None)
@@ -151,8 +159,8 @@ def _floor_mills(every: Job) -> list[Tool]:
             bottom = bottom_of(every, feature.top, feature.depth)
             mills = usable_mills(every, -bottom, feature.floor_radius)
             shapes = recess(every, feature, mills[0].diameter, bottom)
-            near = shapes.must if shapes.open else None
-            found.append(floor_mill(every, feature, mills, shapes.keep, near))
+            if not shapely.is_empty(shapes.must):
+                found += floor_mills(every, feature, mills, shapes)[0]
     return found
 
 
@@ -292,8 +300,37 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     for detail in job.details:
         _try(found, partial(plan_detail, job, detail))
     if not found:
-        found += _corners(job, zones)
+        found += _corners(job, zones) + _unused(job, zones)
     return job, found + _travel(job) + _remarks(job)
+
+
+def _unused(job: Job, zones: list[Zone]) -> list[Finding]:
+    """The listed mills that nothing in the part is for."""
+    boring = [plan_bore(job, bore).mill for bore in bores(job)]
+    milling: list[list[Tool]] = [
+        [*roughers(zone.mills, zone.finisher), zone.before or zone.finisher, zone.finisher] for zone in zones
+    ]
+    used = {mill.name for mill in boring if mill is not None}
+    used |= {mill.name for mills in milling for mill in mills}
+    return [
+        Finding(
+            "cam.tool-unused",
+            Severity.WARNING,
+            "cam.tools",
+            f"{mill.name} has nothing to do in {job.part.name}: {_why_idle(job, mill)}",
+            remedy="take it out of cam.tools",
+        )
+        for mill in job.mills
+        if mill.name not in used and job.part.material in mill.cutting
+    ]
+
+
+def _why_idle(job: Job, mill: Tool) -> str:
+    if mill.nose == mill.radius:
+        return f"no floor has a fillet of {mill.nose:g} mm, and flat floors are for the others"
+    if not long_enough(mill, job.thickness):
+        return f"its flutes are too short for what others cut, {mill.flute_length:g} mm"
+    return "the others reach as far"
 
 
 def _travel(job: Job) -> list[Finding]:
@@ -343,7 +380,8 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
         if zone.tabs is not None:
             continue
         found += _partly(job, zone)
-        depth = remainder(zone.wall, zone.finisher.radius, zone.must)
+        found += _fillet(job, zone)
+        depth = remainder(zone.wall, zone.reach_radius, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
                 Finding(
@@ -358,6 +396,25 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
                 )
             )
     return found
+
+
+def _fillet(job: Job, zone: Zone) -> list[Finding]:
+    """The fillet that a round mill leaves at the foot of a wall where none is drawn."""
+    last = zone.before or zone.finisher
+    if zone.through or last.nose <= zone.floor_radius + SAME_RADIUS:
+        return []
+    return [
+        Finding(
+            "cam.unreachable",
+            Severity.NOTE,
+            "cam.tools",
+            f"{last.name} leaves a fillet of {last.nose:g} mm at the foot of {zone.name} of {job.part.name}",
+            last.nose,
+            zone.floor_radius,
+            "mm",
+            "list a flat end mill as well",
+        )
+    ]
 
 
 def _remarks(job: Job) -> list[Finding]:
@@ -420,7 +477,7 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
     if zone.kind == "outside":
         return []
     must = zone.clear if zone.must is None else zone.must
-    radius = zone.finisher.radius
+    radius = zone.reach_radius
     reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
     share = float(shapely.intersection(reach, must).area / must.area)
     if share >= MOSTLY:

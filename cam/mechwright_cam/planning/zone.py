@@ -13,6 +13,7 @@ room
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from typing import Literal
@@ -34,7 +35,7 @@ from mechwright_cam.planning.choice import (
     roomy_mills,
     usable_mills,
 )
-from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.planning.recess import Recess, reached_share, recess
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
 
@@ -46,6 +47,10 @@ TAB_SLACK = 4 * ROUGH
 
 CUSP = TOLERANCES.leftover / 2
 """Height of what may stand between the cuts of a round mill on a floor, mm: half of what may stay."""
+
+SNUG = TOLERANCES.gouge - TOLERANCES.arc_fit - 3 * TOLERANCES.flatten
+"""A groove may be so much narrower on each side than the mill that makes it, mm: what the path and the
+outline leave of the permitted gouge."""
 
 HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
@@ -80,6 +85,8 @@ class Zone:
     """A flat end mill that finishes before the finisher, which is a finer round one."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
+    snug: bool = False
+    """Whether the finisher is just as wide as the groove, and makes it in one go."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
@@ -121,6 +128,11 @@ class Zone:
         A corner of radius c at a distance a from the wall touches a fillet of radius f if a + c = f.
         """
         return max(allowance, self.floor_radius - mill.nose)
+
+    @property
+    def reach_radius(self) -> float:
+        """Radius of the finisher as far as it reaches into corners, mm."""
+        return self.finisher.radius - (SNUG if self.snug else 0.0)
 
     def leave_ridges(self, mill: Tool, cleared: shapely.Geometry) -> None:
         """Note what a round mill leaves on the floor of a region that it has cleared closely."""
@@ -177,6 +189,12 @@ LEAST_SHARE = 0.02
 """A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
 
 
+ENTERED = 0.5
+"""Below this share of a groove a mill has only come in at its open ends."""
+FILLED = 0.9
+"""A mill makes a groove of its own width if it reaches this share of it."""
+
+
 def inner_zones(job: Job) -> list[Zone]:
     """Openings that are not round, and pockets."""
     zones = []
@@ -191,17 +209,18 @@ def inner_zones(job: Job) -> list[Zone]:
         shapes = recess(job, feature, mills[0].diameter, bottom)
         if shapely.is_empty(shapes.must):
             raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
-        if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
-            raise ToolError(
-                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
-                f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
-            )
-        mills = roomy_mills(mills, shapes.must)
-        near = shapes.must if shapes.open else None
+        snug = False
         if radius > 0:
-            last = [floor_mill(job, feature, mills, shapes.keep, near)]
+            last, snug = floor_mills(job, feature, mills, shapes)
+            mills = last if snug else roomy_mills(mills, shapes.must)
         else:
-            last = last_mills(mills, shapes.keep, near)
+            if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
+                raise ToolError(
+                    f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
+                    f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+                )
+            mills = roomy_mills(mills, shapes.must)
+            last = last_mills(mills, shapes.keep, shapes.must if shapes.open else None)
         finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutter needs
             run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
@@ -220,6 +239,7 @@ def inner_zones(job: Job) -> list[Zone]:
             below=bottom == job.floor,
             before=last[0] if len(last) > 1 else None,
             floor_radius=radius,
+            snug=snug,
         )
         if shapes.open:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
@@ -227,14 +247,13 @@ def inner_zones(job: Job) -> list[Zone]:
     return zones
 
 
-def floor_mill(
-    job: Job,
-    feature: Pocket | Profile,
-    mills: list[Tool],
-    keep: shapely.Geometry,
-    near: shapely.Geometry | None,
-) -> Tool:
-    """The mill that makes a floor with a fillet; raises ToolError if none has its radius."""
+def floor_mills(
+    job: Job, feature: Pocket | Profile, mills: Sequence[Tool], shapes: Recess
+) -> tuple[list[Tool], bool]:
+    """The mill that makes a floor with a fillet, and whether it is just as wide as the recess.
+
+    Raises ToolError if none has the radius, or none gets in.
+    """
     radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
     able = [mill for mill in mills if makes_floor(mill, radius)]
     if not able:
@@ -242,7 +261,18 @@ def floor_mill(
             f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
             f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
         )
-    return finishing_choice(able, keep, near)
+    if reached_share(shapes, able[-1].radius + BIAS) < ENTERED:
+        fit = [mill for mill in able if reached_share(shapes, mill.radius - SNUG) >= FILLED]
+        if fit:
+            return fit[:1], True
+    fit = [mill for mill in able if reached_share(shapes, mill.radius + BIAS) >= LEAST_SHARE]
+    if not fit:
+        raise ToolError(
+            f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
+            "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
+        )
+    fit = roomy_mills(fit, shapes.must)
+    return [finishing_choice(fit, shapes.keep, shapes.must if shapes.open else None)], False
 
 
 def outer_zones(job: Job) -> list[Zone]:

@@ -26,9 +26,10 @@ from mechwright.tooling import MILLS
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
-from mechwright_cam.proof.reachable import Layer, Reach
+from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.wall import Wall
 
 ROUNDING = 1e-4
@@ -127,28 +128,30 @@ def remains(paths: Paths, job: Job) -> Remains:
     reach = Reach(mills, PLAY)
     smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
-    rests: dict[int, Shape] = {}
-    lowest: dict[int, tuple[Band, list[Sweep]]] = {}
+    rests: dict[int, tuple[Band, Shape, list[Sweep]]] = {}
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
-    every = bands(job, (*(tab.top + slack for tab in job.tabs), *_above_floors(job, reach)))
-    layers: list[Layer] = [(band.top, band.keep) for band in every]
+    round_floors = fillets(job)
+    extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
+    every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
+    beside = [_tabs_at(job, band, slack) for band in every]
+    free = Surroundings([(band.top, band.keep) for band in every], round_floors)
     for place, band in enumerate(every):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
         level = band.bottom + (0.0 if underside else TOLERANCES.leftover)
         groups = sweeps(paths, height, level)
         tips = [one.bottom for one in every[place:]]
-        if id(band.keep) not in rests or reach.noses:
-            rests[id(band.keep)] = reach.rest(layers, place, level, tips)
-        lowest[id(band.keep)] = band, groups  # of one cross-section the lowest band is swept least
-        reached = rests[id(band.keep)]
+        known = rests.get(id(band.keep))
+        if known is not None and not reach.noses and not round_floors:
+            reached = known[1]
+        else:
+            reached = reach.rest(free, place, level, tips)
+        # Of one cross-section the lowest band is swept least.
+        rests[id(band.keep)] = band, reached, groups
         aside = None
-        beside = [_tabs_at(job, one, slack) for one in every]
         if beside[place]:
-            held = [
-                (b.top, shapely.union_all([b.keep, *tabs])) for b, tabs in zip(every, beside, strict=True)
-            ]
-            reached = reach.rest(held, place, level, tips)
+            held = [(b.top, shapely.union_all([b.keep, *t])) for b, t in zip(every, beside, strict=True)]
+            reached = reach.rest(Surroundings(held, round_floors), place, level, tips)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
         narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
@@ -157,9 +160,11 @@ def remains(paths: Paths, job: Job) -> Remains:
         for depth, spot in ((min(thick, 2 * smallest), where), floors):
             if spot is not None and depth > worst:
                 worst, at = depth, (*spot, band.bottom)
-    beyond = [
-        spot for key, (band, groups) in lowest.items() for spot in _beyond(rests[key], band, job, groups)
-    ]
+    beyond = []
+    for band, reached, groups in rests.values():
+        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in round_floors]
+        keep = shapely.union_all([band.keep, *solid]) if solid else band.keep
+        beyond += _beyond(reached, Band(band.top, band.bottom, keep), job, groups)
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
 

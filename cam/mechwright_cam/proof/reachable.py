@@ -22,10 +22,19 @@ import shapely
 
 from mechwright.cutter import cutter
 from mechwright.tooling import Tool
+from mechwright_cam.proof.fillets import Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 
 Layer = tuple[float, Shape]
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What has to stay: layers from the top of the plate down, and the fillets of floors."""
+
+    layers: Sequence[Layer]
+    fillets: Sequence[Fillet] = ()
 
 
 @dataclass(frozen=True)
@@ -57,30 +66,34 @@ class Reach:
         """Radius of the narrowest mill at a height above its tip, mm."""
         return min(float(cutter(tool).radius_at(height)) for tool in self.mills)
 
-    def rest(self, layers: Sequence[Layer], place: int, height: float, tips: Sequence[float]) -> Shape:
+    def rest(self, around: Surroundings, place: int, height: float, tips: Sequence[float]) -> Shape:
         """What stays at ``height``, z in mm, in the layer of index ``place``.
 
         ``tips`` are the heights at which floors lie below, the layer's own bottom first.
         """
-        found: Shape | None = None
-        if np.isfinite(self.flat):
-            found = closing(layers[place][1], self.flat)
+        layer = around.layers[place][1]
+        solid = [one for one in (fillet.solid(height) for fillet in around.fillets) if not one.is_empty]
+        keep = shapely.union_all([layer, *solid]) if solid else layer
+        found: Shape | None = closing(keep, self.flat) if np.isfinite(self.flat) else None
         for tool in self.mills:
-            if tool.nose == 0 or tool.radius + self.play >= self.flat:
+            if tool.nose == 0 or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
             for tip in (*tips, min(tips) - tool.nose):
-                left = self._rest_of(tool, layers, height, tip)
+                left = shapely.union(keep, self._rest_of(tool, around, height, tip))
                 found = left if found is None else shapely.intersection(found, left)
         assert found is not None  # noqa: S101 - there is a mill
         return found
 
-    def _rest_of(self, tool: Tool, layers: Sequence[Layer], height: float, tip: float) -> Shape:
+    def _rest_of(self, tool: Tool, around: Surroundings, height: float, tip: float) -> Shape:
         """What one cutter leaves that works with its tip at one height."""
         shape = cutter(tool)
         blocked: dict[int, tuple[float, Shape]] = {}
-        for top, keep in layers:
+        for top, keep in around.layers:
             if top > tip + NEAR:
                 away = float(shape.radius_at(top - tip)) + self.play
                 blocked[id(keep)] = max(away, blocked.get(id(keep), (0.0, keep))[0]), keep
-        around = shapely.union_all([grow(keep, away) for away, keep in blocked.values()])
-        return grow(around, -float(shape.radius_at(height - tip)) - self.play)
+        shapes = [grow(keep, away) for away, keep in blocked.values()]
+        for fillet in around.fillets:
+            off = stay(tool.nose, fillet.radius, tip - fillet.floor)
+            shapes.append(grow(fillet.walls, tool.radius + off + self.play))
+        return grow(shapely.union_all(shapes), -float(shape.radius_at(height - tip)) - self.play)
