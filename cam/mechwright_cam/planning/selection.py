@@ -307,9 +307,7 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
 def _unused(job: Job, zones: list[Zone]) -> list[Finding]:
     """The listed mills that nothing in the part is for."""
     boring = [plan_bore(job, bore).mill for bore in bores(job)]
-    milling: list[list[Tool]] = [
-        [*roughers(zone.mills, zone.finisher), zone.before or zone.finisher, zone.finisher] for zone in zones
-    ]
+    milling: list[list[Tool]] = [[*roughers(zone.mills, zone.finisher), *zone.last_mills] for zone in zones]
     used = {mill.name for mill in boring if mill is not None}
     used |= {mill.name for mills in milling for mill in mills}
     return [
@@ -400,7 +398,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
 
 def _fillet(job: Job, zone: Zone) -> list[Finding]:
     """The fillet that a round mill leaves at the foot of a wall where none is drawn."""
-    last = zone.before or zone.finisher
+    last = zone.last_mills[0]
     if zone.through or last.nose <= zone.floor_radius + SAME_RADIUS:
         return []
     return [

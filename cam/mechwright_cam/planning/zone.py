@@ -130,6 +130,11 @@ class Zone:
         return max(allowance, self.floor_radius - mill.nose)
 
     @property
+    def last_mills(self) -> tuple[Tool, ...]:
+        """The mills that finish, one after the other."""
+        return (self.finisher,) if self.before is None else (self.before, self.finisher)
+
+    @property
     def reach_radius(self) -> float:
         """Radius of the finisher as far as it reaches into corners, mm."""
         return self.finisher.radius - (SNUG if self.snug else 0.0)
