@@ -141,7 +141,7 @@ def _recesses(job: Job, frame: Frame) -> str:
     """The floors of recesses, darker the deeper they lie."""
     whole = job.target
     layers = []
-    for layer in sections(job.part, DETAIL)[:-1]:
+    for layer in sections(job.part, DETAIL, steps=0)[:-1]:
         taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
         rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
         data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)

@@ -52,7 +52,8 @@ def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
     rest = [feature for feature in part.features if feature not in above]
     if not rest:
         return part.features, ()
-    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in part.features])}
+    flat = [replace(f, floor_radius=0.0) if isinstance(f, Pocket) else f for f in part.features]
+    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in flat])}
     for feature in rest:
         if feature.name not in below:
             raise DesignError(
@@ -90,6 +91,11 @@ def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Featu
             sites = tuple((turned_point(site, about), width) for site, width in feature.tab_sites)
             return replace(feature, loop=turned_over(feature.loop, about), top=top, tab_sites=sites)
         case Pocket():
+            if feature.floor_radius > 0:
+                raise DesignError(
+                    f"cam.second_side: {feature.name} has a floor_radius and is milled from the underside; "
+                    "fillets are for floors that are cut from above"
+                )
             islands = tuple(turned_over(loop, about) for loop in feature.islands)
             return replace(feature, boundary=turned_over(feature.boundary, about), islands=islands, top=top)
 

@@ -7,10 +7,12 @@ is below its distance from fillet, wall and floor.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
 
+from mechwright.motion import Array
 from mechwright.part import Pocket
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
@@ -67,6 +69,18 @@ class Fillet:
         whole: Shape = shapely.union_all(polygons(strip))  # without the edges at which the two only touch
         return whole
 
+    @cached_property
+    def foot(self) -> Shape:
+        """Plan view of the fillet."""
+        strip: Shape = shapely.intersection(self.inside, grow(self.walls, self.radius))
+        return strip
+
+    def rise(self, away: Array) -> Array:
+        """Height of the fillet above the floor at distances (n,) from the wall, mm."""
+        short = np.maximum(self.radius - away, 0.0)
+        out: Array = self.radius - np.sqrt(self.radius**2 - short**2)
+        return out
+
     def deepest(self, paths: Paths) -> Gouge | None:
         """The deepest cut into the fillet."""
         top = self.floor + self.radius
@@ -74,7 +88,7 @@ class Fillet:
         if len(pieces) == 0 or self.walls.is_empty:
             return None
         lines, steps = paths.lines(pieces), pieces.step
-        foot = shapely.intersection(self.inside, grow(self.walls, self.radius))
+        foot = self.foot
         shapely.prepare(foot)
         shape = paths.cutters(steps)
         near = np.flatnonzero(shapely.dwithin(foot, lines, shape.radius))

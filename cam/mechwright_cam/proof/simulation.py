@@ -26,6 +26,7 @@ from mechwright_cam.interpreter import Kind, Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
 
 CELLS = 1_000_000
@@ -269,4 +270,8 @@ def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.floa
     for band in bands(job):  # nothing is told of a floor beside a wall above it
         near = shapely.buffer(shapely.boundary(band.keep), 1.5 * cell, quad_segs=2)
         wanted[_inside(near, job, seen.shape, cell)] = np.nan
+    for fillet in fillets(job):
+        rows, columns = np.nonzero(_inside(fillet.foot, job, seen.shape, cell))
+        x, y = job.stock[0] + (columns + 0.5) * cell, job.stock[1] + (rows + 0.5) * cell
+        wanted[rows, columns] += fillet.rise(shapely.distance(fillet.walls, shapely.points(x, y)))
     return seen - wanted
