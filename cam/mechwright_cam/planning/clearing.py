@@ -156,7 +156,7 @@ class Roughing:
             if self.smooth:
                 taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
             zone.ridges = shapely.union(zone.ridges, taken)
-            zone.ridge_height = max(zone.ridge_height, self.tool.nose)
+            zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
         zone.left = shapely.difference(zone.left, self.reach)
 
     def cavities(self) -> list[Cavity]:
@@ -167,8 +167,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        stock = shapely.union(self.zone.left, self.zone.ridges) if self.ridges else self.zone.left
-        near = grow(stock, self.tool.radius - CLEAR, ROUGH)
+        near = grow(self.zone.standing, self.tool.radius - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -276,7 +275,7 @@ class Roughing:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
         zone = self.zone
         bottom = zone.bottom_for(self.tool)
-        top = min(zone.top, bottom + zone.ridge_height) if self.ridges else zone.top
+        top = bottom + zone.ridge_height if self.ridges else zone.top
         heights = levels(top, bottom, step_down)
         for cavity in self.cavities():
             first = cavity.runs[0]

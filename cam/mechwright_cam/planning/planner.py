@@ -256,7 +256,10 @@ class _Planner:
                 cuts += [] if cleared else [self._floored(floor, mill)]
         for mill in zone.last_mills:
             cuts += [self._rough(self._roughing(rough, mill, allowance)), *self._rough_heavy(rough, mill)]
-            cuts += self._ridges(rough, mill)
+        # What round mills left at the foot of the wall is cut in one go, down to the floor.
+        if not shapely.is_empty(rough.ridges):
+            floor.ridges = shapely.union(floor.ridges, rough.ridges)
+            floor.ridge_height = rough.ridge_height + leave
         early = [mill for mill in cleared if mill.name not in {last.name for last in zone.last_mills}]
         cuts += [self._floored(floor, mill) for mill in [*early, *zone.last_mills]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
@@ -380,7 +383,7 @@ class _Planner:
         deep = _pass(zone, mill, min(step_down, zone.ridge_height))
         moves = self._moves(mill, lambda pen: cut.write(pen, step_down), depth=deep)
         cut.commit()
-        return [(f"{zone.name}: floor", mill, moves)]
+        return [(f"{zone.name}: level the floor", mill, moves)]
 
     def _rough_heavy(self, zone: Zone, mill: Tool, what: str = "rough the narrow places") -> list[Cut]:
         """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.

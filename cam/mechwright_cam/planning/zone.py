@@ -130,6 +130,11 @@ class Zone:
         return max(allowance, self.floor_radius - mill.nose)
 
     @property
+    def standing(self) -> shapely.Geometry:
+        """Where a cutter that goes down to the floor meets stock."""
+        return self.left if shapely.is_empty(self.ridges) else shapely.union(self.left, self.ridges)
+
+    @property
     def last_mills(self) -> tuple[Tool, ...]:
         """The mills that finish, one after the other."""
         return (self.finisher,) if self.before is None else (self.before, self.finisher)
@@ -146,7 +151,7 @@ class Zone:
             self.ridges = shapely.union(
                 self.ridges, shapely.difference(cleared, grow(cleared, foot - mill.radius, ROUGH))
             )
-            self.ridge_height = max(self.ridge_height, mill.nose)
+            self.ridge_height = max(self.ridge_height, min(mill.nose, self.height))
 
     def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
