@@ -1,5 +1,8 @@
 """Roughing: remove what is left in front of a wall, ring by ring from the far side to the wall.
 
+Of the stock to take a cut looks at the core only: what is left when a sliver is shaved off all round. What is
+thinner than two slivers has none, and grown by the sliver the core is the stock again.
+
 Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because
 the way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
 """
@@ -26,7 +29,6 @@ from mechwright_cam.toolpath.offsets import (
     Piece,
     densified,
     grow,
-    opened,
     pieces,
     polygons,
     rings,
@@ -120,30 +122,41 @@ class Roughing:
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
-        # The shape that the cutter's edge must not enter.
-        self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
-        self.ridges = ridges
+        self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
         self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
         fine = min(self.step, 2 * TIGHT * self.foot)
         self.smooth = ridges or fine >= MANY * self.step
         if self.smooth:
             self.step = fine
-        self.blocked = grow(self.keep, tool.radius, self.chord)
+        self.blocked = self._blocked(0)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
         self.wide = self.foot if self.smooth else tool.radius
         self.reach = grow(self.free, self.foot if ridges else tool.radius, ROUGH)
-        take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
-        self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
+        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
-            self.take = opened(shapely.difference(self.take, zone.waste), self.sliver)
+            self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
+
+    def _blocked(self, order: int) -> shapely.Geometry:
+        """Where the centre must not be on the ring of this order."""
+        radius = self.tool.radius + order * self.step
+        if self.coarse:
+            return self.zone.rough_keep(self.allowance, radius)
+        return grow(self.zone.keep, max(self.allowance, BIAS) + radius)
+
+    @property
+    def taken(self) -> float:
+        """Area of what the cut is for, mm²: that of the core grown back, by Steiner's formula."""
+        count, margin = len(polygons(self.core)), self.sliver
+        return float(self.core.area + margin * self.core.length + math.pi * margin**2 * count)
 
     @property
     def share(self) -> float:
         """Part of what is left that this cut takes."""
-        return float(self.take.area / self.zone.left.area) if self.zone.left.area > 0 else 0.0
+        return self.taken / self.zone.left.area if self.zone.left.area > 0 else 0.0
 
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
@@ -161,7 +174,7 @@ class Roughing:
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
-        parts = polygons(self.take)
+        parts = polygons(self.core)
         found = self._pieces() if parts else []
         if not found:
             return []
@@ -186,7 +199,8 @@ class Roughing:
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
             if shapes:
-                cavities.append(self._linked(shapes, parts[part], near, free))
+                stock = grow(parts[part], self.sliver, ROUGH)
+                cavities.append(self._linked(shapes, stock, near, free))
         return cavities
 
     def _linked(
@@ -219,18 +233,18 @@ class Roughing:
         radius = self.tool.radius
         shapely.prepare(self.room)
         found: list[Piece] = []
-        blocked, take = self.blocked, self.take
-        near = grow(take, radius + CLEAR, ROUGH)
+        blocked, core = self.blocked, self.core
+        near = grow(core, self.sliver + radius + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, self.wide - CLEAR, ROUGH)), self.sliver)
-                if not polygons(take):
+                core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
+                if not polygons(core):
                     return found
-                blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, (self.foot if self.ridges else radius) - self.sliver, ROUGH)
+                blocked = self._blocked(order)
+            wanted = grow(core, self.foot if self.ridges else radius, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
