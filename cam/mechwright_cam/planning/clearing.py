@@ -41,6 +41,9 @@ FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
+OVERLAP = 1.5 * ROUGH
+"""What a cut takes is made larger by this than by the cut before, mm: then their chords keep apart along
+walls, where shapes that all but coincide would cross at every corner. Tests of what is clear allow for it."""
 COARSE_FIT = 2 * ROUGH
 """How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
 lines again."""
@@ -133,8 +136,11 @@ class Roughing:
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
         self.wide = self.foot if self.smooth else tool.radius
-        self.reach = grow(self.free, self.foot if ridges else tool.radius, ROUGH)
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
+        self.over = zone.over + min(OVERLAP, self.sliver / 2)
+        # On a floor with ridges nothing may be taken for cut that is not.
+        self.touch = self.foot if ridges else tool.radius
+        self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
@@ -171,6 +177,7 @@ class Roughing:
             zone.ridges = shapely.union(zone.ridges, taken)
             zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
         zone.left = shapely.difference(zone.left, self.reach)
+        zone.over = self.over
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
@@ -180,7 +187,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.standing, self.tool.radius - CLEAR, ROUGH)
+        near = grow(self.zone.standing, self.tool.radius + self.zone.over - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -234,7 +241,8 @@ class Roughing:
         shapely.prepare(self.room)
         found: list[Piece] = []
         blocked, core = self.blocked, self.core
-        near = grow(core, self.sliver + radius + CLEAR, ROUGH)
+        wanted = grow(core, self.touch, ROUGH)
+        near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
@@ -244,7 +252,7 @@ class Roughing:
                 if not polygons(core):
                     return found
                 blocked = self._blocked(order)
-            wanted = grow(core, self.foot if self.ridges else radius, ROUGH)
+                wanted = grow(core, self.touch, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):

@@ -265,7 +265,8 @@ class _Planner:
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
         for mill in zone.last_mills:
             cuts += self._ridges(floor, mill)
-        zone.left, zone.ridges = shapely.union(rough.left, floor.left), floor.ridges
+        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
+        zone.ridges = floor.ridges
         for written in [*cuts, *(self._finish(zone, mill) for mill in zone.last_mills)]:
             after = self._step(*written, after)
 

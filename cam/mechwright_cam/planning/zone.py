@@ -100,6 +100,8 @@ class Zone:
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
+    over: float = field(default=0.0, init=False)
+    """By how much more than the cutters reached may be missing in ``left``, mm."""
     begun: bool = field(default=False, init=False)
     """Whether an end mill has been in it."""
     ridges: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
@@ -428,7 +430,7 @@ def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geome
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
     near = roughly_swollen(part, width - mill.radius)
-    channel = filled(grow(near, mill.radius, ROUGH))
+    channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
     return channel.difference(thin), channel
 
 

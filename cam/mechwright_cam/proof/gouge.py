@@ -33,8 +33,10 @@ class Gouge:
 
 def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it."""
-    pieces = _distinct(paths, paths.below(top - NEAR))
-    if len(pieces) == 0 or keep.is_empty:
+    if keep.is_empty:
+        return None
+    pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
+    if len(pieces) == 0:
         return None
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
@@ -56,6 +58,15 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     return Gouge(float(depth[worst]), int(pieces.step[worst]), (x, y, float(pieces.low[worst])))
 
 
+def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:
+    """The pieces that the rectangle around a shape does not tell apart from it."""
+    least, most = paths.extent(pieces.step)
+    reach = paths.radius[pieces.step, None] + NEAR
+    x0, y0, x1, y1 = keep.bounds
+    apart = (least > np.array((x1, y1)) + reach) | (most < np.array((x0, y0)) - reach)
+    return pieces.only(np.flatnonzero(~apart.any(axis=1)))
+
+
 def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     """Indices of the lines that come within their radius (m,) of a shape."""
     near = np.zeros(radius.size, dtype=np.bool_)
@@ -70,7 +81,7 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     return np.flatnonzero(near)
 
 
-def _distinct(paths: Paths, pieces: Pieces) -> Pieces:
+def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     """Each plan-view piece once, at its lowest: passes repeat at every depth."""
     pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
     run, step = paths.run, pieces.step

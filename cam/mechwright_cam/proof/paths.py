@@ -156,14 +156,14 @@ class Paths:
         points[:, 1] += radius * np.sin(angle)
         return points
 
-    def extent(self) -> tuple[Array, Array]:
-        """Least and greatest x and y, (m, 2) each, of every step in ``steps``, mm."""
-        run, step = self.run, self.steps
+    def extent(self, steps: Ints | None = None) -> tuple[Array, Array]:
+        """Least and greatest x and y, (m, 2) each, of every one of some steps, or of ``self.steps``, mm."""
+        run, step = self.run, self.steps if steps is None else steps
         start, end = self.start[step, :2], self.end[step, :2]
         least, most = np.minimum(start, end), np.maximum(start, end)
         arc = np.flatnonzero(run.kind[step] == Kind.ARC)
         centre, sweep = run.centre[step[arc]], run.sweep[step[arc]]
-        radius = run.radius[step[arc]]
+        radius = run.radius[step[arc]] + run.arc_error[step[arc]]
         spoke = start[arc] - centre
         first = np.arctan2(spoke[:, 1], spoke[:, 0])
         for axis, angle, side in ((0, 0.0, 1), (1, np.pi / 2, 1), (0, np.pi, -1), (1, -np.pi / 2, -1)):

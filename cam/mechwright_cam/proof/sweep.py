@@ -9,6 +9,7 @@ import shapely
 from mechwright.motion import Array
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 
@@ -84,7 +85,8 @@ class Sweeps:
     def _cut(self, height: float, level: float) -> list[Sweep]:
         paths = self.paths
         cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-        pieces = _settled(paths, paths.below(height, steps=cutting), level)
+        pieces = distinct(paths, _settled(paths, paths.below(height, steps=cutting), level))
+        pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
         radius = np.round(paths.radius_at(pieces, level), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
@@ -105,5 +107,4 @@ def _settled(paths: Paths, pieces: Pieces, level: float) -> Pieces:
     parts = [pieces.only(~ramps)]
     for one in np.unique(nose[ramps]).tolist():
         parts.append(paths.below(level - one, steps=pieces.step[ramps & (nose == one)]))
-    every = Pieces(*(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS))
-    return every.only(np.argsort(every.step, kind="stable"))
+    return Pieces(*(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS))
