@@ -13,12 +13,14 @@ from itertools import pairwise
 
 import cadquery as cq
 import numpy as np
+import shapely
 from OCP.BRep import BRep_Builder
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeVertex
 from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
 from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.Standard import Standard_Failure
+from OCP.StdFail import StdFail_NotDone
 from OCP.TColgp import TColgp_Array1OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
@@ -28,7 +30,8 @@ from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circ
 from mechwright.geometry.segments import Point
 from mechwright.motion import Motion
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.sections import blind
+from mechwright.sections import blind, walls
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.solid_check import check_plate, check_recessed, check_solid
 
 _UP = gp_Dir(0.0, 0.0, 1.0)
@@ -79,6 +82,10 @@ def part_solid(part: Part) -> cq.Solid:
         raise GeometryError(f"part {part.name}: {error}") from error
 
 
+TOUCH = TOLERANCES.outline
+"""An edge this near to a wall is at its foot, mm."""
+PLACES = 64
+"""Places of an edge that are looked at."""
 BEYOND = 1.0
 """A cut from the top face starts this far above it, mm: the kernel is spared a common face."""
 
@@ -91,7 +98,7 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
     GeometryError
         The kernel cannot cut them, or what it made is not what the part's sections say.
     """
-    cuts = [_taken(feature, part.thickness) for feature in recesses]
+    cuts = [_taken(feature, part) for feature in recesses]
     try:
         made = whole.cut(*cuts).clean()
     except Standard_Failure as error:
@@ -104,7 +111,37 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
     return pieces[0]
 
 
-def _taken(feature: Feature, thickness: float) -> cq.Shape:
+NOT_QUITE = (1e-6, 1e-5)
+"""A fillet is made smaller by such a share: the kernel does not make two that just meet in the middle."""
+
+
+def _round_floored(solid: cq.Solid, feature: Pocket, at: "shapely.Geometry") -> cq.Solid:
+    """What a recess takes, with fillets along those bottom edges at which a wall of the part stands."""
+    edges = [edge for edge in solid.faces("<Z").Edges() if shapely.dwithin(at, _chords(edge), TOUCH)]
+    if not edges:
+        return solid
+    for share in NOT_QUITE:
+        try:
+            made = solid.fillet(feature.floor_radius * (1 - share), edges)
+            break
+        except (Standard_Failure, StdFail_NotDone, ValueError):
+            continue
+    else:
+        raise GeometryError(
+            f"the CAD kernel cannot make the fillet of {feature.floor_radius:g} mm on the floor of "
+            f"{feature.name}; give the corners of the recess larger radii than that"
+        )
+    one: cq.Solid = made.Solids()[0]
+    return one
+
+
+def _chords(edge: cq.Edge) -> "shapely.MultiPoint":
+    """Points along an edge, plan view."""
+    places = [edge.positionAt(share).toTuple()[:2] for share in np.linspace(0, 1, PLACES + 2)[1:-1]]
+    return shapely.MultiPoint(places)
+
+
+def _taken(feature: Feature, part: Part) -> cq.Shape:
     """The solid that a recess takes out of the plate."""
     above = BEYOND if feature.top <= 0 else 0.0
     match feature:
@@ -121,7 +158,9 @@ def _taken(feature: Feature, thickness: float) -> cq.Shape:
         middle = ((x0 + x1) / 2, (y0 + y1) / 2)
         disc = Outline(Loop((circle(middle, reach),)), (loops[0].reversed(),))
         solid = _extruded(disc, feature.depth + above)
-    return solid.translate(cq.Vector(0, 0, thickness - feature.top - feature.depth))
+    if isinstance(feature, Pocket) and feature.floor_radius > 0:
+        solid = _round_floored(solid, feature, walls(part, feature))
+    return solid.translate(cq.Vector(0, 0, part.thickness - feature.top - feature.depth))
 
 
 def _forwards(loop: Loop) -> Loop:

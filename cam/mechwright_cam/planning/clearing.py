@@ -1,5 +1,8 @@
 """Roughing: remove what is left in front of a wall, ring by ring from the far side to the wall.
 
+Of the stock to take a cut looks at the core only: what is left when a sliver is shaved off all round. What is
+thinner than two slivers has none, and grown by the sliver the core is the stock again.
+
 Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because
 the way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
 """
@@ -10,12 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import SLACK, Zone
+from mechwright_cam.planning.zone import CUSP, SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
     BIAS,
@@ -25,7 +29,6 @@ from mechwright_cam.toolpath.offsets import (
     Piece,
     densified,
     grow,
-    opened,
     pieces,
     polygons,
     rings,
@@ -38,6 +41,9 @@ FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
+OVERLAP = 1.5 * ROUGH
+"""What a cut takes is made larger by this than by the cut before, mm: then their chords keep apart along
+walls, where shapes that all but coincide would cross at every corner. Tests of what is clear allow for it."""
 COARSE_FIT = 2 * ROUGH
 """How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
 lines again."""
@@ -48,6 +54,8 @@ BESIDE = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
 """Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
+MANY = 0.5
+"""A round mill that would need more than twice its rings to make a floor roughs with its own step first."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +106,8 @@ class Roughing:
         Direction.
     only
         The stock worth an effort; all that is left if None.
+    ridges
+        Only the floor of ``only`` is to be cut: what stands there is no higher than the zone's ridges.
     """
 
     def __init__(
@@ -108,42 +118,76 @@ class Roughing:
         step_over: float,
         climb: bool,
         only: shapely.Geometry | None = None,
+        *,
+        ridges: bool = False,
     ) -> None:
         self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
-        # The shape that the cutter's edge must not enter.
-        self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
+        self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
+        self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
-        self.blocked = grow(self.keep, tool.radius, self.chord)
+        fine = min(self.step, 2 * TIGHT * self.foot)
+        self.smooth = ridges or fine >= MANY * self.step
+        if self.smooth:
+            self.step = fine
+        self.blocked = self._blocked(0)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
-        self.reach = grow(self.free, tool.radius, ROUGH)
-        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        self.wide = self.foot if self.smooth else tool.radius
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
-        self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
+        self.over = zone.over + min(OVERLAP, self.sliver / 2)
+        # On a floor with ridges nothing may be taken for cut that is not.
+        self.touch = self.foot if ridges else tool.radius
+        self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
+        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
-            self.take = opened(shapely.difference(self.take, zone.waste), self.sliver)
+            self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
+
+    def _blocked(self, order: int) -> shapely.Geometry:
+        """Where the centre must not be on the ring of this order."""
+        radius = self.tool.radius + order * self.step
+        if self.coarse:
+            return self.zone.rough_keep(self.allowance, radius)
+        return grow(self.zone.keep, max(self.allowance, BIAS) + radius)
+
+    @property
+    def taken(self) -> float:
+        """Area of what the cut is for, mm²: that of the core grown back, by Steiner's formula."""
+        count, margin = len(polygons(self.core)), self.sliver
+        return float(self.core.area + margin * self.core.length + math.pi * margin**2 * count)
 
     @property
     def share(self) -> float:
         """Part of what is left that this cut takes."""
-        return float(self.take.area / self.zone.left.area) if self.zone.left.area > 0 else 0.0
+        return self.taken / self.zone.left.area if self.zone.left.area > 0 else 0.0
 
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
-        self.zone.left = shapely.difference(self.zone.left, self.reach)
+        zone = self.zone
+        if self.ridges:
+            zone.ridges = shapely.difference(zone.ridges, self.reach)
+            return
+        if self.foot < self.tool.radius:
+            taken = shapely.intersection(zone.left, self.reach)
+            if self.smooth:
+                taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
+            zone.ridges = shapely.union(zone.ridges, taken)
+            zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
+        zone.left = shapely.difference(zone.left, self.reach)
+        zone.over = self.over
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
-        parts = polygons(self.take)
+        parts = polygons(self.core)
         found = self._pieces() if parts else []
         if not found:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.left, self.tool.radius - CLEAR, ROUGH)
+        near = grow(self.zone.standing, self.tool.radius + self.zone.over - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -162,7 +206,8 @@ class Roughing:
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
             if shapes:
-                cavities.append(self._linked(shapes, parts[part], near, free))
+                stock = grow(parts[part], self.sliver, ROUGH)
+                cavities.append(self._linked(shapes, stock, near, free))
         return cavities
 
     def _linked(
@@ -174,7 +219,7 @@ class Roughing:
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
         beside = np.zeros(len(paths), dtype=bool)
-        if self.only is not None and self.tool.centre_cutting:
+        if self.only is not None and not self.ridges and self.tool.centre_cutting:
             thick = grow(self.only, radius - CLEAR, ROUGH)
             beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
@@ -195,18 +240,19 @@ class Roughing:
         radius = self.tool.radius
         shapely.prepare(self.room)
         found: list[Piece] = []
-        blocked, take = self.blocked, self.take
-        near = grow(take, radius + CLEAR, ROUGH)
+        blocked, core = self.blocked, self.core
+        wanted = grow(core, self.touch, ROUGH)
+        near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), self.sliver)
-                if not polygons(take):
+                core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
+                if not polygons(core):
                     return found
-                blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, radius - self.sliver, ROUGH)
+                blocked = self._blocked(order)
+                wanted = grow(core, self.touch, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
@@ -249,13 +295,16 @@ class Roughing:
 
     def write(self, pen: Pen, step_down: float) -> None:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
-        heights = levels(self.zone.top, self.zone.bottom, step_down)
+        zone = self.zone
+        bottom = zone.bottom_for(self.tool)
+        top = bottom + zone.ridge_height if self.ridges else zone.top
+        heights = levels(top, bottom, step_down)
         for cavity in self.cavities():
             first = cavity.runs[0]
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
-                _spiral(pen, first.path, self.zone.top, heights)
+                _spiral(pen, first.path, top, heights)
             else:
-                _levels(pen, cavity, self.zone.top, heights)
+                _levels(pen, cavity, top, heights)
         pen.retract()
 
 
