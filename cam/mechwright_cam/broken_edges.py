@@ -207,7 +207,7 @@ def _knots(
 def _surface(
     parallel: Parallel, segment: Segment, first: Array, last: Array, width: float, z: float
 ) -> tuple[Geom_Surface, "Sheet | None"]:
-    """The surface of one segment's chamfer, and what makes its parameters of (t, slant); a plane needs none."""
+    """The surface of a segment's chamfer, and what makes its parameters of (t, slant); a plane needs none."""
     match segment:
         case Line():
             (x, y), (dx, dy) = segment.start, segment.derivative(0.0)[0].tolist()

@@ -18,6 +18,7 @@ from OCP.Standard import Standard_Failure
 from mechwright.details import Chamfer, Engraving
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, circle
+from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
@@ -46,7 +47,7 @@ def detailed(part: Part) -> cq.Solid:
         Edge(loop, _width(chamfers, loop, "outside" if place == 0 else "inside"))
         for place, loop in enumerate(part.outline.loops)
     ]
-    tools = [_tool(feature, part.thickness, chamfers) for feature in blind(part)]
+    tools: list[cq.Shape] = [_tool(feature, part.thickness, chamfers) for feature in blind(part)]
     if chamfers:
         name = next(iter(chamfers))
         raise GeometryError(f"chamfer {name} follows no edge of the top face on its side; draw it along one")
@@ -150,11 +151,12 @@ def _grooves(detail: Engraving, thickness: float) -> list[cq.Shape]:
     high = detail.depth * (1 + ABOVE)
     half = detail.width / 2 * (1 + ABOVE)
     z = thickness - detail.depth
-    places, spans = {}, {}
+    places: dict[Point, None] = {}
+    spans: dict[tuple[Point, Point], None] = {}
     for stroke in detail.strokes:
         places |= dict.fromkeys(stroke)
         for pair in pairwise(stroke):
-            spans |= {tuple(sorted(pair)): None}
+            spans[min(pair), max(pair)] = None
     tools: list[cq.Shape] = [
         cq.Solid.makeCone(0.0, half, high, cq.Vector(x, y, z), cq.Vector(0, 0, 1)) for x, y in places
     ]

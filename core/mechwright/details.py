@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
 from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
     import shapely
@@ -149,3 +150,47 @@ def taken_by(detail: Detail, depth: float, tolerance: float) -> "shapely.Geometr
             return shapely.buffer(shapely.MultiLineString(list(detail.strokes)), half, quad_segs=ROUND)
         case Thread():
             return shapely.Polygon()
+
+
+def chamfer_lines(chamfer: Chamfer) -> tuple[Loop, ...]:
+    """Where a chamfer ends on the top face: one loop, segment by segment, as long as none of them vanishes.
+
+    Where one does, loops of straight lines within the tolerance of polygons.
+
+    Examples
+    --------
+    >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
+    >>> (line,) = chamfer_lines(Chamfer("rim", square, "outside", 1.0))
+    >>> round(line.area, 6)
+    64.0
+    """
+    import shapely
+
+    from mechwright.geometry.parallel import Parallel
+
+    outside = chamfer.side == "outside"
+    left = (chamfer.loop.area > 0) == outside
+    try:
+        return (Parallel(chamfer.loop, 1 if left else -1).at(chamfer.width),)
+    except GeometryError:
+        region = shapely.Polygon(chamfer.loop.flatten())
+        taken = taken_by(chamfer, 0.0, TOLERANCES.flatten)
+        moved = shapely.difference(region, taken) if outside else shapely.union(region, taken)
+        rings = shapely.get_rings(shapely.get_parts(shapely.simplify(moved, TOLERANCES.flatten)))
+        return tuple(Loop.polygon(list(ring.coords)[:-1]) for ring in rings)
+
+
+def detail_note(detail: Detail, thickness: float) -> str:
+    """What a drawing says of a detail, as DXF writes degrees.
+
+    >>> detail_note(Thread("hole", (0, 0), 6.0, 1.0, 8.0), 8.0)
+    'hole: M6x1 through'
+    """
+    match detail:
+        case Chamfer():
+            return f"{detail.name}: {detail.width:g} x 45%%d"
+        case Thread():
+            deep = "through" if detail.depth >= thickness else f"{detail.depth:g} mm deep"
+            return f"{detail.name}: {detail.designation} {deep}"
+        case Engraving():
+            return f"{detail.name}: engraved {detail.depth:g} mm deep, line {detail.width:g} mm"
