@@ -76,6 +76,21 @@ def part_solid(part: Part) -> cq.Solid:
         raise GeometryError(f"part {part.name}: {error}") from error
 
 
+def part_shape(part: Part) -> cq.Shape:
+    """The solid of a part, and for each thread a circle of its nominal diameter on the top face.
+
+    CAD systems show threads so; the hole itself has the core diameter.
+    """
+    threads = [detail for detail in part.details if isinstance(detail, Thread)]
+    if not threads:
+        return part_solid(part)
+    circles = [
+        cq.Edge.makeCircle(thread.diameter / 2, cq.Vector(*thread.centre, part.thickness))
+        for thread in threads
+    ]
+    return cq.Compound.makeCompound([part_solid(part), *circles])
+
+
 BEYOND = 1.0
 """A cut from the top face starts this far above it, mm: the kernel is spared a common face."""
 
@@ -149,7 +164,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
                 )
             place = _location(motion, instance.body, sample, instance.z)
             colour = cq.Color(*part.colour_of(instance))
-            whole.add(part_solid(part), name=_free(child, whole), loc=place, color=colour)
+            whole.add(part_shape(part), name=_free(child, whole), loc=place, color=colour)
     return whole
 
 

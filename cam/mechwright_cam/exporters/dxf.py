@@ -2,8 +2,8 @@
 
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
 ``OPENING`` all others, ``POCKET`` edges of recesses as far as they lie on the plate, ``CHAMFER`` where a
-broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal circle
-(ISO 6410-1), ``CENTRE`` the axes of the part and its bores, ``TEXT`` lines that say what it is.
+broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal
+circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores, ``TEXT`` lines that say what it is.
 """
 
 import io
