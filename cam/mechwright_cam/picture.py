@@ -134,7 +134,7 @@ def _names(job: Job, frame: Frame) -> str:
 
 def _gone(job: Job, frame: Frame) -> str:
     """What an earlier setup has cut through."""
-    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.gone, DETAIL)))
+    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.air_below(0.0), DETAIL)))
     data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
     look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
     return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
