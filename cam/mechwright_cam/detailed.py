@@ -17,20 +17,19 @@ from OCP.Standard import Standard_Failure
 
 from mechwright.details import Chamfer, Engraving
 from mechwright.errors import GeometryError
-from mechwright.geometry import Loop, circle
+from mechwright.geometry import Loop
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Feature, Part
 from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.broken_edges import Edge, body
+from mechwright_cam.recess_tools import edges_of, round_floored, taken
 
 SAME_LOOP = 4 * TOLERANCES.flatten
 """A chamfer follows an edge if the two are no further apart than this, mm, on the mean."""
 ABOVE = 0.25
 """Tools of broken edges and of engraved lines go on above the top face by this share of their depth, so that
 no face of theirs lies in it."""
-AROUND = 4.0
-"""What stands outside of a step is cut by a disc so many times as large as the step."""
 
 
 def detailed(part: Part) -> cq.Solid:
@@ -47,7 +46,7 @@ def detailed(part: Part) -> cq.Solid:
         Edge(loop, _width(chamfers, loop, "outside" if place == 0 else "inside"))
         for place, loop in enumerate(part.outline.loops)
     ]
-    tools: list[cq.Shape] = [_tool(feature, part.thickness, chamfers) for feature in blind(part)]
+    tools: list[cq.Shape] = [_tool(feature, part, chamfers) for feature in blind(part)]
     if chamfers:
         name = next(iter(chamfers))
         raise GeometryError(f"chamfer {name} follows no edge of the top face on its side; draw it along one")
@@ -117,33 +116,19 @@ def _alike(one: Loop, two: Loop) -> bool:
     return bool(shapely.symmetric_difference(a, b).area < SAME_LOOP * a.length)
 
 
-def _tool(feature: Feature, thickness: float, chamfers: dict[str, Chamfer]) -> cq.Solid:
+def _tool(feature: Feature, part: Part, chamfers: dict[str, Chamfer]) -> cq.Shape:
     """The body that a recess takes out of the plate, its broken edges with it."""
-    match feature:
-        case Bore():
-            walls = [(Loop((circle(feature.centre, feature.diameter / 2),)), "inside")]
-        case Profile():
-            loop = feature.loop if feature.loop.area > 0 else feature.loop.reversed()
-            if feature.side == "inside":
-                walls = [(loop, "inside")]
-            else:
-                x0, y0, x1, y1 = loop.bounds
-                disc = circle(((x0 + x1) / 2, (y0 + y1) / 2), AROUND * (x1 - x0 + y1 - y0))
-                walls = [(Loop((disc,)), ""), (loop.reversed(), "outside")]
-        case Pocket():
-            rim = feature.boundary if feature.boundary.area > 0 else feature.boundary.reversed()
-            islands = [i.reversed() if i.area > 0 else i for i in feature.islands]
-            walls = [(rim, "inside"), *((island, "outside") for island in islands)]
-    bottom = thickness - feature.top - feature.depth
-    if feature.top > 0:
-        return body([Edge(loop) for loop, _ in walls], bottom, thickness - feature.top)
-    widths = [_width(chamfers, loop, side) for loop, side in walls]
-    beyond = ABOVE * max(widths) or 1.0
+    walls = edges_of(feature)
+    widths = [_width(chamfers, loop, side) if feature.top <= 0 else 0.0 for loop, side in walls]
+    if not any(widths):
+        return taken(feature, part)
+    beyond = ABOVE * max(widths)
+    loops = [loop for loop, _ in walls]
     edges = [
-        Edge(loop, width + beyond if width else 0.0, -1)
-        for (loop, _), width in zip(walls, widths, strict=True)
+        Edge(loop, width + beyond if width else 0.0, -1) for loop, width in zip(loops, widths, strict=True)
     ]
-    return body(edges, bottom, thickness + beyond)
+    solid = body(edges, part.thickness - feature.depth, part.thickness + beyond)
+    return round_floored(solid, feature, part)
 
 
 def _grooves(detail: Engraving, thickness: float) -> list[cq.Shape]:

@@ -27,7 +27,7 @@ from mechwright.details import Detail, moved
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Profile
-from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
 from mechwright_cam.toolpath.offsets import filled
 
@@ -147,9 +147,14 @@ class Job:
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:
-        """The end mills, largest first."""
-        mills = [tool for tool in self.tools if tool.kind is ToolKind.END_MILL]
-        return tuple(sorted(mills, key=lambda tool: -tool.diameter))
+        """The flat end mills, largest first."""
+        return tuple(tool for tool in self.mills if tool.kind is ToolKind.END_MILL)
+
+    @property
+    def mills(self) -> tuple[Tool, ...]:
+        """The end mills, bull noses and balls, largest first; of one diameter the roundest first."""
+        mills = [tool for tool in self.tools if tool.kind in MILLS]
+        return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
 
 
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
@@ -165,7 +170,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     x0, y0, x1, y1 = part.outline.bounds
-    widest = max((tool.diameter for tool in tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
     wanted = settings.stock
     if wanted.length is not None and wanted.width is not None:
         mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2

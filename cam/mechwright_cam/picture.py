@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.details import Chamfer, Engraving, Thread, chamfer_lines
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.sections import sections
-from mechwright.tooling import Tool, ToolKind
+from mechwright.tooling import Tool
 from mechwright_cam import svg
 from mechwright_cam.job import Job, Tab
 from mechwright_cam.nest import Nest, outlines_of
@@ -144,7 +145,7 @@ def _recesses(job: Job, frame: Frame) -> str:
     """The floors of recesses, darker the deeper they lie."""
     whole = job.target
     layers = []
-    for layer in sections(job.part, DETAIL)[:-1]:
+    for layer in sections(job.part, DETAIL, steps=0)[:-1]:
         taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
         rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
         data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
@@ -237,11 +238,9 @@ def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str
 
 
 def _swath(tool: Tool, items: Sequence[Traced]) -> float:
-    """Width of what a tool cuts at the top face, mm: a pointed one is narrower than its diameter."""
-    if tool.kind is not ToolKind.CHAMFER:
-        return tool.diameter
-    depth = -min((item.bottom for item in items if item.bottom is not None), default=0.0)
-    return min(tool.diameter, tool.tip_diameter + 2 * depth * math.tan(math.radians(tool.point_angle / 2)))
+    """Width of what a tool cuts at the top face, mm: near its tip it may be narrower than its diameter."""
+    depth = -min((item.bottom for item in items if item.bottom is not None), default=-math.inf)
+    return 2 * float(cutter(tool).radius_at(depth))
 
 
 def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:

@@ -22,7 +22,7 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Hold, Stock, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Hold, Stock
 from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
@@ -50,7 +50,8 @@ def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
     rest = [feature for feature in part.features if feature not in above]
     if not rest:
         return part.features, ()
-    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in part.features])}
+    flat = [replace(f, floor_radius=0.0) if isinstance(f, Pocket) else f for f in part.features]
+    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in flat])}
     for feature in rest:
         if feature.name not in below:
             raise DesignError(
@@ -88,6 +89,11 @@ def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Featu
             sites = tuple((turned_point(site, about), width) for site, width in feature.tab_sites)
             return replace(feature, loop=turned_over(feature.loop, about), top=top, tab_sites=sites)
         case Pocket():
+            if feature.floor_radius > 0:
+                raise DesignError(
+                    f"cam.second_side: {feature.name} has a floor_radius and is milled from the underside; "
+                    "fillets are for floors that are cut from above"
+                )
             islands = tuple(turned_over(loop, about) for loop in feature.islands)
             return replace(feature, boundary=turned_over(feature.boundary, about), islands=islands, top=top)
 
@@ -196,7 +202,7 @@ def _with_room(job: Job) -> CamSettings:
     settings, side = job.settings, job.settings.second_side
     if settings.stock != Stock():
         return settings
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     margin = widest + FRAME + WALL + side.dowel_diameter + WALL
     return settings.model_copy(update={"stock": Stock(margin=math.ceil(margin))})
 
@@ -213,7 +219,7 @@ def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
         mx = my = wanted.margin or 0.0
     inset = WALL + diameter / 2
     along = (x0 - mx + inset, x1 + mx - inset) if side.flip == "x" else (y0 - my + inset, y1 + my - inset)
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     need = widest + FRAME + WALL + diameter + WALL
     if (mx if side.flip == "x" else my) < need:
         raise DesignError(

@@ -12,20 +12,19 @@ from functools import lru_cache
 
 import cadquery as cq
 import numpy as np
-from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
-from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
-from OCP.gp import gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import gp_Trsf
 from OCP.Standard import Standard_Failure
 
 from mechwright.details import Thread
 from mechwright.errors import GeometryError
-from mechwright.geometry import Loop, Outline, circle
+from mechwright.geometry import Outline
 from mechwright.motion import Motion
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Feature, Part
 from mechwright.sections import blind
 from mechwright_cam.detailed import detailed
+from mechwright_cam.recess_tools import taken
 from mechwright_cam.solid_check import check_plate, check_recessed, check_solid
-from mechwright_cam.wires import UP, wire_of
+from mechwright_cam.wires import extruded
 
 
 def plate(outline: Outline, thickness: float) -> cq.Solid:
@@ -45,7 +44,7 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
     """
     if not (thickness > 0 and math.isfinite(thickness)):
         raise GeometryError(f"a plate needs a thickness above 0 mm, not {thickness}")
-    solid = _extruded(outline, thickness)
+    solid = extruded(outline, thickness)
     check_plate(solid, outline, thickness)
     return solid
 
@@ -91,10 +90,6 @@ def part_shape(part: Part) -> cq.Shape:
     return cq.Compound.makeCompound([part_solid(part), *circles])
 
 
-BEYOND = 1.0
-"""A cut from the top face starts this far above it, mm: the kernel is spared a common face."""
-
-
 def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:
     """A plate with the recesses of a part cut into it.
 
@@ -103,7 +98,7 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
     GeometryError
         The kernel cannot cut them, or what it made is not what the part's sections say.
     """
-    cuts = [_taken(feature, part.thickness) for feature in recesses]
+    cuts = [taken(feature, part) for feature in recesses]
     try:
         made = whole.cut(*cuts).clean()
     except Standard_Failure as error:
@@ -114,30 +109,6 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
         raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
     check_recessed(pieces[0], part)
     return pieces[0]
-
-
-def _taken(feature: Feature, thickness: float) -> cq.Shape:
-    """The solid that a recess takes out of the plate."""
-    above = BEYOND if feature.top <= 0 else 0.0
-    match feature:
-        case Bore():
-            loops = [Loop((circle(feature.centre, feature.diameter / 2),))]
-        case Profile():
-            loops = [_forwards(feature.loop)]
-        case Pocket():
-            loops = [_forwards(feature.boundary), *(_forwards(loop).reversed() for loop in feature.islands)]
-    solid = _extruded(Outline(loops[0], tuple(loops[1:])), feature.depth + above)
-    if isinstance(feature, Profile) and feature.side == "outside":
-        x0, y0, x1, y1 = feature.loop.bounds
-        reach = 4 * (x1 - x0 + y1 - y0)  # wider than any plate around the step
-        middle = ((x0 + x1) / 2, (y0 + y1) / 2)
-        disc = Outline(Loop((circle(middle, reach),)), (loops[0].reversed(),))
-        solid = _extruded(disc, feature.depth + above)
-    return solid.translate(cq.Vector(0, 0, thickness - feature.top - feature.depth))
-
-
-def _forwards(loop: Loop) -> Loop:
-    return loop if loop.area > 0 else loop.reversed()
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
@@ -184,17 +155,3 @@ def _location(motion: Motion, body: str, sample: int, z: float) -> cq.Location:
     placed = gp_Trsf()
     placed.SetValues(*rows[0], *rows[1], *rows[2])
     return cq.Location(placed)
-
-
-def _extruded(outline: Outline, thickness: float) -> cq.Solid:
-    outer, *inner = (wire_of(loop)[0] for loop in outline.loops)
-    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, 0.0), UP), outer, True)
-    for wire in inner:
-        face.Add(wire)
-    if not face.IsDone():
-        raise GeometryError(f"the outline gives no face ({face.Error().name})")
-    prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0.0, 0.0, thickness))
-    solid = cq.Shape.cast(prism.Shape())
-    if not isinstance(solid, cq.Solid):
-        raise GeometryError(f"the outline extrudes to a {solid.ShapeType()}, not to one solid")
-    return solid

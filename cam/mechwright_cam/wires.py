@@ -1,20 +1,22 @@
-"""Wires of the CAD kernel from loops: every segment becomes exactly one edge. Imports the CAD kernel."""
+"""Wires and prisms of the CAD kernel: every segment becomes exactly one edge and one wall. Imports it."""
 
 import math
 from collections.abc import Sequence
 from itertools import pairwise
 
+import cadquery as cq
 import numpy as np
 from OCP.BRep import BRep_Builder
-from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeVertex
+from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
-from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Vec
 from OCP.TColgp import TColgp_Array1OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
 
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, BSpline, Line, Loop, Segment
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
 from mechwright.geometry.segments import Point
 
 UP = gp_Dir(0.0, 0.0, 1.0)
@@ -87,3 +89,18 @@ def _spline(spline: BSpline, z: float) -> Geom_Curve:
         knots.SetValue(place, value)
         folds.SetValue(place, count)
     return Geom_BSplineCurve(poles, knots, folds, spline.degree)
+
+
+def extruded(outline: Outline, thickness: float) -> cq.Solid:
+    """The face inside an outline, drawn from z = 0 up to ``thickness``, mm; raises GeometryError."""
+    outer, *inner = (wire_of(loop)[0] for loop in outline.loops)
+    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, 0.0), UP), outer, True)
+    for wire in inner:
+        face.Add(wire)
+    if not face.IsDone():
+        raise GeometryError(f"the outline gives no face ({face.Error().name})")
+    prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0.0, 0.0, thickness))
+    solid = cq.Shape.cast(prism.Shape())
+    if not isinstance(solid, cq.Solid):
+        raise GeometryError(f"the outline extrudes to a {solid.ShapeType()}, not to one solid")
+    return solid

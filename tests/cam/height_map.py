@@ -20,6 +20,17 @@ class Cutter:
     radius: float
     cone: float = math.inf
     """Height gained per mm of radius from the tip; inf for a flat end."""
+    nose: float = 0.0
+    """Radius of a rounded corner."""
+
+    def end(self, square):
+        """Height of the end above the tip, at squared distances from the axis."""
+        if math.isfinite(self.cone):
+            return np.sqrt(square) * self.cone
+        if self.nose == 0:
+            return np.zeros_like(square)
+        out = np.clip(np.sqrt(square) - self.radius + self.nose, 0.0, self.nose)
+        return self.nose - np.sqrt(self.nose**2 - out**2)
 
 
 @dataclass(frozen=True)
@@ -148,9 +159,7 @@ class Simulation:
         part = self.height[j0:j1, i0:i1]
         square = (self.x[None, i0:i1] - place[0]) ** 2 + (self.y[j0:j1, None] - place[1]) ** 2
         disc = square <= r * r
-        level = place[2]
-        if math.isfinite(cutter.cone):
-            level = place[2] + np.sqrt(square) * cutter.cone
+        level = place[2] + cutter.end(square)
         lowest = self.lowest[j0:j1, i0:i1]
         hit = disc & (part > level + 1e-4) & (part > lowest + 1e-4)
         if not hit.any():
@@ -198,7 +207,8 @@ def cutters(job):
     found = {}
     for tool in job.tools:
         cone = math.inf
-        if tool.kind != "end-mill":
+        if tool.kind not in ("end-mill", "bull-nose", "ball"):
             cone = 1 / math.tan(math.radians(tool.point_angle) / 2)
-        found[tool.number] = Cutter(tool.radius, cone)
+        nose = tool.radius if tool.kind == "ball" else tool.corner_radius
+        found[tool.number] = Cutter(tool.radius, cone, nose)
     return found

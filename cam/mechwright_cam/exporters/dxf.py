@@ -76,9 +76,12 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
 
 def _note(feature: Feature) -> str:
     """What the plan view cannot show of a recess."""
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    round_ = f", floor radius R{radius:g}" if radius > 0 else ""
     if feature.top > 0:
-        return f"{feature.name}: from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
-    return f"{feature.name}: {feature.depth:g} mm deep"
+        down = f"from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
+        return f"{feature.name}: {down}{round_}"
+    return f"{feature.name}: {feature.depth:g} mm deep{round_}"
 
 
 def drawing(

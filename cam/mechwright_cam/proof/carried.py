@@ -6,7 +6,6 @@ it takes at a few heights counts.
 
 from collections.abc import Mapping
 
-import numpy as np
 import shapely
 
 from mechwright.details import Chamfer
@@ -22,7 +21,7 @@ from mechwright_cam.proof.sweep import ROUNDING, Sweeps
 SWEPT = 0.01
 """Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
 STEPS = (0.25, 0.5, 0.75, 1.0)
-"""Shares of a chamfer's width, or of a drill's point, at which they are handed on."""
+"""Shares of a chamfer's width, of a round corner, or of a drill's point, at which they are handed on."""
 DIGITS = 3
 """Decimals of heights, mm: nearer ones are one."""
 
@@ -46,9 +45,8 @@ def cut_away(
 
 
 def _heights(paths: Paths, job: Job) -> set[float]:
-    heights = {-job.thickness}
-    heights |= {-(feature.top + feature.depth) for feature in job.features}
-    heights |= {tab.top + TAB_SLACK for tab in job.tabs}
+    floors = {-job.thickness, *(-(feature.top + feature.depth) for feature in job.features)}
+    heights = floors | {tab.top + TAB_SLACK for tab in job.tabs}
     for detail in job.details:
         if isinstance(detail, Chamfer):
             heights |= {-detail.width * share for share in STEPS}
@@ -56,8 +54,10 @@ def _heights(paths: Paths, job: Job) -> set[float]:
             heights.add(-detail.depth)
     run, steps = paths.run, paths.of_kinds({ToolKind.DRILL, ToolKind.SPOT_DRILL}).steps
     down = steps[(run.kind[steps] == Kind.FEED) & (paths.end[steps, 2] < paths.start[steps, 2])]
-    point = np.minimum(paths.radius[down] / paths.cone[down], -paths.end[down, 2])
+    full = paths.cutters(down).height_at(paths.radius[down])
+    noses = {tool.nose for tool in paths.tools.values() if tool.nose > 0}
     for share in STEPS:
-        heights |= set((paths.end[down, 2] + share * point).tolist())
+        heights |= {height + share * nose for height in floors for nose in noses}
+        heights |= set((paths.end[down, 2] + share * full).tolist())
     rounded = {round(height, DIGITS) for height in heights}
     return {max(height, -job.thickness) for height in rounded if height < -NEAR}

@@ -15,6 +15,7 @@ from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, 
 from mechwright_cam.job import Job
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import SPOTS, Remains, remains
@@ -96,7 +97,12 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
 def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     """The deepest cut into the part, and into a tab."""
     paths, job = scene.paths, scene.job
-    gouge = _deepest(details.deepest(paths, job, bands(job, details.heights(job))))
+    gouge = _deepest(
+        [
+            *details.deepest(paths, job, bands(job, details.heights(job))),
+            *(fillet.deepest(paths) for fillet in fillets(job)),
+        ]
+    )
     in_tab = _deepest(
         deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
         for top in sorted({tab.top for tab in job.tabs})

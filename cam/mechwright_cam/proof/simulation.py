@@ -19,12 +19,14 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from mechwright.cutter import approach, cutter
 from mechwright.motion import Array
 from mechwright.tooling import Tool
 from mechwright_cam.interpreter import Kind, Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
 
 CELLS = 1_000_000
@@ -44,7 +46,8 @@ class Work:
     feed_per_tooth
         Greatest feed per tooth in material, mm.
     chip
-        Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most.
+        Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most;
+        less where only the rounded corner of a cutter is in the cut.
     engagement
         Greatest engagement in a window, degrees.
     removal
@@ -143,7 +146,7 @@ def _cut(
     places, z, owner = _samples(paths, steps, 2 * math.sqrt(2 * tool.radius * cell))
     low = z < -NEAR
     places, z, owner = places[low], z[low], owner[low]
-    disc = _disc(tool, float(paths.cone[steps[0]]), cell)
+    disc = _disc(tool, cell)
     half = disc.shape[0] // 2
     x0, y0, _, _ = job.stock
     columns = np.floor((places[:, 0] - x0) / cell).astype(np.int64)
@@ -195,13 +198,11 @@ def _samples(paths: Paths, steps: Ints, spacing: float) -> tuple[Array, Array, I
     return places, z, owner
 
 
-def _disc(tool: Tool, cone: float, cell: float) -> NDArray[np.float32]:
+def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     """Height of the tool's end above its tip, cell by cell; far up where the tool is not."""
     half = math.ceil(tool.radius / cell)
     at = np.arange(-half, half + 1) * cell
-    away = np.hypot(*np.meshgrid(at, at))
-    up = np.zeros_like(away) if math.isinf(cone) else away / cone
-    disc: NDArray[np.float32] = np.where(away <= tool.radius, up, np.inf).astype(np.float32)
+    disc: NDArray[np.float32] = cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
     return disc
 
 
@@ -235,7 +236,7 @@ def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Wor
     angle = np.arccos(np.clip(1 - width / tool.radius, -1.0, 1.0))
     rpm = np.array([state.rpm for state in run.states])[run.state[steps[0]]]
     tooth = feed / max(float(rpm) * tool.flutes, NEAR)
-    chip = tooth * np.sin(np.minimum(angle, np.pi / 2))
+    chip = tooth * np.sin(np.minimum(angle, np.pi / 2)) * approach(tool, deep)
     removal = taken / path * feed / 1000
     removal[~long], chip[~long], angle[~long] = 0.0, 0.0, 0.0
     worst = int(np.argmax(removal))
@@ -273,4 +274,8 @@ def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.floa
     for band in bands(job):  # nothing is told of a floor beside a wall above it
         near = shapely.buffer(shapely.boundary(band.keep), 1.5 * cell, quad_segs=2)
         wanted[_inside(near, job, seen.shape, cell)] = np.nan
+    for fillet in fillets(job):
+        rows, columns = np.nonzero(_inside(fillet.foot, job, seen.shape, cell))
+        x, y = job.stock[0] + (columns + 0.5) * cell, job.stock[1] + (rows + 0.5) * cell
+        wanted[rows, columns] += fillet.rise(shapely.distance(fillet.walls, shapely.points(x, y)))
     return seen - wanted
