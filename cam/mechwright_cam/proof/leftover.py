@@ -230,6 +230,8 @@ def _on_floors(
     slack = TOLERANCES.leftover
     gone = shapely.union_all([swept(g.chains, g.radius + slack / 2, COARSE) for g in groups])
     region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
+    if job.gone:  # where earlier setups have been there is no floor
+        region = shapely.difference(region, grow(job.air_below(band.bottom), slack, COARSE))
     rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
     if rest.is_empty:
         return 0.0, None
