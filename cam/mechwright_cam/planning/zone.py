@@ -67,6 +67,8 @@ class Zone:
     kind: Literal["outside", "inside", "pocket"]
     through: bool
     """Whether nothing of the plate stays below."""
+    feature: Pocket | Profile | None = None
+    """What it is in the drawing, inside."""
     must: shapely.Geometry | None = None
     """The feature itself, where ``clear`` runs out beyond its open stretches."""
     channel: shapely.Geometry | None = None
@@ -194,6 +196,7 @@ def inner_zones(job: Job) -> list[Zone]:
             finisher,
             "pocket" if isinstance(feature, Pocket) else "inside",
             bottom == job.floor,
+            feature,
             shapes.must if shapes.open else None,
         )
         if shapes.open:
