@@ -1,9 +1,9 @@
 """Cuts into what must stay.
 
-A flat end mill whose tip is at z fills every height above z within its radius. Within a band of constant
-cross-section the depth of a cut is therefore the radius less the plan-view distance from the path below the
-band's top to the cross-section; there is no height map and no grid. Into a floor the depth is how far the tip
-goes below it, so the smaller of the two counts. A drill is as wide as its point is at the band's top.
+A cutter whose tip is at z is nowhere thinner above than below. Within a band of constant cross-section the
+depth of a cut is therefore its radius at the band's top less the plan-view distance from the path below it to
+the cross-section; there is no height map and no grid. Into a floor the depth is how far the cutter's end
+goes below it at that distance, so the smaller of the two counts.
 """
 
 from dataclasses import dataclass
@@ -33,8 +33,10 @@ class Gouge:
 
 def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it."""
-    pieces = _distinct(paths, paths.below(top - NEAR))
-    if len(pieces) == 0 or keep.is_empty:
+    if keep.is_empty:
+        return None
+    pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
+    if len(pieces) == 0:
         return None
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
@@ -45,13 +47,24 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     inside = edge.inside(lines)
     if inside.size:
         gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
-    depth = np.minimum(radius - gap, top - pieces.low)
+    shape = paths.cutters(pieces.step)
+    end = np.where(shape.nose > 0, shape.height_at(np.maximum(gap, 0.0)), 0.0)
+    depth = np.minimum(radius - gap, top - pieces.low - end)
     if depth.max() <= 0:
         return None
     alike = np.flatnonzero(depth >= depth.max() - NEAR)
     worst = int(alike[np.argmin(pieces.step[alike])])  # of moves that cut equally deep, blame the first
     x, y = edge.nearest(lines[worst])
     return Gouge(float(depth[worst]), int(pieces.step[worst]), (x, y, float(pieces.low[worst])))
+
+
+def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:
+    """The pieces that the rectangle around a shape does not tell apart from it."""
+    least, most = paths.extent(pieces.step)
+    reach = paths.radius[pieces.step, None] + NEAR
+    x0, y0, x1, y1 = keep.bounds
+    apart = (least > np.array((x1, y1)) + reach) | (most < np.array((x0, y0)) - reach)
+    return pieces.only(np.flatnonzero(~apart.any(axis=1)))
 
 
 def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
@@ -68,13 +81,13 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     return np.flatnonzero(near)
 
 
-def _distinct(paths: Paths, pieces: Pieces) -> Pieces:
+def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     """Each plan-view piece once, at its lowest: passes repeat at every depth."""
     pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
     run, step = paths.run, pieces.step
     table = np.column_stack(
         (
-            paths.radius[step],
+            run.tool[step],
             paths.start[step, :2],
             paths.end[step, :2],
             np.nan_to_num(run.centre[step]),

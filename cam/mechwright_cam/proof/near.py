@@ -98,23 +98,40 @@ class _Grid:
         cell = row * self.columns + column
         self.order = np.argsort(cell, kind="stable")
         self.start = np.zeros(self.columns * self.rows + 1, dtype=np.int64)
-        np.cumsum(np.bincount(cell, minlength=self.columns * self.rows), out=self.start[1:])
+        filled = np.bincount(cell, minlength=self.columns * self.rows)
+        np.cumsum(filled, out=self.start[1:])
+        self.lower_left = np.zeros((self.rows + 1, self.columns + 1), dtype=np.int64)
+        """Number of places in all cells below and to the left."""
+        np.cumsum(filled.reshape(self.rows, self.columns), axis=0, out=self.lower_left[1:, 1:])
+        np.cumsum(self.lower_left, axis=1, out=self.lower_left)
 
     def pairs(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints]:
         """Line and place, by index, of all pairs within ``reach`` of each other, and some more."""
-        line, first, last = _divided(first, last, self.cell)
-        low = np.floor((np.minimum(first, last) - (self.least + reach)) / self.cell).astype(np.int64)
-        high = np.floor((np.maximum(first, last) + (reach - self.least)) / self.cell).astype(np.int64)
-        x0, y0 = np.maximum(low, 0).T
-        x1, y1 = np.minimum(high, (self.columns - 1, self.rows - 1)).T
+        some = self._filled(*self._cells(first, last, reach))
+        line, first, last = _divided(first[some], last[some], self.cell)
+        x0, y0, x1, y1 = self._cells(first, last, reach)
         # The cells of one row follow on each other, and so do the places in them.
-        rows = np.where(x1 >= x0, np.maximum(y1 - y0 + 1, 0), 0)
+        rows = np.where(x1 > x0, np.maximum(y1 - y0, 0), 0)
         owner = np.repeat(np.arange(line.size), rows)
         base = (y0[owner] + _counted(rows)) * self.columns
-        begin, end = self.start[base + x0[owner]], self.start[base + x1[owner] + 1]
+        begin, end = self.start[base + x0[owner]], self.start[base + x1[owner]]
         count = end - begin
         place = self.order[np.repeat(begin, count) + _counted(count)]
-        return np.repeat(line[owner], count), place
+        return some[np.repeat(line[owner], count)], place
+
+    def _cells(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints, Ints, Ints]:
+        """First column and row (k,) of the cells near each line, and the column and row after the last."""
+        low = np.floor((np.minimum(first, last) - (self.least + reach)) / self.cell).astype(np.int64)
+        high = np.floor((np.maximum(first, last) + (reach - self.least)) / self.cell).astype(np.int64) + 1
+        size = (self.columns, self.rows)
+        (x0, y0), (x1, y1) = np.clip(low, 0, size).T, np.clip(high, 0, size).T
+        return x0, y0, x1, y1
+
+    def _filled(self, x0: Ints, y0: Ints, x1: Ints, y1: Ints) -> Ints:
+        """Indices of the rectangles of cells that have any place in them."""
+        below = self.lower_left
+        filled: Ints = np.flatnonzero(below[y1, x1] - below[y1, x0] - below[y0, x1] + below[y0, x0])
+        return filled
 
 
 def _divided(first: Array, last: Array, longest: float) -> tuple[Ints, Array, Array]:
