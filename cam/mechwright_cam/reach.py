@@ -220,9 +220,3 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
         left = polygons(outside.difference(opened) if holes else outside)
         cut.append(max(left, key=lambda part: float(part.area)))
     return tuple(cut)
-
-
-def cut_outline(job: Job) -> shapely.Polygon:
-    """The only one of :func:`cut_outlines`, of a job that is no nest."""
-    (outline,) = cut_outlines(job)
-    return outline

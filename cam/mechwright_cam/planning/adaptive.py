@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.pen import Pen, levels
@@ -197,7 +198,7 @@ class _Clearing:
             return
         points = [np.array([[centre[0] + hole - self.radius, centre[1]]])]
         side, reached = (1 if self.climb else -1), hole
-        while widest - reached > 1e-9:
+        while widest - reached > TOLERANCES.noise:
             layer = min(self._ring_layer(reached), widest - reached)
             t = np.linspace(0, 1, 97)[1:]
             way = reached + layer * t - self.radius
