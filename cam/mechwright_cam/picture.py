@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import shapely
 
 from mechwright.cutter import cutter
+from mechwright.details import Chamfer, Engraving, Thread, chamfer_lines
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.sections import sections
@@ -27,6 +28,9 @@ WIDE = 0.58
 
 LETTERS = 0.026
 """Height of letters as a share of the picture's larger side."""
+
+THREAD_ENDS = (math.radians(100.0), math.radians(10.0))
+"""A thread's circle is drawn from here on for three quarters of a turn, as drawings do (ISO 6410-1)."""
 
 SAME = 2
 """Decimals, mm: paths that lie over one another this closely (passes at several depths) are drawn once."""
@@ -118,7 +122,7 @@ def _part(job: Job, frame: Frame) -> str:
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
-    return plate + _gone(job, frame) + _recesses(job, frame) + _names(job, frame)
+    return plate + _gone(job, frame) + _recesses(job, frame) + _details(job, frame) + _names(job, frame)
 
 
 def _names(job: Job, frame: Frame) -> str:
@@ -137,7 +141,7 @@ def _names(job: Job, frame: Frame) -> str:
 
 def _gone(job: Job, frame: Frame) -> str:
     """What an earlier setup has cut through."""
-    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.gone, DETAIL)))
+    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.air_below(0.0), DETAIL)))
     data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
     look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
     return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
@@ -155,6 +159,23 @@ def _recesses(job: Job, frame: Frame) -> str:
             look = {"fill": "#5f7688", "fill_opacity": 0.4, "fill_rule": "evenodd", "stroke": "#1b2733"}
             layers.append(svg.element("path", d=data, **look, stroke_width=0.04 * frame.letters))
     return "".join(layers)
+
+
+def _details(job: Job, frame: Frame) -> str:
+    """Where chamfers end, strokes of engravings, and three quarters of each thread's circle."""
+    data = []
+    for detail in job.details:
+        match detail:
+            case Chamfer():
+                data += [svg.path(loop.flatten(DETAIL), close=True) for loop in chamfer_lines(detail)]
+            case Engraving():
+                data += [svg.path(stroke) for stroke in detail.strokes]
+            case Thread():
+                (x, y), r = detail.centre, detail.diameter / 2
+                start, end = ((x + r * math.cos(a), y + r * math.sin(a)) for a in THREAD_ENDS)
+                data.append("M" + svg.place(*start) + svg.arc_to(start, end, (x, y), ccw=True))
+    look = {"fill": "none", "stroke": "#1b2733", "stroke_width": 0.04 * frame.letters}
+    return svg.element("path", d="".join(data), **look) if data else ""
 
 
 def _holding(job: Job, frame: Frame) -> str:

@@ -23,13 +23,11 @@ from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.tooling import MILLS, CamSettings, Hold, Stock
-from mechwright_cam.job import Job
+from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
 from mechwright_cam.proof.bands import inside_of
 
-LEVEL = 1e-6
-"""Heights nearer than this are one, mm: far below the last decimal of a program."""
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
 FRAME = 3.0
@@ -192,6 +190,11 @@ def turned_shape(shape: shapely.Geometry, first: Job, second: Job) -> shapely.Ge
     """A shape of the first setup's work coordinates in those of the second."""
     sign = np.array((1.0, -1.0) if first.settings.second_side.flip == "x" else (-1.0, 1.0))
     return shapely.transform(shape, lambda p: (p + first.origin) * sign - second.origin)
+
+
+def carried(cut: Sequence[tuple[shapely.Geometry, float]], first: Job, second: Job) -> tuple[Air, ...]:
+    """What the first setup has cut down to heights z of its own, as the second finds it from below."""
+    return tuple(Air(turned_shape(shape, first, second), -z - first.thickness) for shape, z in cut)
 
 
 def _with_room(job: Job) -> CamSettings:

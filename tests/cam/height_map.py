@@ -115,6 +115,8 @@ class Simulation:
     stock: tuple
     thickness: float
     pitch: float = 0.1
+    under: object = None
+    """Function of x and y to the height below which earlier setups have left nothing; None: the underside."""
     met: list = field(default_factory=list)
     complaints: list = field(default_factory=list)
 
@@ -126,7 +128,11 @@ class Simulation:
         inside = ((self.y > y0) & (self.y < y1))[:, None] & ((self.x > x0) & (self.x < x1))[None, :]
         self.bottom = -self.thickness - 50.0
         self.height = np.where(inside, 0.0, self.bottom)
-        self.solid = inside
+        self.lowest = np.full(inside.shape, -self.thickness)
+        if self.under is not None:
+            self.lowest = np.maximum(self.lowest, self.under(*np.meshgrid(self.x, self.y)))
+        self.solid = inside & (self.lowest < -1e-9)
+        self.height = np.where(self.solid, 0.0, self.bottom)
 
     def run(self, moves, cutters):
         for index, move in enumerate(moves):
@@ -154,11 +160,12 @@ class Simulation:
         square = (self.x[None, i0:i1] - place[0]) ** 2 + (self.y[j0:j1, None] - place[1]) ** 2
         disc = square <= r * r
         level = place[2] + cutter.end(square)
-        hit = disc & (part > level + 1e-4)
+        lowest = self.lowest[j0:j1, i0:i1]
+        hit = disc & (part > level + 1e-4) & (part > lowest + 1e-4)
         if not hit.any():
             return
-        floor = np.maximum(level, -self.thickness)
-        drop = np.where(hit, np.maximum(part, -self.thickness) - floor, 0.0)
+        floor = np.maximum(level, lowest)
+        drop = np.where(hit, np.maximum(part, lowest) - floor, 0.0)
         volume = float(drop.clip(0).sum()) * self.pitch**2
         flat = math.hypot(direction[0], direction[1])
         angle, depth = 0.0, float(drop.sum() / hit.sum())
@@ -178,7 +185,7 @@ class Simulation:
 
     def stands(self, z):
         """Cells of the plate whose material still stands at height z."""
-        return self.solid & (self.height > z)
+        return self.solid & (self.height > z) & (self.height > self.lowest + 1e-4)
 
     def gouge(self, keep, z):
         """Greatest depth inside ``keep`` of a cell centre that no longer stands at z, mm."""

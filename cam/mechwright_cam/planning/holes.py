@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+import shapely
+
 from mechwright.cutter import cutter
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
@@ -159,6 +161,12 @@ def _holes(
     return (*moves, Rapid(z=clearance))
 
 
+def open_radius(job: Job, bore: Bore) -> float:
+    """Radius of what earlier setups have cut through at the middle of a bore, mm; 0 if they have not."""
+    air, middle = job.air_below(-bore.top), shapely.Point(bore.centre)
+    return float(air.boundary.distance(middle)) if shapely.contains(air, middle) else 0.0
+
+
 def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     """Write helices out to the finishing allowance; whether there was anything to write."""
     bore, mill = plan.bore, plan.mill
@@ -175,7 +183,11 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     first = min(widest, CORELESS * foot)
     if plan.drill is not None:
         first = max(first, min(widest, plan.drill.radius + step - mill.radius))
-    count = math.ceil((widest - first) / step - 1e-9) + 1
+    edge = open_radius(job, bore) - mill.radius
+    if edge > 0:  # outwards from there in even rings
+        edge = min(edge, widest)
+        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - 1e-9), 1)
+    count = math.ceil((widest - first) / step - TOLERANCES.noise) + 1
     radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
     bottom = _bottom(job, bore, mill)
     leave = floor_allowance(job, -bore.top, bottom)

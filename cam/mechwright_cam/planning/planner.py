@@ -16,10 +16,11 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.congruent import Copies
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
-from mechwright_cam.planning.floors import floor_allowance, layers
+from mechwright_cam.planning.floors import floor_allowance, layers, over_openings
 from mechwright_cam.planning.grooves import groove
 from mechwright_cam.planning.holes import (
     BorePlan,
@@ -75,6 +76,7 @@ class _Planner:
         self.clearance = clearance_height(job)
         self.slope = math.tan(math.radians(job.settings.ramp_angle))
         self.steps: list[Step] = []
+        self.copies = Copies()
 
     def program(self) -> Program:
         job = self.job
@@ -170,7 +172,7 @@ class _Planner:
                 if leave > 0 and not zone.snug:
                     self._recess(zone, after, leave)
                 else:
-                    self._wall([zone], after, zone.mills)
+                    self._wall(over_openings(job, zone), after, zone.mills)
             after = frozenset(range(len(self.steps)))
         self._details(after, outside=False)
         return frozenset(range(len(self.steps)))
@@ -245,27 +247,31 @@ class _Planner:
     def _recess(self, zone: Zone, after: frozenset[int], leave: float) -> None:
         """Rough a recess to just above its floor, finish the floor, then the wall from top to bottom."""
         finest, allowance = zone.finisher, self.job.settings.stock_to_leave
-        rough, floor = layers(zone, leave)
-        cuts = self._cleared(rough, zone.mills)
+        upper, floor = layers(zone, leave)
+        roughs, (floor,) = over_openings(self.job, upper), over_openings(self.job, floor)
+        cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills)]
         cleared = [mill for _, mill, _ in cuts]
         for mill in roughers(zone.mills, finest):
-            cut = self._roughing(rough, mill, allowance)
-            if cut.share >= WORTH_A_TOOL:
-                cuts.append(self._rough(cut))
+            found = [self._roughing(rough, mill, allowance) for rough in roughs]
+            if found[0].share >= WORTH_A_TOOL:
+                cuts += [self._rough(cut) for cut in found]
                 # Where bounded engagement left corners standing, a wide cutter would run into them.
                 cuts += [] if cleared else [self._floored(floor, mill)]
         for mill in zone.last_mills:
-            cuts += [self._rough(self._roughing(rough, mill, allowance)), *self._rough_heavy(rough, mill)]
+            for rough in roughs:
+                cuts += [self._rough(self._roughing(rough, mill, allowance)), *self._rough_heavy(rough, mill)]
         # What round mills left at the foot of the wall is cut in one go, down to the floor.
-        if not shapely.is_empty(rough.ridges):
-            floor.ridges = shapely.union(floor.ridges, rough.ridges)
-            floor.ridge_height = rough.ridge_height + leave
+        if not shapely.is_empty(roughs[-1].ridges):
+            floor.ridges = shapely.union(floor.ridges, roughs[-1].ridges)
+            floor.ridge_height = roughs[-1].ridge_height + leave
         early = [mill for mill in cleared if mill.name not in {last.name for last in zone.last_mills}]
         cuts += [self._floored(floor, mill) for mill in [*early, *zone.last_mills]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
         for mill in zone.last_mills:
             cuts += self._ridges(floor, mill)
-        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
+        every = [*roughs, floor]
+        zone.left = shapely.union_all([layer.left for layer in every])
+        zone.over = max(layer.over for layer in every)
         zone.ridges = floor.ridges
         for written in [*cuts, *(self._finish(zone, mill) for mill in zone.last_mills)]:
             after = self._step(*written, after)
@@ -320,7 +326,7 @@ class _Planner:
         wanted = [part for part in polygons(area) if shapely.intersects(part, zone.left)]
         area = shapely.union_all(wanted)
         before = zone.left.area
-        cavities = adaptive.clear(area, mill, limit, settings.climb)
+        cavities = self.copies.clear(zone.feature, area, mill, limit, settings.climb)
         reached = shapely.union_all([cavity.cleared for cavity in cavities])
         if before - shapely.difference(zone.left, reached).area < WORTH_A_TOOL * before:
             return []

@@ -36,7 +36,12 @@ VISIBLE = 0.001
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
 PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
-"""A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
+"""A cutter reaches what it enters with this much air on either side, mm.
+
+Paths and outlines are no better: on arcs of ``arc_fit`` a cutter in a slot of its own width would cut both
+walls. Without it a slot up to 5 µm wider than the cutter would count as left over, and no path may go there;
+with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
+"""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -225,6 +230,8 @@ def _on_floors(
     slack = TOLERANCES.leftover
     gone = shapely.union_all([swept(g.chains, g.radius + slack / 2, COARSE) for g in groups])
     region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
+    if job.gone:  # where earlier setups have been there is no floor
+        region = shapely.difference(region, grow(job.air_below(band.bottom), slack, COARSE))
     rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
     if rest.is_empty:
         return 0.0, None

@@ -100,12 +100,16 @@ def simulate(run: Run, job: Job) -> Simulation:
     cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS))
     shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
     heights = np.zeros(shape, dtype=np.float32)
-    if not job.gone.is_empty:
-        heights[_inside(job.gone, job, shape, cell)] = -job.thickness
+    floors = np.full(shape, -job.thickness, dtype=np.float32)
+    for air in sorted(job.gone, key=lambda air: air.top):
+        floors[_inside(air.shape, job, shape, cell)] = air.top
+    through = floors >= -NEAR
+    heights[through] = -job.thickness
     steps = paths.steps[run.cutting[paths.steps]]
     volume, depth = np.zeros(len(run)), np.zeros(len(run))
     for number, mine in _runs_of_one_tool(run, steps):
-        _cut(paths, job, tools[number], mine, heights, cell, volume, depth)
+        _cut(paths, job, tools[number], mine, heights, floors, cell, volume, depth)
+    heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
     length = np.nan_to_num(run.length)
     idle = steps[volume[steps] <= cell**2 * NEAR]
     works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in _used(run, steps)]
@@ -133,6 +137,7 @@ def _cut(
     tool: Tool,
     steps: Ints,
     heights: NDArray[np.float32],
+    floors: NDArray[np.float32],
     cell: float,
     volume: Array,
     depth: Array,
@@ -147,7 +152,6 @@ def _cut(
     columns = np.floor((places[:, 0] - x0) / cell).astype(np.int64)
     rows = np.floor((places[:, 1] - y0) / cell).astype(np.int64)
     ny, nx = heights.shape
-    floor = np.float32(-job.thickness)
     # A loop, sample by sample: each cut depends on what the one before has left.
     for row, column, height, step in zip(
         rows.tolist(), columns.tolist(), z.tolist(), owner.tolist(), strict=True
@@ -164,7 +168,7 @@ def _cut(
         tip = disc[a - row + half : b - row + half, c - column + half : d - column + half] + np.float32(
             height
         )
-        np.maximum(tip, floor, out=tip)
+        np.maximum(tip, floors[a:b, c:d], out=tip)
         taken = stock - tip
         np.maximum(taken, 0, out=taken)
         most = float(taken.max())
