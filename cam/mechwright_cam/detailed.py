@@ -30,7 +30,7 @@ from mechwright_cam.recess_tools import edges_of, round_floored, taken
 SAME_LOOP = 4 * TOLERANCES.flatten
 """A chamfer follows an edge if the two are no further apart than this, mm, on the mean."""
 ABOVE = 0.25
-"""Tools of broken edges go on above the top face by this share of their width: none of their faces is in it."""
+"""Tools of broken edges go on above the top face by this share of their width: no face of theirs is in it."""
 
 
 def detailed(part: Part) -> cq.Solid:
