@@ -26,7 +26,7 @@ ROOMY = 0.7
 
 def long_enough(tool: Tool, depth: float) -> bool:
     """Whether the flutes reach the bottom of a cut of this depth, mm."""
-    return tool.flute_length >= depth - 1e-9
+    return tool.flute_length >= depth - TOLERANCES.noise
 
 
 def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool]:

@@ -225,7 +225,7 @@ class Roughing:
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
-            linked = _inside(free, last.end, path.start, radius)
+            linked = _inside(free, last.end, path.start)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
                 trail = shapely.linestrings(last.points(radius / 3))
@@ -234,7 +234,7 @@ class Roughing:
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
             runs.append(Run(path, clear, linked, thin))
-        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start, radius))
+        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start))
 
     def _pieces(self) -> list[Piece]:
         radius = self.tool.radius
@@ -342,8 +342,6 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
         above = z
 
 
-def _inside(free: shapely.Geometry, a: Point, b: Point, radius: float) -> bool:
-    """Whether the centre may go straight from a to b, tested at every quarter of the radius."""
-    count = max(1, math.ceil(math.dist(a, b) / (radius / 4)))
-    t = np.arange(count + 1) / count
-    return bool(shapely.contains_xy(free, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])).all())
+def _inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
+    """Whether the centre may go straight from a to b."""
+    return bool(shapely.covers(free, shapely.Point(a) if a == b else shapely.LineString([a, b])))

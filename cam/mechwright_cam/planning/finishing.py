@@ -74,10 +74,13 @@ class Finishing:
         free: NDArray[np.bool_] = shapely.contains_xy(self.free, points[:, 0], points[:, 1])
         return free
 
+    def _may_run(self, way: Array) -> bool:
+        return bool(shapely.covers(self.free, shapely.LineString(way)))
+
     def _ring(self, pen: Pen, ring: Array, heights: list[float]) -> None:
         least = self.settings.stock_to_leave
         shapes = lead_shapes(self.tool.radius, least)
-        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear)
+        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear, self._may_run)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
             self._loop(
@@ -96,8 +99,9 @@ class Finishing:
         """A path that starts and ends in the clear, at every height."""
         if not path.cuts:
             return
-        back = np.linspace(path.end, path.start, 20)
-        direct = bool(self._is_free(back).all() and self._is_clear(back).all())
+        # The whole way counts, not points of it: a corner of the wall may stand between any two.
+        back = shapely.LineString([path.end, path.start])
+        direct = bool(shapely.covers(self.free, back) and not shapely.intersects(self.near, back))
         is_open = bool(self._is_clear(np.array([path.start]))[0])
         above = self.zone.top
         for number, z in enumerate(heights):

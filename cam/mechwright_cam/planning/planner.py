@@ -16,6 +16,7 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.congruent import Copies
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
@@ -75,6 +76,7 @@ class _Planner:
         self.clearance = clearance_height(job)
         self.slope = math.tan(math.radians(job.settings.ramp_angle))
         self.steps: list[Step] = []
+        self.copies = Copies()
 
     def program(self) -> Program:
         job = self.job
@@ -324,7 +326,7 @@ class _Planner:
         wanted = [part for part in polygons(area) if shapely.intersects(part, zone.left)]
         area = shapely.union_all(wanted)
         before = zone.left.area
-        cavities = adaptive.clear(area, mill, limit, settings.climb)
+        cavities = self.copies.clear(zone.feature, area, mill, limit, settings.climb)
         reached = shapely.union_all([cavity.cleared for cavity in cavities])
         if before - shapely.difference(zone.left, reached).area < WORTH_A_TOOL * before:
             return []

@@ -52,6 +52,9 @@ from mechwright_cam.toolpath.path import DECIMALS
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
 
+NOISE = 1e-6
+"""Share of a last decimal that is the noise of floating point."""
+
 TAB_SLACK = 4 * ROUGH
 """Roughing keeps off tabs by all that its thinned path may be off, mm."""
 
@@ -83,6 +86,8 @@ class Zone:
     kind: Literal["outside", "inside", "pocket"]
     through: bool
     """Whether nothing of the plate stays below."""
+    feature: Pocket | Profile | None = None
+    """What it is in the drawing, inside."""
     must: shapely.Geometry | None = None
     """The feature itself, where ``clear`` runs out beyond its open stretches."""
     channel: shapely.Geometry | None = None
@@ -211,7 +216,7 @@ def _grown(wall: shapely.Geometry, radius: float) -> shapely.Geometry:
 
 def through(job: Job, depth: float) -> bool:
     """Whether a feature of this depth goes through the plate."""
-    return depth >= job.thickness - 1e-9
+    return depth >= job.thickness - TOLERANCES.noise
 
 
 def bottom_of(job: Job, top: float, depth: float) -> float:
@@ -269,6 +274,7 @@ def inner_zones(job: Job) -> list[Zone]:
             finisher,
             "pocket" if isinstance(feature, Pocket) else "inside",
             bottom == job.floor,
+            feature,
             shapes.must if shapes.open else None,
             below=bottom == job.floor,
             before=last[0] if len(last) > 1 else None,
@@ -348,7 +354,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
         if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
-            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - 1e-6) / 10**DECIMALS
+            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
             tabs = shapely.union_all([tab.shape for tab in own])
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             name = f"{feature.name} below the tabs"
