@@ -17,6 +17,7 @@ from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
+from mechwright_cam.buffers import buffered
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit_all
@@ -127,7 +128,7 @@ class Roughing:
         self.over = zone.over + min(OVERLAP, self.sliver / 2)
         self.reach = grow(self.free, tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
+        self.core = buffered(take, -self.sliver, 2)
         if not shapely.is_empty(zone.waste):
             self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
 

@@ -7,6 +7,7 @@ distance to the nearest path less that cutter's radius. Where it is nothing a di
 band of one diameter along the wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
+A bore is round and has no such corners: it is cut to its wall, or the program is not that of the part.
 """
 
 import math
@@ -17,7 +18,7 @@ import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.part import Profile
+from mechwright.part import Bore, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.job import Job
@@ -40,6 +41,8 @@ CLEARED = TOLERANCES.arc_fit
 """A wall with no more stock than this is as clean as a path can make it, mm."""
 CLEAN = TOLERANCES.leftover / 2
 """A wall with no more stock than this passes whatever the other cutters did there, mm."""
+AROUND = 64
+"""So many places on the wall of each bore are looked at: it is a circle, and so is the path that makes it."""
 REFINED = 64
 """So many of the worst wall samples are looked at closely."""
 EDGE = 9
@@ -67,10 +70,10 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
+    worst, at = _of_bores(sweeps, job)
     if not mills:
-        return Remains(0.0, None, ())
+        return Remains(worst, at, ())
     smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
-    worst, at = 0.0, None
     closings: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
     unseen: dict[int, Shape | None] = {}
@@ -102,6 +105,33 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     ]
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
+
+
+def _of_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, float] | None]:
+    """Thickest stock on the wall of a bore, and its place."""
+    worst, at = 0.0, None
+    bores = [feature for feature in job.features if isinstance(feature, Bore)]
+    for band in bands(job) if bores else ():
+        points, outward, widths = [], [], []
+        for bore in bores:
+            if -bore.top >= band.top - NEAR and -(bore.top + bore.depth) <= band.bottom + NEAR:
+                turn = np.linspace(0.0, math.tau, AROUND, endpoint=False)
+                ray = np.column_stack((np.cos(turn), np.sin(turn)))
+                points.append(bore.centre + bore.diameter / 2 * ray)
+                outward.append(-ray)
+                widths.append(np.full(AROUND, bore.diameter))
+        if not points:
+            continue
+        wall, inwards, most = np.concatenate(points), np.concatenate(outward), np.concatenate(widths)
+        # Where it opens into something else there is no wall.
+        walled = shapely.dwithin(band.keep, shapely.points(wall), TOLERANCES.leftover)
+        underside = band.bottom <= -job.thickness + NEAR
+        groups = sweeps.at(band.bottom + (ROUNDING if underside else TOLERANCES.leftover), band.bottom)
+        thick = np.where(walled, np.minimum(_thickness(wall, inwards, groups), most), 0.0)
+        best = int(np.argmax(thick))
+        if thick[best] > worst:
+            worst, at = float(thick[best]), (float(wall[best, 0]), float(wall[best, 1]), band.bottom)
+    return worst, at
 
 
 def _on_walls(
