@@ -13,7 +13,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-
 THINNING = 0.01
 """GEOS leaves out corners of the shape that matter less than this part of the distance."""
 

@@ -221,6 +221,18 @@ CASES: dict[str, Case] = {
         ),
         settings={**FLUSH, "floor_to_leave": 0.3},
     ),
+    "bull-nose": Case(
+        (Pocket("dish", rounded_box(22, 14, 5), (), 0, 2, floor_radius=1.0),),
+        ("mill-6", "bull-6-r1"),
+        ("dish: rough", "dish: finish"),
+        settings=FLUSH,
+    ),
+    "ball": Case(
+        (Pocket("dish", Loop((circle((0, 0), 5.0),)), (), 0, 3, floor_radius=3.0),),
+        ("ball-6",),
+        ("dish: rough", "dish: level the floor", "dish: finish"),
+        settings=FLUSH,
+    ),
     "conventional": Case(
         (Pocket("recess", rounded_box(24, 16, 5), (), 0, 2),),
         ("mill-8",),

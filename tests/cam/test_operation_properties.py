@@ -10,8 +10,8 @@ from random_parts import OPERATIONS, Outcome, named, run, without
 
 EXAMPLES = {"adaptive": 2, "slot": 3}
 """The slow ones; every other operation has five."""
-REASON = re.compile(r"(cam\.[a-z_.]+: |part plate|no |nothing |the )")
-"""How the reasons of planning begin; each names the feature, or the key of the design file."""
+REASON = re.compile(r"(error \[cam\.[a-z-]+\] )?(cam\.[a-z_.]+: |part plate)")
+"""How the reasons of planning begin: with the key of the design file, or with the part."""
 
 
 def check(outcome: Outcome) -> None:
