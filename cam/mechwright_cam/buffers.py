@@ -1,9 +1,11 @@
-"""Parallel curves of polygons, without the rings that GEOS leaves by mistake.
+"""Parallel curves of polygons, without the rings that GEOS leaves, or leaves out, by mistake.
 
 Where an opening is a little too narrow for the distance, its offset curve turns inside out and should vanish.
 GEOS (3.14 and before) tells by a test that such a ring fails at times, and keeps it: as an opening, or for
 shrunk shapes as a piece, all of whose points are nearer to the shape's edge than the distance. A cutter's
-centre would be sent there.
+centre would be sent there. Of rings with few corners the same test drops true ones: an opening that is only
+just wide enough would be taken for closed, and stock would stay in its middle. It does not ask rings of more
+corners, so these get some on their edges.
 """
 
 import math
@@ -15,6 +17,9 @@ from numpy.typing import NDArray
 
 THINNING = 0.01
 """GEOS leaves out corners of the shape that matter less than this part of the distance."""
+
+FEW = 9
+"""Rings with fewer points than this are tested by GEOS."""
 
 
 def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
@@ -36,7 +41,15 @@ def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
     >>> ring = shapely.Point(0, 0).buffer(3).difference(shapely.Point(0, 0).buffer(1))
     >>> [len(buffered(ring, by, 16).interiors) for by in (0.5, 1.5)]
     [1, 0]
+
+    A shape whose inscribed circle of 2.044 mm is a little wider than the distance keeps its middle:
+
+    >>> corners = [(-2.75, 3.24), (3.26, 3.99), (3.46, 4.29), (-0.11, 8.12), (-1.66, 8.27), (-2.93, 5.09)]
+    >>> [buffered(shapely.Polygon(corners), -by, 16).is_empty for by in (2.03, 2.05)]
+    [False, True]
     """
+    if not isinstance(shape, np.ndarray):
+        shape = _with_corners(shape, distance)
     grown = shapely.buffer(shape, distance, quad_segs=quad_segs)
     if isinstance(shape, np.ndarray):
         return grown  # of lines, which have no inside to turn out
@@ -47,6 +60,29 @@ def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
         true = _apart(shapely.point_on_surface(pieces), shapely.boundary(shape), -distance, quad_segs)
         return grown if true.all() else _joined(pieces[true])
     return grown
+
+
+def _with_corners(shape: Any, distance: float) -> Any:
+    """The same shape, with points on the edges of those rings that may vanish and have few corners."""
+    parts = shapely.get_parts(shape)
+    if distance > 0:
+        parts = parts[shapely.get_num_interior_rings(parts) > 0]
+    elif distance == 0 or shapely.get_num_coordinates(parts).min(initial=FEW + 1) > FEW:
+        return shape
+    if not parts.size or (shapely.get_num_coordinates(shapely.get_rings(parts)) > FEW).all():
+        return shape
+    pieces = [_dotted(piece, distance > 0) for piece in shapely.get_parts(shape).tolist()]
+    return pieces[0] if len(pieces) == 1 else shapely.geometrycollections(pieces)
+
+
+def _dotted(piece: Any, inside: bool) -> Any:
+    """One piece with points on the edges of its openings, or of its outer ring, if they have few corners."""
+    rings = shapely.get_rings(piece)
+    if not len(rings):
+        return piece
+    few = (shapely.get_num_coordinates(rings) <= FEW) & ((np.arange(len(rings)) > 0) == inside)
+    loops = shapely.segmentize(rings, np.where(few, shapely.length(rings) / FEW, np.inf)).tolist()
+    return shapely.Polygon(loops[0], loops[1:])
 
 
 def _without_false_openings(grown: Any, shape: Any, distance: float, quad_segs: int) -> Any:

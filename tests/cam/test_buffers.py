@@ -66,3 +66,17 @@ def test_random_openings(seed, distance):
         opening = opening.buffer(rng.uniform(0.1, 1)).buffer(-0.05)
     check(shapely.box(-20, -20, 20, 20).difference(opening), distance)
     check(opening, -distance)
+
+
+@given(seed=st.integers(0, 10**6), share=st.floats(0.9, 0.999))
+def test_the_middle_of_an_opening_that_is_just_wide_enough_stays(seed, share):
+    rng = np.random.default_rng(seed)
+    turn = np.sort(rng.uniform(0, math.tau, rng.integers(3, 12)))
+    opening = shapely.Polygon(10 * np.column_stack((np.cos(turn), np.sin(turn))))
+    widest = shapely.maximum_inscribed_circle(opening, 1e-6)
+    middle, radius = shapely.Point(widest.coords[0]), widest.length
+    if radius < 0.1:
+        return
+    assert shapely.contains(buffered(opening, -share * radius, QUAD), middle)
+    plate = shapely.union(shapely.box(-20, -20, 20, 20).difference(opening), shapely.box(30, 0, 31, 1))
+    assert not shapely.contains(buffered(plate, share * radius, QUAD), middle)
