@@ -16,6 +16,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.compensation import CompensatedFinishing, finish_bore_compensated
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
@@ -92,7 +93,12 @@ class _Planner:
         else:
             sections = self._sections(inner | outer)
         return Program(
-            job.part.name, job.settings.work_offset, self.clearance, _merged(sections), self._notes()
+            job.part.name,
+            job.settings.work_offset,
+            self.clearance,
+            _merged(sections),
+            self._notes(),
+            compensation=job.settings.compensation,
         )
 
     def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:
@@ -178,7 +184,10 @@ class _Planner:
             return
         name, job = plan.bore.name, self.job
         after = self._milled(f"{name}: bore", plan.mill, after, lambda pen: rough_bore(job, plan, pen))
-        self._milled(f"{name}: finish", plan.mill, after, lambda pen: finish_bore(job, plan, pen))
+        write = partial(finish_bore, job, plan)
+        if job.settings.compensation != "computer":
+            write = partial(finish_bore_compensated, job, plan.bore)
+        self._milled(f"{name}: finish", plan.mill, after, write)
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:
         check_clamp(self.job)
@@ -272,7 +281,9 @@ class _Planner:
             self._rough(self._roughing(zone, mill, settings.stock_to_leave)),
             *self._rough_heavy(zone, mill),
         ]
-        moves = self._moves(zone.finisher, Finishing(zone, settings).write)
+        plain = settings.compensation == "computer"
+        finishing = Finishing(zone, settings) if plain else CompensatedFinishing(zone, self.job)
+        moves = self._moves(zone.finisher, finishing.write)
         if not moves:
             raise ToolError(
                 f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {self.job.part.name}; "

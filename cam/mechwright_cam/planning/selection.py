@@ -28,6 +28,7 @@ from mechwright_cam.planning.choice import (
     usable_mills,
 )
 from mechwright_cam.planning.details import plan_detail
+from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.recess import recess
@@ -207,11 +208,11 @@ def _worthwhile(
 def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
     """A mill for a bore, unless one is chosen already or a drill makes the bore."""
     depth = -bottom_of(every, bore.top, bore.depth)
-    able = usable_mills(every, depth)
+    able = [m for m in usable_mills(every, depth) if enters(m, bore.diameter, every.settings)]
     brisk = [mill for mill in chosen if BRISK * bore.diameter <= mill.diameter <= ROOMY * bore.diameter]
     if any(mill in able for mill in brisk):
         return []
-    largest = max((mill.diameter for mill in chosen), default=able[0].diameter)
+    largest = max((mill.diameter for mill in chosen), default=math.inf)
     mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
     return [] if mill is None else [mill]
 
@@ -328,7 +329,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
         if zone.tabs is not None:
             continue
         found += _partly(job, zone)
-        depth = remainder(zone.wall, zone.finisher.radius, zone.must)
+        depth = remainder(zone.wall, job.reach(zone.finisher), zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
                 Finding(

@@ -286,6 +286,8 @@ class GcodePost(Post):
         match move:
             case Rapid():
                 self._rapid(out, move)
+            case Feed() if move.side is not None:
+                self._compensate(out, section.tool, move)
             case Feed():
                 words = out.axis_words(move.x, move.y, move.z)
                 if words:
@@ -301,6 +303,15 @@ class GcodePost(Post):
                     self.drill_in_moves(out, move)
             case Pause():
                 self._pause(out, section, move)
+
+    def _compensate(self, out: Writer, tool: Tool, move: Feed) -> None:
+        """Turn cutter compensation on or off along a straight line, which states both axes."""
+        out.x = out.y = math.nan
+        out.motion = ""  # G41, G42 and G40 want a G1 beside them, for whoever reads the block
+        word = {"left": "G41", "right": "G42"}.get(move.side or "", "G40")
+        number = f"D{tool.d_number}" if word != "G40" else ""
+        axes = out.axis_words(move.x, move.y, None)
+        out.line(out.motion_word("G1"), word, number, *axes, out.feed_word(move.feed))
 
     def _rapid(self, out: Writer, move: Rapid) -> None:
         """Travel first and go down last, or go up first: never askew past a clamp or a wall."""

@@ -103,7 +103,7 @@ def remains(paths: Paths, job: Job) -> Remains:
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
     if not mills:
         return Remains(0.0, None, ())
-    smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
+    smallest, widest = min(job.reach(t) for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
     closings: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}

@@ -72,6 +72,34 @@ def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
     ]
 
 
+def spans(points: Array, tolerance: float, corner: float) -> tuple[Array, Index, NDArray[np.bool_], Array]:
+    """The runs of one polyline that a line or an arc each can follow.
+
+    Parameters
+    ----------
+    points, tolerance
+        As for :func:`fit`.
+    corner
+        A turn of more than this at one vertex, rad, ends a run.
+
+    Returns
+    -------
+    points
+        (n, 2), those that are distinct.
+    nodes
+        (k + 1,) index of the ends of the runs.
+    straight
+        (k,) whether a line will do.
+    height
+        (k,) of the centre over the chord, to the left of it, mm.
+    """
+    points = _distinct(np.asarray(points, dtype=float))
+    ends = np.zeros(len(points), dtype=bool)
+    ends[[0, -1]] = True
+    nodes, across, height = _verified(points, _chain(_reach(points, ends, tolerance, corner)), tolerance)
+    return points, nodes, across <= tolerance, height
+
+
 def _distinct(points: Array) -> Array:
     step = np.diff(points, axis=0)
     distinct: Array = points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]
@@ -108,7 +136,7 @@ def _verified(points: Array, nodes: Index, tolerance: float) -> tuple[Index, Arr
         nodes = np.sort(np.concatenate((nodes, (first[bad] + last[bad]) // 2)))
 
 
-def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float) -> Index:
+def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float, sharp: float = CORNER) -> Index:
     """The farthest vertex that one line or arc from each vertex can reach; none goes beyond an end."""
     n = len(points)
     if n < 3:
@@ -126,7 +154,7 @@ def _reach(points: Array, ends: NDArray[np.bool_], tolerance: float) -> Index:
     bend = np.concatenate(([0.0], np.abs(turn), [0.0]))
     bend[ends] = 0.0
     straight = step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance
-    corner = np.concatenate(([False], np.abs(turn) > CORNER, [True]))
+    corner = np.concatenate(([False], np.abs(turn) > sharp, [True]))
     corner[:-1] |= straight
     corner[1:] |= straight
     corner |= ends

@@ -71,11 +71,11 @@ def best_start(
         fits = np.asarray(free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1))
         fits = np.logical_and(fits, clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1))
         if fits.any():
-            return int(index[_middle_of_longest(fits)]), rho, sweep
+            return int(index[middle_of_longest(fits)]), rho, sweep
     return None
 
 
-def _middle_of_longest(flags: NDArray[np.bool_]) -> int:
+def middle_of_longest(flags: NDArray[np.bool_]) -> int:
     """The middle of the longest run of true flags on a circle."""
     n = len(flags)
     if flags.all():
