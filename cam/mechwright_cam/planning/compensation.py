@@ -11,6 +11,7 @@ hop
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 from typing import Literal, NamedTuple
 
@@ -25,7 +26,7 @@ from mechwright.part import Bore
 from mechwright.program import Feed, FeedArc, Move
 from mechwright_cam.job import Job
 from mechwright_cam.planning.clearing import CLEAR
-from mechwright_cam.planning.entry import Lead, bore_lead, leads, offsets_of
+from mechwright_cam.planning.entry import Lead, bore_lead, leads, offsets_of, starts, ways
 from mechwright_cam.planning.finishing import LEAD_PLAY
 from mechwright_cam.planning.holes import CIRCLE_BIAS
 from mechwright_cam.planning.pen import Pen, levels
@@ -39,6 +40,8 @@ TAB_GAP = 0.05
 """Air between a tab and the largest tool allowed, beside it and above it, mm."""
 STEP = 0.1
 """Places at which the way along tabs is looked at, mm."""
+HALVINGS = 12
+"""Bisections of a lead's sweep: its start is found to a thousandth of its length."""
 LEAST_PIECE = 0.1
 """A contour is not divided nearer to a node, mm."""
 
@@ -90,44 +93,64 @@ class CompensatedFinishing:
         keep = zone.wall
         found = []
         for ring in rings(grow(keep, reach + BIAS), self.settings.climb):
-            if zone.must is None and zone.kind != "outside":
-                runs = [ring]
-            else:
-                dense = densified(ring, self.tool.radius / 4)
-                everywhere = np.ones(len(dense), dtype=bool)
-                whole = pieces(dense, everywhere, everywhere, self.wide, 0)
-                runs = [ring] if whole and whole[0].closed else [piece.points for piece in whole]
+            dense = densified(ring, self.tool.radius / 4)
+            everywhere = np.ones(len(dense), dtype=bool)
+            whole = pieces(dense, everywhere, everywhere, self.wide, 0)
+            runs = [ring] if whole and whole[0].closed else [piece.points for piece in whole]
             found += [contour_beside(run, reach - self.offsets.base, self.side, FIT) for run in runs]
         return [contour for contour in found if contour.cuts]
 
     # -- leads ------------------------------------------------------------------------------------------
 
-    def _fits(self, places: Array, headings: Array, lead: Lead, *, out: bool) -> NDArray[np.bool_]:
-        """Whether a lead onto (or with ``out`` off) the contour has room (k,) at places (k, 2)."""
+    def _world(self, places: Array, headings: Array, local: Array, *, out: bool) -> Array:
+        """Local places (k, n, 2) of leads at places (k, 2) of a contour, as (k, n, 2) of the work."""
         mirror = -1.0 if out else 1.0
         t = np.column_stack((np.cos(headings), np.sin(headings)))
         n = np.column_stack((-t[:, 1], t[:, 0])) * self.side
+        world: Array = (
+            places[:, None] + mirror * local[..., :1] * t[:, None] + local[..., 1:] * n[:, None]
+        )
+        return world
 
-        def there(local: Array) -> Array:
-            world: Array = (
-                places[:, None]
-                + mirror * local[None, :, :1] * t[:, None]
-                + local[None, :, 1:] * n[:, None]
-            )
-            return world
-
-        start = there(np.array([lead.start]))[:, 0]
-        good = ~shapely.contains_xy(self.near, start[:, 0], start[:, 1])
+    def _fits(
+        self, places: Array, headings: Array, shape: Lead, sweep: Array, *, out: bool
+    ) -> NDArray[np.bool_]:
+        """Whether leads of these sweeps onto (or with ``out`` off) the contour have room, (k,)."""
+        begin = starts(shape.radius, shape.straight, sweep)[:, None]
+        x, y = self._world(places, headings, begin, out=out)[:, 0].T
+        good = ~shapely.contains_xy(self.near, x, y)
         largest = self._blocked[self.offsets.most]
         for d, blocked in self._blocked.items():
-            local = lead.way(d)
-            flat = there(local).reshape(-1, 2)
-            free = shapely.contains_xy(self.wide, *flat.T) & ~shapely.contains_xy(blocked, *flat.T)
+            local = ways(shape.radius, shape.straight, sweep, d)
+            x, y = self._world(places, headings, local, out=out).reshape(-1, 2).T
+            free = shapely.contains_xy(self.wide, x, y) & ~shapely.contains_xy(blocked, x, y)
             # What is not on the contour yet keeps off all other walls, however they are moved.
-            high = np.tile(local[:, 1] > self.offsets.most + HEAVY, len(places))
-            free &= ~(high & shapely.contains_xy(largest, *flat.T))
+            high = local[..., 1].ravel() > self.offsets.most + HEAVY
+            free &= ~(high & shapely.contains_xy(largest, x, y))
             good &= free.reshape(len(places), -1).all(axis=1)
         return np.asarray(good)
+
+    def _tried(
+        self, places: Array, headings: Array, *, out: bool
+    ) -> Iterator[tuple[Lead, Array, NDArray[np.bool_]]]:
+        """Leads to try, with their sweeps (k,) and whether they have room (k,); roomy ones first.
+
+        Where none of them has, each place gets the sweep that brings the start just outside of what roughing
+        has left: a channel may be hardly wider than the cutter.
+        """
+        for lead in self.leads:
+            sweep = np.full(len(places), lead.sweep)
+            yield lead, sweep, self._fits(places, headings, lead, sweep, out=out)
+        away = self.tool.radius + self.settings.stock_to_leave + CLEAR / 2
+        for shape in dict.fromkeys(Lead(lead.radius, 0.0, lead.straight) for lead in self.leads):
+            low, high = np.zeros(len(places)), np.full(len(places), math.pi / 2)
+            for _ in range(HALVINGS):
+                sweep = (low + high) / 2
+                local = starts(shape.radius, shape.straight, sweep)[:, None]
+                spots = shapely.points(self._world(places, headings, local, out=out)[:, 0])
+                near = shapely.distance(self.zone.wall, spots) < away
+                low, high = np.where(near, sweep, low), np.where(near, high, sweep)
+            yield shape, high, self._fits(places, headings, shape, high, out=out)
 
     def _no_room(self, contour: Path) -> ToolError:
         other = '"computer"' if self.settings.compensation == "wear" else '"wear" or "computer"'
@@ -141,25 +164,29 @@ class CompensatedFinishing:
     def _entered(self, contour: Path) -> tuple[Path, Lead, Lead]:
         """The contour from the best place to enter it on, with its leads."""
         if not contour.closed:
-            ends = np.array([contour.start, contour.end])
-            heads = np.array([_heading(contour, 0), _heading(contour, -1)])
-            into = [x for x in self.leads if self._fits(ends[:1], heads[:1], x, out=False).all()]
-            off = [x for x in self.leads if self._fits(ends[1:], heads[1:], x, out=True).all()]
-            if not (into and off):
-                raise self._no_room(contour)
-            return contour, into[0], off[0]
+            found = []
+            for at, place, out in ((0, contour.start, False), (-1, contour.end, True)):
+                heading = np.array([_heading(contour, at)])
+                for shape, sweep, fits in self._tried(np.array([place]), heading, out=out):
+                    if fits.all():
+                        found.append(replace(shape, sweep=float(sweep[0])))
+                        break
+                else:
+                    raise self._no_room(contour)
+            return contour, found[0], found[1]
         at, places, headings = _candidates(contour)
         apart = np.ones(len(at), dtype=bool)
         if self.zone.tabs is not None:
             off_tab = places + self._normals(headings) * self.offsets.planned
             gap = shapely.distance(self.zone.tabs, shapely.points(off_tab))
-            apart = gap > self.tool.radius + self.offsets.limit + 2 * TAB_GAP + STEP
-        for lead in self.leads:
-            fits = self._fits(places, headings, lead, out=False) & self._fits(places, headings, lead, out=True)
-            fits &= apart
+            apart = gap > self.tool.radius + 2 * self.offsets.limit + 2 * TAB_GAP + STEP
+        both = (self._tried(places, headings, out=out) for out in (False, True))
+        for (shape, into, one), (_, off, two) in zip(*both, strict=True):
+            fits = one & two & apart
             if fits.any():
-                best = at[middle_of_longest(fits)]
-                return contour.entered_at(float(best)), lead, lead
+                best = middle_of_longest(fits)
+                entered = contour.entered_at(float(at[best]))
+                return entered, replace(shape, sweep=float(into[best])), replace(shape, sweep=float(off[best]))
         raise self._no_room(contour)
 
     def _normals(self, headings: Array) -> Array:
@@ -169,7 +196,7 @@ class CompensatedFinishing:
 
     def _contour(self, pen: Pen, contour: Path, heights: list[float]) -> None:
         path, into, off = self._entered(contour)
-        one, two = self._ways(path, into, off)
+        one, two = self._leads_of(path, into, off)
         parts = self._parts(path)
         back = np.linspace(two[-1], one[0], 20)
         x, y = back.T
@@ -186,9 +213,9 @@ class CompensatedFinishing:
             pen.sink(z)
             self._around(pen, path, one, two, parts, z)
 
-    def _ways(self, path: Path, into: Lead, off: Lead) -> tuple[list[Point], list[Point]]:
+    def _leads_of(self, path: Path, into: Lead, off: Lead) -> tuple[list[Point], list[Point]]:
         """Start, end of the line and touching point of the lead in; the same of the lead out, backwards."""
-        ways = []
+        found = []
         for at, heading, lead, mirror in (
             (path.start, _heading(path, 0), into, 1.0),
             (path.end, _heading(path, -1), off, -1.0),
@@ -199,16 +226,19 @@ class CompensatedFinishing:
                 (rounded(at[0] + x * tx + y * nx), rounded(at[1] + x * ty + y * ny))
                 for x, y in (lead.start, lead.turn)
             ]
-            ways.append([*way, at] if mirror > 0 else [at, *way[::-1]])
-        return ways[0], ways[1]
+            found.append([*way, at] if mirror > 0 else [at, *way[::-1]])
+        return found[0], found[1]
 
     def _parts(self, path: Path) -> list[tuple[Path, bool]]:
         """The parts of a contour, and whether the tool is lifted over a tab there."""
         if self.zone.tabs is None:
             return [(path, False)]
-        at, places = _centres(path, self.side, self.offsets.planned)
-        reach = self.tool.radius + self.offsets.limit + TAB_GAP
-        over = shapely.dwithin(shapely.points(places), self.zone.tabs, reach)
+        over = np.zeros(0, dtype=bool)
+        for d in self._blocked:
+            at, places = _centres(path, self.side, self.offsets.most, d)
+            reach = self.tool.radius + max(d - self.offsets.planned, 0.0) + TAB_GAP
+            near = shapely.dwithin(shapely.points(places), self.zone.tabs, reach)
+            over = near if not over.size else over | near
         parts: list[tuple[Path, bool]] = []
         edges = np.flatnonzero(np.diff(np.concatenate(([False], over, [False])).astype(int)))
         rest, done = path, 0.0
@@ -376,15 +406,18 @@ def _candidates(path: Path) -> tuple[Array, Array, Array]:
     return np.array(at), np.array(places).reshape(-1, 2), np.array(headings)
 
 
-def _centres(path: Path, side: int, distance: float) -> tuple[Array, Array]:
-    """Ways (n,) along a contour, and the places (n, 2) of a tool at this distance, around corners as well."""
+def _centres(path: Path, side: int, widest: float, distance: float) -> tuple[Array, Array]:
+    """Ways (n,) along a contour, and the places (n, 2) of a tool at this distance, around corners as well.
+
+    The ways are the same for all distances up to the ``widest``.
+    """
     found: list[_Place] = []
     for start, cut, done in _walk(path):
         steps = max(1, math.ceil(cut.length / STEP))
         places = [_on(start, cut, k / steps, done) for k in range(steps + 1)]
         if found:
             turn = (places[0].heading - found[-1].heading + math.pi) % math.tau - math.pi
-            corner = math.ceil(abs(turn) * max(distance, STEP) / STEP)
+            corner = math.ceil(abs(turn) * max(widest, STEP) / STEP)
             found += [
                 places[0]._replace(heading=found[-1].heading + turn * k / corner) for k in range(1, corner)
             ]

@@ -93,13 +93,21 @@ class Lead:
         x, y = self.turn
         return x - self.straight * math.cos(self.sweep), y + self.straight * math.sin(self.sweep)
 
-    def way(self, d: float) -> Array:
-        """Places (n, 2) of the tool's centre with this D, from the start on."""
-        a = np.linspace(self.sweep, 0.0, SAMPLES + 1)
-        r = self.radius - d
-        round_ = np.column_stack((-r * np.sin(a), self.radius - r * np.cos(a)))
-        t = np.linspace(0.0, 1.0, SAMPLES + 1)[:-1, None]
-        return np.concatenate(((1 - t) * np.array(self.start) + t * round_[0], round_))
+
+def ways(radius: float, straight: float, sweep: Array, d: float) -> Array:
+    """Places (k, n, 2) of the tool's centre with this D along leads of these sweeps (k,), from the start on."""
+    a = sweep[:, None] * np.linspace(1.0, 0.0, SAMPLES + 1)
+    inner = radius - d
+    arcs = np.stack((-inner * np.sin(a), radius - inner * np.cos(a)), axis=-1)
+    t = np.linspace(0.0, 1.0, SAMPLES + 1)[:-1, None]
+    lines = (1 - t) * starts(radius, straight, sweep)[:, None] + t * arcs[:, :1]
+    return np.concatenate((lines, arcs), axis=1)
+
+
+def starts(radius: float, straight: float, sweep: Array) -> Array:
+    """Where leads of these sweeps (k,) start, (k, 2)."""
+    s, c = np.sin(sweep), np.cos(sweep)
+    return np.column_stack((-radius * s - straight * c, radius * (1 - c) + straight * s))
 
 
 def lead_to(radius: float, straight: float, rise: float) -> Lead | None:
