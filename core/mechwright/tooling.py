@@ -264,6 +264,9 @@ class CamSettings(Parameters):
     )
     breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
     stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
+    floor_to_leave: Millimetres = Field(
+        0.2, ge=0, le=5, description="Left on floors of recesses by roughing; at most half of the depth."
+    )
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
     compensation: Compensation = Field(

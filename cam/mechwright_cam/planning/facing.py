@@ -7,7 +7,7 @@ import shapely
 
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import Zone
-from mechwright_cam.toolpath.path import line, polyline
+from mechwright_cam.toolpath.path import line, polyline, rounded
 
 ROW = 0.7
 """Distance of rows in cutter diameters: the edge that leaves the work then still cuts with its side."""
@@ -20,8 +20,11 @@ def is_face(zone: Zone) -> bool:
     return zone.must is not None and bool(shapely.is_empty(zone.keep))
 
 
-def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float) -> None:
-    """Write the rows to and fro, level by level; entered beside the stock, or by a ramp along a row."""
+def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float, leave: float) -> None:
+    """Write the rows to and fro, level by level; entered beside the stock, or by a ramp along a row.
+
+    The last level takes what is left on the floor, ``leave`` mm.
+    """
     radius = pen.tool.radius
     x0, y0, x1, y1 = zone.must.bounds if zone.must is not None else stock.bounds
     count = math.ceil((y1 - y0) / (ROW * pen.tool.diameter))
@@ -34,7 +37,8 @@ def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float) -> None
     clear = shapely.distance(stock, shapely.Point(path.start)) > radius
     first = type(path)(path.start, (line(path.start, (path.cuts[0].x, path.cuts[0].y)),))
     above = zone.top
-    for z in levels(zone.top, zone.bottom, step_down):
+    heights = levels(zone.top, zone.bottom + leave, step_down)
+    for z in heights if leave == 0 else [*heights, rounded(zone.bottom)]:
         pen.above(path.start)
         if clear:
             pen.sink(z)

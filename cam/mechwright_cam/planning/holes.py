@@ -13,6 +13,7 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
 from mechwright_cam.planning.entry import enters
+from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import bottom_of, through
@@ -112,23 +113,23 @@ def drill_moves(
     peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
     bottom = rounded(-depth - point_length(drill))
     peck = None if peck is None else rounded(peck)
-    return _holes(places, bottom, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
+    holes = [(place, bottom) for place in places]
+    return _holes(holes, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
 
 
 def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
     """Spot holes for drills of the diameters given with the places."""
     speed = rates(spot, job.part.material, job.settings.machine)
-    moves: list[Move] = []
+    holes = []
     for place, diameter in places:
         wide = min(SPOT * diameter, spot.diameter)
         depth = wide / 2 / math.tan(math.radians(spot.point_angle) / 2)
-        moves.extend(_holes([place], rounded(-depth), speed.feed, clearance, None, dwell=0.2))
-    return tuple(moves)
+        holes.append((place, rounded(-depth)))
+    return _holes(holes, speed.feed, clearance, None, dwell=0.2)
 
 
 def _holes(
-    places: list[Point],
-    bottom: float,
+    holes: list[tuple[Point, float]],
     feed: float,
     clearance: float,
     peck: float | None,
@@ -136,14 +137,14 @@ def _holes(
     *,
     breaking: bool = False,
 ) -> tuple[Move, ...]:
+    """Holes, each with its bottom, one right after the other, so that holes alike share one cycle."""
     moves: list[Move] = []
-    for x, y in ((rounded(x), rounded(y)) for x, y in places):
-        moves += [
-            Rapid(x=x, y=y),
-            Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking),
-            Rapid(z=clearance),
-        ]
-    return tuple(moves)
+    for place, bottom in holes:
+        x, y = rounded(place[0]), rounded(place[1])
+        if not moves:
+            moves.append(Rapid(x=x, y=y))
+        moves.append(Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking))
+    return (*moves, Rapid(z=clearance))
 
 
 def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
@@ -162,17 +163,30 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     if plan.drill is not None:
         first = max(first, min(widest, plan.drill.radius + step - mill.radius))
     count = math.ceil((widest - first) / step - 1e-9) + 1
-    for number in range(count):
-        radius = widest if number == count - 1 else first + number * (widest - first) / (count - 1)
-        _helix(job, bore, pen, radius, data.step_down * mill.diameter)
+    radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
+    bottom = bottom_of(job, bore.top, bore.depth)
+    leave = floor_allowance(job, -bore.top, bottom)
+    for radius in radii:
+        _helix(job, bore, pen, radius, data.step_down * mill.diameter, bottom + leave)
+    if leave > 0:
+        _floor(job, bore, pen, radii, bottom)
     pen.retract()
     return True
 
 
-def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float) -> None:
+def _floor(job: Job, bore: Bore, pen: Pen, radii: list[float], bottom: float) -> None:
+    """The floor of a blind bore in one pass: sunk along the innermost ring, then ring by ring outwards."""
+    for radius in radii:
+        turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+        pen.straight(turn.start)
+        pen.ramp(turn, bottom)
+        pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
+    pen.straight(bore.centre)
+
+
+def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float, bottom: float) -> None:
     """Down along a helix, once round at the bottom, and to the middle."""
     turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
-    bottom = bottom_of(job, bore.top, bore.depth)
     # A little less than the steepest, for rounding.
     pitch = min(step_down, math.tau * radius * pen.slope * 0.999)
     pen.above(turn.start)

@@ -13,24 +13,24 @@ from mechwright.part import Bore
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
-from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.compensation import CompensatedFinishing, finish_bore_compensated
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
+from mechwright_cam.planning.floors import floor_allowance, layers
 from mechwright_cam.planning.holes import (
     BorePlan,
     drill_moves,
     finish_bore,
     plan_bore,
-    point_length,
     rough_bore,
     spot_drill,
     spot_moves,
     starting_drill,
 )
+from mechwright_cam.planning.notes import clamp_message, notes
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
@@ -88,16 +88,19 @@ class _Planner:
                     f"cam.hold.method: part {job.part.name} has no opening to clamp through before its "
                     'outside is cut; use method = "tabs"'
                 )
-            sections[-1] = _with_operation(sections[-1], Operation("clamp", (Pause(self._clamp_message()),)))
+            sections[-1] = _with_operation(
+                sections[-1], Operation("clamp", (Pause(clamp_message(self.job)),))
+            )
             sections += self._sections(outer)
         else:
             sections = self._sections(inner | outer)
+        drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
         return Program(
             job.part.name,
             job.settings.work_offset,
             self.clearance,
             _merged(sections),
-            self._notes(),
+            notes(self.job, drills),
             compensation=job.settings.compensation,
         )
 
@@ -151,7 +154,11 @@ class _Planner:
                 if drill is not None:
                     hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
                     zone.left = shapely.difference(zone.left, hole)
-                self._wall([zone], after, zone.mills)
+                leave = floor_allowance(job, zone.top, zone.bottom)
+                if leave > 0:
+                    self._recess(zone, after, leave)
+                else:
+                    self._wall([zone], after, zone.mills)
             after = frozenset(range(len(self.steps)))
         self._details(after, outside=False)
         return frozenset(range(len(self.steps)))
@@ -159,7 +166,8 @@ class _Planner:
     def _face(self, zone: Zone, after: frozenset[int]) -> None:
         mill, stock = zone.mills[0], shapely.box(*self.job.stock)
         depth = mill.cutting[self.job.part.material].step_down * mill.diameter
-        self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth))
+        leave = floor_allowance(self.job, zone.top, zone.bottom)
+        self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth, leave))
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)
@@ -212,7 +220,7 @@ class _Planner:
         finest = zones[0].finisher
         zones[0].rough_keep(allowance)  # what the layers share, before they ask for it at once
         for zone in zones:
-            for written in self._cleared(zone, self._clearing_mill(zone, mills)):
+            for written in self._cleared(zone, mills):
                 after = self._step(*written, after)
         for mill in [m for m in mills if m.diameter > finest.diameter]:
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
@@ -224,6 +232,36 @@ class _Planner:
             # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             for written in layer:
                 after = self._step(*written, after)
+
+    def _recess(self, zone: Zone, after: frozenset[int], leave: float) -> None:
+        """Rough a recess to just above its floor, finish the floor, then the wall from top to bottom."""
+        finest, allowance = zone.finisher, self.job.settings.stock_to_leave
+        rough, floor = layers(zone, leave)
+        cuts = self._cleared(rough, zone.mills)
+        cleared = [mill for _, mill, _ in cuts]
+        for mill in [m for m in zone.mills if m.diameter > finest.diameter]:
+            cut = self._roughing(rough, mill, allowance)
+            if cut.share >= WORTH_A_TOOL:
+                cuts.append(self._rough(cut))
+                # Where bounded engagement left corners standing, a wide cutter would run into them.
+                cuts += [] if cleared else [self._floored(floor, mill)]
+        cuts += [self._rough(self._roughing(rough, finest, allowance)), *self._rough_heavy(rough, finest)]
+        cuts += [self._floored(floor, mill) for mill in [*(m for m in cleared if m is not finest), finest]]
+        cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
+        zone.left = shapely.union(rough.left, floor.left)
+        for written in [*cuts, self._finish(zone)]:
+            after = self._step(*written, after)
+
+    def _floored(self, floor: Zone, mill: Tool) -> Cut:
+        """The floor as far as a mill has roughed above it, in one even pass."""
+        what = "finish the rest of the floor" if floor.begun else "finish the floor"
+        # Ring for ring where it has roughed: nothing stands beside the places at which it is sunk.
+        cut = self._roughing(floor, mill, self.job.settings.stock_to_leave)
+        step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
+        moves = self._moves(mill, partial(cut.write, step_down=step_down))
+        cut.commit()
+        floor.begun = True
+        return f"{floor.name}: {what}", mill, moves
 
     def _clearing_mill(self, zone: Zone, mills: list[Tool]) -> Tool:
         """The largest mill that has room to turn, else the one that finishes."""
@@ -248,11 +286,12 @@ class _Planner:
             zone.begun = True
         return f"{zone.name}: {what}", mill, moves
 
-    def _cleared(self, zone: Zone, mill: Tool) -> list[Cut]:
+    def _cleared(self, zone: Zone, mills: list[Tool]) -> list[Cut]:
         """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
         settings = self.job.settings
         if settings.clearing != "adaptive" or zone.kind == "outside":
             return []
+        mill = self._clearing_mill(zone, mills)
         from mechwright_cam.planning import adaptive
 
         area = shapely.difference(zone.clear, zone.rough_keep(max(settings.stock_to_leave, COARSE_FROM)))
@@ -276,22 +315,24 @@ class _Planner:
 
     def _finished(self, zone: Zone, mill: Tool) -> list[Cut]:
         """The last cuts of one layer."""
-        settings = self.job.settings
         cuts = [
-            self._rough(self._roughing(zone, mill, settings.stock_to_leave)),
+            self._rough(self._roughing(zone, mill, self.job.settings.stock_to_leave)),
             *self._rough_heavy(zone, mill),
         ]
-        plain = settings.compensation == "computer"
-        finishing = Finishing(zone, settings) if plain else CompensatedFinishing(zone, self.job)
+        return [*cuts, self._finish(zone)]
+
+    def _finish(self, zone: Zone) -> Cut:
+        plain = self.job.settings.compensation == "computer"
+        finishing = Finishing(zone, self.job.settings) if plain else CompensatedFinishing(zone, self.job)
         moves = self._moves(zone.finisher, finishing.write)
         if not moves:
             raise ToolError(
                 f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {self.job.part.name}; "
                 "list a smaller end mill"
             )
-        return [*cuts, (f"{zone.name}: finish", zone.finisher, moves)]
+        return f"{zone.name}: finish", zone.finisher, moves
 
-    def _rough_heavy(self, zone: Zone, mill: Tool) -> list[Cut]:
+    def _rough_heavy(self, zone: Zone, mill: Tool, what: str = "rough the narrow places") -> list[Cut]:
         """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
 
         First as near as a path of roughing accuracy may come; up to the wall itself, with a path as exact and
@@ -307,7 +348,7 @@ class _Planner:
             if allowance > 0 and cut.take.area < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
             moves = self._moves(mill, partial(cut.write, step_down=data.step_down * mill.diameter))
-            cuts.append((f"{zone.name}: rough the narrow places", mill, moves))
+            cuts.append((f"{zone.name}: {what}", mill, moves))
             zone.left = shapely.difference(
                 zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
             )
@@ -345,39 +386,6 @@ class _Planner:
             )
             for run in order(steps)
         ]
-
-    def _clamp_message(self) -> str:
-        clamp = self.job.clamp
-        assert clamp is not None  # noqa: S101 - asked only where there is one
-        return (
-            f"clamp the part at X{clamp.centre[0]:.3f} Y{clamp.centre[1]:.3f}: up to {clamp.diameter:g} mm "
-            f"wide and {clamp.top:g} mm high"
-        )
-
-    def _notes(self) -> tuple[str, ...]:
-        job = self.job
-        x0, y0, x1, y1 = job.stock
-        nest = job.part if isinstance(job.part, Nest) else None
-        where = {
-            "axis": f"axis of {nest.placed[0].label}" if nest else "axis of the part",
-            "corner": "lower left corner of the stock",
-            "centre": "centre of the stock",
-        }
-        notes = [
-            f"{'nest' if nest else 'part'} {job.part.name}, {job.part.material}, {job.thickness:g} mm thick",
-            f"stock {x1 - x0:.2f} x {y1 - y0:.2f} x {job.thickness:g} mm, from X{x0:.3f} Y{y0:.3f}",
-            f"origin: {where[job.settings.origin]}, Z0 on top of the stock",
-        ]
-        notes += [
-            f"{f.name}: Ø{f.fit.text}, made to {f.diameter:g}"
-            for f in job.features
-            if isinstance(f, Bore) and f.fit
-        ]
-        drills = [step.tool for step in self.steps if step.tool.kind is ToolKind.DRILL]
-        if drills:
-            below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
-            notes.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")
-        return tuple(notes)
 
 
 def _named(detail: Detail) -> str:
