@@ -125,6 +125,8 @@ class Program:
         Offsets as measured, where they are to stand in the text.
     compensation
         What D holds where the moves turn cutter compensation on.
+    wear_limit
+        By so much D may differ from what is planned, up or down, as a radius, mm.
     """
 
     name: str
@@ -136,6 +138,18 @@ class Program:
     posting: Posting = field(default=Posting())
     measured: Measured = field(default=Measured())
     compensation: Compensation = field(default="computer")
+    wear_limit: float = field(default=0.0)
+
+    @property
+    def compensated(self) -> tuple[Tool, ...]:
+        """The tools that cut with compensation, in order of first use."""
+        found = {
+            section.tool.number: section.tool
+            for section in self.sections
+            for operation in section.operations
+            if any(isinstance(move, Feed) and move.side is not None for move in operation.moves)
+        }
+        return tuple(found.values())
 
     @property
     def tools(self) -> tuple[Tool, ...]:

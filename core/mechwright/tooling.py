@@ -216,8 +216,8 @@ class SecondSide(Parameters):
 
 
 Compensation = Literal["computer", "control", "wear"]
-"""Where the radius of a finishing cutter is allowed for: in the path, at the control (G41 and G42, D holds the
-radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
+"""Where the radius of a finishing cutter is allowed for: in the path, at the control (G41 and G42, D holds
+the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
 
 
 class Measured(Parameters):

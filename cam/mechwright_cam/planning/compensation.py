@@ -1,7 +1,7 @@
-"""Finishing with cutter compensation: the program describes a contour, and the control keeps the tool beside it.
+"""Finishing with cutter compensation: the program describes a contour, the control keeps the tool beside it.
 
-The contour is the wall as the largest tool allowed leaves it: its inside corners are arcs about which that tool
-still turns. What else is asked of it stands in :mod:`mechwright_cam.planning.entry`.
+The contour is the wall as the largest tool allowed leaves it: its inside corners are arcs about which that
+tool still turns. What else is asked of it stands in :mod:`mechwright_cam.planning.entry`.
 
 Glossary
 --------
@@ -13,7 +13,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from typing import Literal, NamedTuple
 
 import numpy as np
 import shapely
@@ -22,28 +21,23 @@ from numpy.typing import NDArray
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
-from mechwright.part import Bore
-from mechwright.program import Feed, FeedArc, Move
 from mechwright_cam.job import Job
 from mechwright_cam.planning.clearing import CLEAR
-from mechwright_cam.planning.entry import Lead, bore_lead, leads, offsets_of, starts, ways
+from mechwright_cam.planning.contour_writer import ContourWriter, touching
+from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
 from mechwright_cam.planning.finishing import LEAD_PLAY
-from mechwright_cam.planning.holes import CIRCLE_BIAS
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import HEAVY, Zone, bottom_of
+from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.toolpath.contour import contour_beside
-from mechwright_cam.toolpath.leads import CANDIDATES, middle_of_longest
+from mechwright_cam.toolpath.leads import middle_of_longest
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, densified, grow, pieces, rings
-from mechwright_cam.toolpath.path import Cut, Path, arc, circle, line, rounded
+from mechwright_cam.toolpath.path import Path, rounded
+from mechwright_cam.toolpath.places import STEP, candidates, centres, heading_at
 
 TAB_GAP = 0.05
 """Air between a tab and the largest tool allowed, beside it and above it, mm."""
-STEP = 0.1
-"""Places at which the way along tabs is looked at, mm."""
 HALVINGS = 12
 """Bisections of a lead's sweep: its start is found to a thousandth of its length."""
-LEAST_PIECE = 0.1
-"""A contour is not divided nearer to a node, mm."""
 
 
 class CompensatedFinishing:
@@ -107,9 +101,7 @@ class CompensatedFinishing:
         mirror = -1.0 if out else 1.0
         t = np.column_stack((np.cos(headings), np.sin(headings)))
         n = np.column_stack((-t[:, 1], t[:, 0])) * self.side
-        world: Array = (
-            places[:, None] + mirror * local[..., :1] * t[:, None] + local[..., 1:] * n[:, None]
-        )
+        world: Array = places[:, None] + mirror * local[..., :1] * t[:, None] + local[..., 1:] * n[:, None]
         return world
 
     def _fits(
@@ -165,8 +157,8 @@ class CompensatedFinishing:
         """The contour from the best place to enter it on, with its leads."""
         if not contour.closed:
             found = []
-            for at, place, out in ((0, contour.start, False), (-1, contour.end, True)):
-                heading = np.array([_heading(contour, at)])
+            for end, place, out in ((0, contour.start, False), (-1, contour.end, True)):
+                heading = np.array([heading_at(contour, end)])
                 for shape, sweep, fits in self._tried(np.array([place]), heading, out=out):
                     if fits.all():
                         found.append(replace(shape, sweep=float(sweep[0])))
@@ -174,7 +166,7 @@ class CompensatedFinishing:
                 else:
                     raise self._no_room(contour)
             return contour, found[0], found[1]
-        at, places, headings = _candidates(contour)
+        at, places, headings = candidates(contour)
         apart = np.ones(len(at), dtype=bool)
         if self.zone.tabs is not None:
             off_tab = places + self._normals(headings) * self.offsets.planned
@@ -186,7 +178,11 @@ class CompensatedFinishing:
             if fits.any():
                 best = middle_of_longest(fits)
                 entered = contour.entered_at(float(at[best]))
-                return entered, replace(shape, sweep=float(into[best])), replace(shape, sweep=float(off[best]))
+                return (
+                    entered,
+                    replace(shape, sweep=float(into[best])),
+                    replace(shape, sweep=float(off[best])),
+                )
         raise self._no_room(contour)
 
     def _normals(self, headings: Array) -> Array:
@@ -217,8 +213,8 @@ class CompensatedFinishing:
         """Start, end of the line and touching point of the lead in; the same of the lead out, backwards."""
         found = []
         for at, heading, lead, mirror in (
-            (path.start, _heading(path, 0), into, 1.0),
-            (path.end, _heading(path, -1), off, -1.0),
+            (path.start, heading_at(path, 0), into, 1.0),
+            (path.end, heading_at(path, -1), off, -1.0),
         ):
             tx, ty = mirror * math.cos(heading), mirror * math.sin(heading)
             nx, ny = -ty * self.side * mirror, tx * self.side * mirror
@@ -235,7 +231,7 @@ class CompensatedFinishing:
             return [(path, False)]
         over = np.zeros(0, dtype=bool)
         for d in self._blocked:
-            at, places = _centres(path, self.side, self.offsets.most, d)
+            at, places = centres(path, self.side, self.offsets.most, d)
             reach = self.tool.radius + max(d - self.offsets.planned, 0.0) + TAB_GAP
             near = shapely.dwithin(shapely.points(places), self.zone.tabs, reach)
             over = near if not over.size else over | near
@@ -250,8 +246,9 @@ class CompensatedFinishing:
         parts.append((rest, False))
         if len(parts) > 1 and not self.tool.centre_cutting:
             raise ToolError(
-                f"cam.compensation: {self.tool.name} is not centre-cutting, and goes down beside every tab of "
-                f"{self.zone.name}; list one that is, hold the part by its bore, or use \"computer\""
+                f"cam.compensation: {self.tool.name} is not centre-cutting, and goes down beside every tab "
+                f"of {self.zone.name}; list one that is, hold the part by its bore, or use "
+                '"computer"'
             )
         return [(part, lifted) for part, lifted in parts if part.cuts]
 
@@ -265,163 +262,14 @@ class CompensatedFinishing:
         z: float,
     ) -> None:
         """Once along the contour at a height, with the leads."""
-        run = _Run(pen, self.side, self.offsets.planned)
+        run = ContourWriter(pen, self.side, self.offsets.planned)
         run.on(one[1])
-        run.follow(_touching(one[1], path.start, _heading(path, 0), self.side))
+        run.follow(touching(one[1], path.start, heading_at(path, 0), self.side))
         for part, lifted in parts:
             if lifted:
                 pen.sink(self.zone.top + TAB_GAP)
             else:
                 pen.sink(z, pen.rates.plunge)
             run.follow(part)
-        run.follow(_touching(path.end, two[1], _heading(path, -1), self.side, out=True))
+        run.follow(touching(path.end, two[1], heading_at(path, -1), self.side, out=True))
         run.off(two[2])
-
-
-class _Run:
-    """Writes a contour: what a pen writes, with the words that turn compensation on and off."""
-
-    def __init__(self, pen: Pen, side: int, planned: float) -> None:
-        self.pen, self.side, self.planned = pen, side, planned
-
-    def on(self, end: Point) -> None:
-        """The straight line that turns compensation on."""
-        word: Literal["left", "right"] = "left" if self.side > 0 else "right"
-        self._straight(end, word)
-
-    def off(self, end: Point) -> None:
-        """The straight line that turns it off."""
-        self._straight(end, "off")
-
-    def _straight(self, end: Point, word: Literal["left", "right", "off"]) -> None:
-        self.pen.moves.append(Feed(end[0], end[1], None, self.pen.rates.feed, word))
-        self.pen.place = end
-
-    def follow(self, path: Path) -> None:
-        """Along a path; on arcs with the tool inside its centre is slower, by the radius that it runs on."""
-        pen, feed, here = self.pen, self.pen.rates.feed, path.start
-        moves: list[Move] = []
-        for cut in path.cuts:
-            if cut.turn:
-                i, j = cut.cx - here[0], cut.cy - here[1]
-                centre = math.hypot(i, j) - self.planned
-                pace = pen.rates.inside(centre, pen.tool.radius, feed) if cut.turn == self.side else feed
-                moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
-            else:
-                moves.append(Feed(cut.x, cut.y, None, feed))
-            here = (cut.x, cut.y)
-        pen.moves.extend(moves)
-        pen.place = path.end
-
-
-def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
-    """Write the finishing circles of a bore, entered from its middle, or from as near to it as may be."""
-    tool, side = pen.tool, 1 if job.settings.climb else -1
-    offsets = offsets_of(tool, job.settings)
-    radius = bore.diameter / 2 - CIRCLE_BIAS - offsets.base
-    lead = bore_lead(offsets, radius)
-    x, y = bore.centre
-    turn = circle(bore.centre, radius, (x + radius, y), side > 0)
-    # Seen from where the circle is touched, y leads to its middle and x along it.
-    start, first, last = (
-        (rounded(x + radius - v), rounded(y + side * u))
-        for u, v in (lead.start, lead.turn, (-lead.turn[0], lead.turn[1]))
-    )
-    heading = side * math.pi / 2
-    bottom = bottom_of(job, bore.top, bore.depth)
-    heights = levels(-bore.top, bottom, job.settings.finish_step * tool.diameter)
-    pen.above(start)
-    run = _Run(pen, side, offsets.planned)
-    for z in heights + [bottom] * job.settings.spring_passes:
-        pen.sink(z)
-        run.on(first)
-        run.follow(_touching(first, turn.start, heading, side))
-        run.follow(turn)
-        run.follow(_touching(turn.start, last, heading, side, out=True))
-        run.off(start)
-    pen.retract()
-
-
-def _touching(start: Point, end: Point, heading: float, side: int, *, out: bool = False) -> Path:
-    """The arc between a contour and a lead's line that touches the contour under its heading.
-
-    It ends on the contour, or with ``out`` starts there.
-    """
-    touch, other = (start, end) if out else (end, start)
-    nx, ny = -math.sin(heading) * side, math.cos(heading) * side
-    dx, dy = other[0] - touch[0], other[1] - touch[1]
-    across = 2 * (dx * nx + dy * ny)
-    if across <= 0:
-        return Path(start, (line(start, end),))
-    radius = (dx * dx + dy * dy) / across
-    return Path(start, (arc(start, end, (touch[0] + radius * nx, touch[1] + radius * ny), side),))
-
-
-# -- places along a contour -----------------------------------------------------------------------------------
-
-
-class _Place(NamedTuple):
-    """A place on a cut: length from the path's start, mm, the point, and the heading, rad."""
-
-    at: float
-    point: Point
-    heading: float
-
-
-def _on(start: Point, cut: Cut, share: float, done: float) -> _Place:
-    """The place at a share of a cut."""
-    at = done + share * cut.length
-    if not cut.turn:
-        x, y = (a + share * (b - a) for a, b in zip(start, (cut.x, cut.y), strict=True))
-        return _Place(at, (x, y), math.atan2(cut.y - start[1], cut.x - start[0]))
-    radius = math.hypot(start[0] - cut.cx, start[1] - cut.cy)
-    angle = math.atan2(start[1] - cut.cy, start[0] - cut.cx) + share * cut.turn * cut.length / radius
-    point = cut.cx + radius * math.cos(angle), cut.cy + radius * math.sin(angle)
-    return _Place(at, point, angle + cut.turn * math.pi / 2)
-
-
-def _walk(path: Path) -> Iterator[tuple[Point, Cut, float]]:
-    """The cuts of a path, with their starts and the way before them."""
-    here, done = path.start, 0.0
-    for cut in path.cuts:
-        yield here, cut, done
-        here, done = (cut.x, cut.y), done + cut.length
-
-
-def _heading(path: Path, at: int) -> float:
-    """Direction of travel at the start (0) or at the end (-1) of a path, rad."""
-    start, cut, done = list(_walk(path))[at]
-    return _on(start, cut, 1.0 if at else 0.0, done).heading
-
-
-def _candidates(path: Path) -> tuple[Array, Array, Array]:
-    """Places at which a contour may be entered: ways (k,), points (k, 2) and headings (k,)."""
-    spacing = path.length / CANDIDATES
-    found: list[_Place] = []
-    for start, cut, done in _walk(path):
-        if cut.length >= 2 * LEAST_PIECE:
-            count = max(1, math.floor(cut.length / max(spacing, 2 * LEAST_PIECE)))
-            found += [_on(start, cut, (k + 0.5) / count, done) for k in range(count)]
-    at, places, headings = zip(*found, strict=True) if found else ((), (), ())
-    return np.array(at), np.array(places).reshape(-1, 2), np.array(headings)
-
-
-def _centres(path: Path, side: int, widest: float, distance: float) -> tuple[Array, Array]:
-    """Ways (n,) along a contour, and the places (n, 2) of a tool at this distance, around corners as well.
-
-    The ways are the same for all distances up to the ``widest``.
-    """
-    found: list[_Place] = []
-    for start, cut, done in _walk(path):
-        steps = max(1, math.ceil(cut.length / STEP))
-        places = [_on(start, cut, k / steps, done) for k in range(steps + 1)]
-        if found:
-            turn = (places[0].heading - found[-1].heading + math.pi) % math.tau - math.pi
-            corner = math.ceil(abs(turn) * max(widest, STEP) / STEP)
-            found += [
-                places[0]._replace(heading=found[-1].heading + turn * k / corner) for k in range(1, corner)
-            ]
-        found += places
-    at, points, headings = (np.array(column) for column in zip(*found, strict=True))
-    normals = np.column_stack((-np.sin(headings), np.cos(headings))) * side
-    return at, points + distance * normals

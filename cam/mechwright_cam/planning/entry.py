@@ -1,12 +1,12 @@
 """The way onto a contour with cutter compensation, and off it.
 
-A straight line, longer than D may ever be, turns compensation on; an arc, wider than D may ever be, follows it
-tangentially and touches the contour. So every control does the same, whatever D is.
+A straight line, longer than D may ever be, turns compensation on; an arc, wider than D may ever be, follows
+it tangentially and touches the contour. So every control does the same, whatever D is.
 
 Glossary
 --------
 base
-    Distance from the wall at which the contour runs: 0, or with ``compensation = "wear"`` the cutter's radius.
+    Distance from the wall at which the contour runs: 0, or with ``compensation = "wear"`` the radius.
 D
     What the control's offset holds, as a radius: that of the cutter, or its difference from the planned one.
 lead
@@ -59,8 +59,8 @@ def offsets_of(tool: Tool, settings: CamSettings) -> Offsets:
     limit = settings.wear_limit
     if limit + LEAST_TURN >= tool.radius:
         raise ToolError(
-            f"cam.wear_limit: {limit:g} mm is too much for {tool.name}, whose radius is {tool.radius:g} mm; use "
-            f"less than {tool.radius - LEAST_TURN:g} mm"
+            f"cam.wear_limit: {limit:g} mm is too much for {tool.name}, whose radius is {tool.radius:g} mm; "
+            f"use less than {tool.radius - LEAST_TURN:g} mm"
         )
     return _offsets(tool, settings)
 
@@ -95,7 +95,7 @@ class Lead:
 
 
 def ways(radius: float, straight: float, sweep: Array, d: float) -> Array:
-    """Places (k, n, 2) of the tool's centre with this D along leads of these sweeps (k,), from the start on."""
+    """Places (k, n, 2) of the tool's centre with this D along leads of these sweeps (k,), in order."""
     a = sweep[:, None] * np.linspace(1.0, 0.0, SAMPLES + 1)
     inner = radius - d
     arcs = np.stack((-inner * np.sin(a), radius - inner * np.cos(a)), axis=-1)
@@ -123,7 +123,7 @@ def lead_to(radius: float, straight: float, rise: float) -> Lead | None:
 
 
 def leads(offsets: Offsets, radius: float, allowance: float) -> list[Lead]:
-    """Leads to try for a tool of ``radius``, roomy ones first; the last start just outside of the allowance."""
+    """Leads to try for a tool of ``radius``, roomy ones first; the last start just outside the allowance."""
     rises = (radius, radius / 2, 2 * allowance, allowance)
     wide = radius if offsets.planned == 0 else offsets.straight + radius / 2
     long = max(offsets.straight, radius / 2)

@@ -15,7 +15,8 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
-from mechwright_cam.planning.compensation import CompensatedFinishing, finish_bore_compensated
+from mechwright_cam.planning.compensation import CompensatedFinishing
+from mechwright_cam.planning.contour_writer import finish_bore_compensated
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
@@ -102,6 +103,7 @@ class _Planner:
             _merged(sections),
             notes(self.job, drills),
             compensation=job.settings.compensation,
+            wear_limit=job.settings.wear_limit,
         )
 
     def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:

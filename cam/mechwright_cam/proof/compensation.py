@@ -1,8 +1,8 @@
 """What cutter compensation does when D is not the planned one.
 
 The program is read again with the largest and with the smallest D allowed. The control must take both, the
-tool's centre must run beside its planned way by just the difference, and a tool of that radius must stay out of
-the finished part.
+tool's centre must run beside its planned way by just the difference, and a tool of that radius must stay out
+of the finished part.
 """
 
 from collections.abc import Callable
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright.errors import ProgramError
 from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind, Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
@@ -26,13 +27,15 @@ from mechwright_cam.proof.scene import Scene
 
 NAME = "compensation"
 SPACED = 0.05
-"""Places of an arc that are compared, by the chord error between them, mm: the places themselves are exact."""
+"""Places of an arc that are compared, by the chord error between them, mm; the places are exact."""
 
 
 def planned_offsets(job: Job) -> dict[int, float]:
     """D number to the radius that it holds as planned, mm; 0 where it holds the wear."""
     wear = job.settings.compensation == "wear"
-    return {tool.d_number: 0.0 if wear else tool.radius for tool in job.tools}
+    # Where a drill happens to have the number, the D is the mill's.
+    tools = sorted(job.tools, key=lambda tool: tool.kind is ToolKind.END_MILL)
+    return {tool.d_number: 0.0 if wear else tool.radius for tool in tools}
 
 
 def follows(scene: Scene, read: Callable[[float], Run]) -> Check:

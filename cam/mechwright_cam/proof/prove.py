@@ -14,8 +14,8 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
 from mechwright_cam.job import Job
 from mechwright_cam.proof import details
-from mechwright_cam.proof.compensation import follows, planned_offsets
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
+from mechwright_cam.proof.compensation import follows, planned_offsets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps

@@ -14,7 +14,8 @@ from mechwright.part import Bore
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.posts.offsets import setting_words
+from mechwright_cam.posts.offsets import DOffset, setting_words
+from mechwright_cam.setup_sheet.compensation import lines
 from mechwright_cam.svg import signed
 
 CHECK_HEIGHT = 50.0
@@ -36,6 +37,7 @@ def steps(
     file_name: str,
     deepest: float,
     reach: tuple[float, float, float, float] | None = None,
+    offsets: Sequence[DOffset] = (),
 ) -> list[Step]:
     """The steps in order.
 
@@ -51,6 +53,8 @@ def steps(
         Lowest z that any tool reaches, mm.
     reach
         Least x, least y, greatest x, greatest y that any cutter reaches below the rapids, mm.
+    offsets
+        The D offsets of cutter compensation.
     """
     offset = job.settings.work_offset
     over = job.side == "underside"
@@ -60,6 +64,7 @@ def steps(
         _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
         *([_touch_off(job, tools)] if by_hand else [_lengths(offset, tools), _check(offset, tools)]),
+        *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
         _run(job, offset, file_name),
     ]
 

@@ -1,10 +1,10 @@
 """The contour that a program with cutter compensation describes, beside the ring that its tool's centre runs.
 
-The ring keeps the distance of the largest tool allowed from the wall. It is followed by lines and arcs without
-kinks, and those are moved towards the wall one by one, exactly: an arc keeps its centre. So every parallel of
-the contour that the control forms, up to that ring, is made of the same lines and arcs, and none of them can
-be too narrow for the tool. An inside corner of the ring becomes an arc about it; an outer corner of the wall,
-around which the ring runs on an arc, becomes a corner again.
+The ring keeps the distance of the largest tool allowed from the wall. It is followed by lines and arcs
+without kinks, and those are moved towards the wall one by one, exactly: an arc keeps its centre. So every
+parallel of the contour that the control forms, up to that ring, is made of the same lines and arcs, and none
+of them can be too narrow for the tool. An inside corner of the ring becomes an arc about it; an outer corner
+of the wall, around which the ring runs on an arc, becomes a corner again.
 
 Glossary
 --------
@@ -27,10 +27,10 @@ from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, spans
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 
 CORNER = 0.1
-"""An inside corner of the ring turns by more than this at one vertex, rad; the chords of arcs turn by less."""
+"""An inside corner of the ring turns by more than this at one vertex, rad; chords of arcs turn by less."""
 FLAT = 1e-3
-"""A line or arc may leave its node under this angle to the heading there, rad: where the control does not join
-the parallels of two such neighbours, a tool of 6 mm is 3 µm further along, and a nanometre nearer."""
+"""A line or arc may leave its node under this angle to the heading there, rad: where the control does not
+join the parallels of two such neighbours, a tool of 6 mm is 3 µm further along, and a nanometre nearer."""
 SHORTEST = 0.01
 """Shorter lines and arcs are left out, mm: printed with three decimals they would have any direction."""
 SHARP = 0.01
@@ -129,8 +129,9 @@ def _headings(bends: list[Bend], closed: bool, side: int) -> tuple[list[float], 
         turn = _wrapped(start[number] - end[number - 1])
         if side * turn > CORNER:
             continue
-        one, two = math.dist(bends[number - 1].start, bends[number - 1].end), math.dist(
-            bends[number].start, bends[number].end
+        one, two = (
+            math.dist(bends[number - 1].start, bends[number - 1].end),
+            math.dist(bends[number].start, bends[number].end),
         )
         share = two**2 / max(one**2 + two**2, 1e-18)
         start[number] = end[number - 1] = end[number - 1] + share * turn
