@@ -220,11 +220,11 @@ class _Planner:
         """
         allowance = self.job.settings.stock_to_leave
         finest = zones[0].finisher
-        zones[0].rough_keep(allowance)  # what the layers share, before they ask for it at once
         for zone in zones:
             for written in self._cleared(zone, mills):
                 after = self._step(*written, after)
         for mill in [m for m in mills if m.diameter > finest.diameter]:
+            zones[0].rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
             if max(zip(zones, cuts, strict=True), key=lambda pair: pair[0].height)[1].share >= WORTH_A_TOOL:
@@ -250,7 +250,7 @@ class _Planner:
         cuts += [self._rough(self._roughing(rough, finest, allowance)), *self._rough_heavy(rough, finest)]
         cuts += [self._floored(floor, mill) for mill in [*(m for m in cleared if m is not finest), finest]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
-        zone.left = shapely.union(rough.left, floor.left)
+        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
         for written in [*cuts, self._finish(zone)]:
             after = self._step(*written, after)
 
@@ -347,13 +347,12 @@ class _Planner:
             if not polygons(thick):
                 break
             cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
-            if allowance > 0 and cut.take.area < NEARLY * thick.area:
+            if allowance > 0 and cut.taken < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
             moves = self._moves(mill, partial(cut.write, step_down=data.step_down * mill.diameter))
             cuts.append((f"{zone.name}: {what}", mill, moves))
-            zone.left = shapely.difference(
-                zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
-            )
+            near = grow(cut.core, cut.sliver + mill.radius)
+            zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, near))
         return cuts
 
     def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:
