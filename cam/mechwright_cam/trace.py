@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from mechwright.program import Drill, Feed, FeedArc, Move, Operation, Pause, Program, Rapid, ToolSection
-
 from mechwright_cam.interpreter import LINUXCNC, Kind
 from mechwright_cam.interpreter.compensation import Compensation
 

@@ -80,15 +80,13 @@ def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
     ]
 
 
-def spans(points: Array, tolerance: float, corner: float) -> tuple[Array, Index, NDArray[np.bool_], Array]:
+def spans(points: Array, tolerance: float) -> tuple[Array, Index, NDArray[np.bool_], Array]:
     """The runs of one polyline that a line or an arc each can follow.
 
     Parameters
     ----------
     points, tolerance
         As for :func:`fit`.
-    corner
-        A turn of more than this at one vertex, rad, ends a run.
 
     Returns
     -------
@@ -105,7 +103,7 @@ def spans(points: Array, tolerance: float, corner: float) -> tuple[Array, Index,
     ends = np.zeros(len(points), dtype=bool)
     ends[[0, -1]] = True
     axes = points[:, 0].copy(), points[:, 1].copy()
-    nodes, straight, height = _verified(axes, _chain(_reach(axes, ends, tolerance, corner)), tolerance)
+    nodes, straight, height = _verified(axes, _chain(_reach(axes, ends, tolerance)), tolerance)
     return points, nodes, straight, height
 
 
@@ -146,7 +144,7 @@ def _verified(points: Axes, nodes: Index, tolerance: float) -> tuple[Index, NDAr
         nodes = np.sort(np.concatenate((nodes, (first[bad] + last[bad]) // 2)))
 
 
-def _reach(points: Axes, ends: NDArray[np.bool_], tolerance: float, sharp: float = CORNER) -> Index:
+def _reach(points: Axes, ends: NDArray[np.bool_], tolerance: float) -> Index:
     """The farthest vertex that one line or arc from each vertex can reach; none goes beyond an end."""
     n = len(ends)
     if n < 3:
@@ -164,7 +162,7 @@ def _reach(points: Axes, ends: NDArray[np.bool_], tolerance: float, sharp: float
     bend = np.concatenate(([0.0], np.abs(turn), [0.0]))
     bend[ends] = 0.0
     straight = step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance
-    corner = np.concatenate(([False], np.abs(turn) > sharp, [True]))
+    corner = np.concatenate(([False], np.abs(turn) > CORNER, [True]))
     corner[:-1] |= straight
     corner[1:] |= straight
     corner |= ends

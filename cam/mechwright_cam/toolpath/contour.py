@@ -17,6 +17,7 @@ inset
 """
 
 import math
+import sys
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,8 +27,6 @@ from mechwright.motion import Array
 from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, spans
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 
-CORNER = 0.1
-"""An inside corner of the ring turns by more than this at one vertex, rad; chords of arcs turn by less."""
 FLAT = 1e-3
 """A line or arc may leave its node under this angle to the heading there, rad: where the control does not
 join the parallels of two such neighbours, a tool of 6 mm is 3 µm further along, and a nanometre nearer."""
@@ -35,6 +34,8 @@ SHORTEST = 0.01
 """Shorter lines and arcs are left out, mm: printed with three decimals they would have any direction."""
 SHARP = 0.01
 """A contour that would turn on a radius below this, mm, has a corner there."""
+ON_EDGE = 4
+"""Places on each edge of a run that are looked at."""
 HALVINGS = 6
 """So often a run is halved for the sake of its two arcs; then the one arc of the fit has to do."""
 
@@ -84,21 +85,21 @@ def contour_beside(ring: Array, inset: float, side: int, tolerance: float) -> Pa
         Largest deviation from the ring, mm.
     """
     closed = bool(np.all(ring[0] == ring[-1]))
-    bends = _smooth(ring, closed, side, tolerance)
+    bends = _smooth(ring, closed, tolerance)
     return _path(_sharpened(_moved(bends, closed, inset, side), closed), closed)
 
 
 # -- along the ring -----------------------------------------------------------------------------------------
 
 
-def _smooth(ring: Array, closed: bool, side: int, tolerance: float) -> list[Bend]:
-    """Lines and arcs along a ring that have one heading at every node but the inside corners."""
-    points, nodes, straight, height = spans(ring, tolerance / 2, CORNER)
+def _smooth(ring: Array, closed: bool, tolerance: float) -> list[Bend]:
+    """Lines and arcs along a ring that have one heading at every node but the corners."""
+    points, nodes, straight, height = spans(ring, tolerance / 2)
     first = [
         _bend(points[a], points[b], bool(s), float(k))
         for a, b, s, k in zip(nodes[:-1], nodes[1:], straight, height, strict=True)
     ]
-    start, end = _headings(first, closed, side)
+    start, end = _headings(first, closed, tolerance)
     found: list[Bend] = []
     for number, bend in enumerate(first):
         found += _run(
@@ -116,24 +117,20 @@ def _bend(a: Array, b: Array, straight: bool, height: float) -> Bend:
     return Bend((x0, y0), (x1, y1), centre, 1 if height > 0 else -1)
 
 
-def _headings(bends: list[Bend], closed: bool, side: int) -> tuple[list[float], list[float]]:
+def _headings(bends: list[Bend], closed: bool, tolerance: float) -> tuple[list[float], list[float]]:
     """The heading at the start and at the end of each; neighbours share it, unless they meet in a corner.
 
-    The longer one of two knows its direction better.
+    The longer one of two knows its direction better. To bend a run of length l by an angle a at its end takes
+    it a l / 8 aside: where that is more than the tolerance, there is a corner.
     """
     start = [bend.heading(bend.start) for bend in bends]
     end = [bend.heading(bend.end) for bend in bends]
-    for number in range(len(bends)):
-        if number == 0 and not closed:
-            continue
+    for number in range(0 if closed else 1, len(bends)):
         turn = _wrapped(start[number] - end[number - 1])
-        if side * turn > CORNER:
+        one, two = (math.dist(bend.start, bend.end) for bend in (bends[number - 1], bends[number]))
+        if abs(turn) * min(one, two) / 8 > tolerance:
             continue
-        one, two = (
-            math.dist(bends[number - 1].start, bends[number - 1].end),
-            math.dist(bends[number].start, bends[number].end),
-        )
-        share = two**2 / max(one**2 + two**2, 1e-18)
+        share = two**2 / max(one**2 + two**2, sys.float_info.min)
         start[number] = end[number - 1] = end[number - 1] + share * turn
     return start, end
 
@@ -193,8 +190,11 @@ def _to_heading(a: Point, b: Point, ux: float, uy: float) -> Bend:
 
 
 def _deviation(points: Array, pair: tuple[Bend, Bend]) -> float:
-    """Largest distance of the vertices of a run from its two arcs, mm."""
+    """Largest distance of a run from its two arcs, mm, at its vertices and on its edges."""
     one, two = pair
+    t = np.linspace(0.0, 1.0, ON_EDGE, endpoint=False)[:, None]
+    edges = (1 - t) * points[:-1, None] + t * points[1:, None]
+    points = np.concatenate((edges.reshape(-1, 2), points[-1:]))
     q = np.array(one.end)
     split = (points - q) @ (np.array(two.end) - np.array(one.start)) > 0
     worst = 0.0
@@ -214,14 +214,17 @@ def _deviation(points: Array, pair: tuple[Bend, Bend]) -> float:
 
 
 def _moved(bends: list[Bend], closed: bool, inset: float, side: int) -> list[Bend | None]:
-    """All lines and arcs moved to the wall's side; None for those that an outer corner swallows."""
+    """All lines and arcs moved to the wall's side; None where an outer corner is, or swallows an arc."""
     found: list[Bend | None] = []
     for number, bend in enumerate(bends):
         shifted = _shifted(bend, inset, side)
         if number or closed:
             before = bends[number - 1]
-            if side * _wrapped(bend.heading(bend.start) - before.heading(before.end)) > CORNER:
+            turn = side * _wrapped(bend.heading(bend.start) - before.heading(before.end))
+            if turn > FLAT:
                 found.append(Bend(_shifted(before, inset, side).end, shifted.start, bend.start, side))
+            elif turn < -FLAT:
+                found.append(None)
         swallowed = bend.turn == -side and bend.radius - inset < SHARP
         found.append(None if swallowed else shifted)
     return found
