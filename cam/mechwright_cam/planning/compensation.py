@@ -239,7 +239,9 @@ class CompensatedFinishing:
         edges = np.flatnonzero(np.diff(np.concatenate(([False], over, [False])).astype(int)))
         rest, done = path, 0.0
         for first, last in edges.reshape(-1, 2).tolist():
-            for until, lifted in ((at[max(first - 1, 0)], False), (at[min(last, len(at) - 1)], True)):
+            # Around a corner of the contour the tool goes with the move that follows: only then it is past.
+            past = max(last, int(np.searchsorted(at, at[last - 1], side="right")))
+            for until, lifted in ((at[max(first - 1, 0)], False), (at[min(past, len(at) - 1)], True)):
                 part, rest = rest.split(float(until) - done)
                 done += part.length
                 parts.append((part, lifted))

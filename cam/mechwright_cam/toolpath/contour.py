@@ -158,17 +158,27 @@ def _run(points: Array, bend: Bend, start: float, end: float, tolerance: float, 
 def _biarc(a: Point, b: Point, start: float, end: float) -> tuple[Bend, Bend] | None:
     """Two arcs from a to b with these headings that touch each other; None if there are none.
 
-    Both tangents are of one length d: 2 (1 - cos) d² + 2 v·(t + u) d - v·v = 0 for the unit headings t, u
-    and the way v (Bolton: Biarc curves, Computer-Aided Design 7, 1975).
+    Where both turn the same way they touch along the chord: its ends are at the angles e/2 and s/2 of a
+    triangle over it, s and e those of the headings to the chord, and neither arc can turn back. Else both
+    tangents are of one length d: 2 (1 - cos) d² + 2 v·(t + u) d - v·v = 0 for the unit headings t, u and the
+    way v (Bolton: Biarc curves, Computer-Aided Design 7, 1975).
     """
-    tx, ty, ux, uy = math.cos(start), math.sin(start), math.cos(end), math.sin(end)
     vx, vy = b[0] - a[0], b[1] - a[1]
+    along, chord = math.atan2(vy, vx), math.hypot(vx, vy)
+    tx, ty, ux, uy = math.cos(start), math.sin(start), math.cos(end), math.sin(end)
+    one, two = _wrapped(start - along), _wrapped(end - along)
+    if chord == 0:
+        return None
+    if one * two < 0:
+        first = chord * math.sin(two / 2) / math.sin((two - one) / 2)
+        way = along + one / 2
+        q = (a[0] + first * math.cos(way), a[1] + first * math.sin(way))
+        return _from_heading(a, q, tx, ty), _to_heading(q, b, ux, uy)
     square = 2 * (1 - (tx * ux + ty * uy))
     half = vx * (tx + ux) + vy * (ty + uy)
-    way = vx * vx + vy * vy
-    if half <= 0 or way == 0:
+    if half <= 0:
         return None
-    d = way / (half + math.sqrt(half * half + square * way))
+    d = chord**2 / (half + math.sqrt(half * half + square * chord**2))
     q = ((a[0] + b[0] + d * (tx - ux)) / 2, (a[1] + b[1] + d * (ty - uy)) / 2)
     return _from_heading(a, q, tx, ty), _to_heading(q, b, ux, uy)
 
