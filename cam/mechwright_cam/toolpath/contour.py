@@ -30,6 +30,10 @@ from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
 FLAT = 1e-3
 """A line or arc may leave its node under this angle to the heading there, rad: where the control does not
 join the parallels of two such neighbours, a tool of 6 mm is 3 µm further along, and a nanometre nearer."""
+SCRAP = 0.1
+"""Pieces of a ring below this length, mm, may be what is left of a corner."""
+LEFT = 0.003
+"""So much stays, mm, in a slight inside corner of the ring that is rounded: a third of the leftover limit."""
 SHORTEST = 0.01
 """Shorter lines and arcs are left out, mm: printed with three decimals they would have any direction."""
 SHARP = 0.01
@@ -85,27 +89,88 @@ def contour_beside(ring: Array, inset: float, side: int, tolerance: float) -> Pa
         Largest deviation from the ring, mm.
     """
     closed = bool(np.all(ring[0] == ring[-1]))
-    bends = _smooth(ring, closed, tolerance)
+    bends = _smooth(ring, closed, side, tolerance)
     return _path(_sharpened(_moved(bends, closed, inset, side), closed), closed)
 
 
 # -- along the ring -----------------------------------------------------------------------------------------
 
 
-def _smooth(ring: Array, closed: bool, tolerance: float) -> list[Bend]:
-    """Lines and arcs along a ring that have one heading at every node but the corners."""
+def _smooth(ring: Array, closed: bool, side: int, tolerance: float) -> list[Bend]:
+    """Lines and arcs along a ring that have one heading at every node but sharp corners."""
     points, nodes, straight, height = spans(ring, tolerance / 2)
     first = [
         _bend(points[a], points[b], bool(s), float(k))
         for a, b, s, k in zip(nodes[:-1], nodes[1:], straight, height, strict=True)
     ]
+    runs = [points[a : b + 1] for a, b in zip(nodes[:-1], nodes[1:], strict=True)]
+    first, runs = _without_scraps(first, runs, closed, side, tolerance)
     start, end = _headings(first, closed, tolerance)
     found: list[Bend] = []
-    for number, bend in enumerate(first):
-        found += _run(
-            points[nodes[number] : nodes[number + 1] + 1], bend, start[number], end[number], tolerance
-        )
-    return found
+    for bend, run, one, two in zip(first, runs, start, end, strict=True):
+        found += _run(run, bend, one, two, tolerance)
+    return _filleted(found, closed, side)
+
+
+def _without_scraps(
+    bends: list[Bend], runs: list[Array], closed: bool, side: int, tolerance: float
+) -> tuple[list[Bend], list[Array]]:
+    """Inside corners in place of scraps: short pieces between two longer ones that all but meet there."""
+    long = [math.dist(bend.start, bend.end) >= SCRAP for bend in bends]
+    kept = [number for number, is_long in enumerate(long) if is_long]
+    if len(kept) < 2:
+        return bends, runs
+    found, gone = list(bends), set()
+    for one, two in zip(kept, [*kept[1:], kept[0]], strict=True):
+        between = range(one + 1, two) if one < two else [*range(one + 1, len(bends)), *range(two)]
+        if not between or (one > two and not closed):
+            continue
+        turn = side * _wrapped(found[two].heading(found[two].start) - found[one].heading(found[one].end))
+        corner = _meeting(found[one], found[two])
+        scraps = np.concatenate([runs[number] for number in between])
+        t = np.linspace(0.0, 1.0, ON_EDGE)[:, None]
+        places = ((1 - t) * scraps[:-1, None] + t * scraps[1:, None]).reshape(-1, 2)
+        if turn > FLAT and np.hypot(*(places - corner).T).min() <= tolerance:
+            found[one], found[two] = replace(found[one], end=corner), replace(found[two], start=corner)
+            gone |= set(between)
+    left = [number for number in range(len(bends)) if number not in gone]
+    return [found[number] for number in left], [runs[number] for number in left]
+
+
+def _filleted(bends: list[Bend], closed: bool, side: int) -> list[Bend]:
+    """Slight inside corners rounded, as far as nothing to speak of stays in them.
+
+    An arc in their place would be so short that the rounding of its ends gave it any direction.
+    """
+    found = list(bends)
+    fillets: dict[int, tuple[Bend, Bend]] = {}
+    for number in range(0 if closed else 1, len(bends)):
+        before, after = found[number - 1], found[number]
+        heading, ahead = before.heading(before.end), after.heading(after.start)
+        turn = side * _wrapped(ahead - heading)
+        if not FLAT < turn < math.pi / 2:
+            continue
+        radius = 8 * LEFT / turn**2
+        back = min(radius * math.tan(turn / 2), *(0.4 * math.dist(b.start, b.end) for b in (before, after)))
+        if back < SHORTEST:
+            continue
+        a, b = _along(before, back, from_end=True), _along(after, back)
+        pair = _biarc(a, b, before.heading(a), after.heading(b))
+        if pair is not None:
+            fillets[number] = pair
+            found[number - 1], found[number] = replace(before, end=a), replace(after, start=b)
+    return [bend for number, last in enumerate(found) for bend in (*fillets.get(number, ()), last)]
+
+
+def _along(bend: Bend, way: float, *, from_end: bool = False) -> Point:
+    """The place ``way`` mm after the start of a line or arc, or before its end."""
+    at = bend.end if from_end else bend.start
+    sign = -1.0 if from_end else 1.0
+    if not bend.turn:
+        heading = bend.heading(at)
+        return at[0] + sign * way * math.cos(heading), at[1] + sign * way * math.sin(heading)
+    angle = math.atan2(at[1] - bend.centre[1], at[0] - bend.centre[0]) + sign * bend.turn * way / bend.radius
+    return bend.centre[0] + bend.radius * math.cos(angle), bend.centre[1] + bend.radius * math.sin(angle)
 
 
 def _bend(a: Array, b: Array, straight: bool, height: float) -> Bend:
