@@ -144,8 +144,8 @@ def bore_lead(offsets: Offsets, contour: float) -> Lead:
     Its start, the middles of its arc and of the circle are on one line, so the sweep is 180 degrees less
     atan(straight / radius), and the start is radius + sqrt(radius² + straight²) - contour from the middle.
     """
-    straight = offsets.straight
-    radius = max((contour**2 - straight**2) / (2 * contour), straight)
+    straight = max(offsets.straight, contour / 3)  # a third of it leaves most of it to the arc
+    radius = max((contour**2 - straight**2) / (2 * contour), offsets.straight)
     return Lead(radius, math.pi - math.atan2(straight, radius), straight)
 
 

@@ -16,6 +16,7 @@ inset
     Distance of the contour from the ring, mm.
 """
 
+import itertools
 import math
 import sys
 from dataclasses import dataclass, replace
@@ -103,7 +104,7 @@ def _smooth(ring: Array, closed: bool, side: int, tolerance: float) -> list[Bend
         _bend(points[a], points[b], bool(s), float(k))
         for a, b, s, k in zip(nodes[:-1], nodes[1:], straight, height, strict=True)
     ]
-    runs = [points[a : b + 1] for a, b in zip(nodes[:-1], nodes[1:], strict=True)]
+    runs = [points[a : b + 1] for a, b in itertools.pairwise(nodes)]
     first, runs = _without_scraps(first, runs, closed, side, tolerance)
     start, end = _headings(first, closed, tolerance)
     found: list[Bend] = []
