@@ -59,7 +59,8 @@ def contours(text: str, one: Job, more: float = 0.0) -> shapely.Geometry:
     steps = np.flatnonzero(on & np.isin(run.kind, (Kind.FEED, Kind.ARC)))
     paths = Paths(run, {tool.number: tool for tool in one.tools})
     zeros = np.zeros(steps.size)
-    return shapely.union_all(paths.lines(Pieces(steps, zeros, zeros + 1, zeros)))
+    ways: shapely.Geometry = shapely.geometrycollections(paths.lines(Pieces(steps, zeros, zeros + 1, zeros)))
+    return ways
 
 
 # -- walls follow D -----------------------------------------------------------------------------------------
@@ -70,14 +71,9 @@ def contours(text: str, one: Job, more: float = 0.0) -> shapely.Geometry:
 def test_the_wall_moves_by_just_what_d_says(way: str, more: float) -> None:
     """The nearest that the cutter's edge comes to the part, all around, is what D is larger by."""
     one = sample(way)
-    text, target = text_of(one), one.target
-    edge = contours(text, one, more).buffer(3.0, quad_segs=64)
-    around = shapely.Polygon(target.exterior).buffer(2.0).difference(edge)
-    left = shapely.Polygon(max(shapely.get_parts(around), key=lambda shape: shape.area).exterior)
-    wanted = shapely.Polygon(target.exterior).buffer(more, quad_segs=64).exterior
-    wall = shapely.get_coordinates(left.buffer(-0.3).buffer(0.3, quad_segs=64).exterior)
-    apart = shapely.distance(wanted, shapely.points(wall))
-    assert apart.max() < 0.006
+    wall = shapely.get_coordinates(shapely.segmentize(one.target.exterior, 0.5))
+    apart = shapely.distance(contours(text_of(one), one, more), shapely.points(wall)) - 3.0
+    np.testing.assert_allclose(apart, more, atol=0.005)
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -85,8 +81,8 @@ def test_a_bore_grows_by_twice_what_d_is_smaller(way: str) -> None:
     one = sample(way)
     text = text_of(one)
     for more in (-0.1, 0.0, 0.1):
-        around = contours(text, one, more).intersection(shapely.Point(0, 0).buffer(10))
-        widest = np.hypot(*shapely.get_coordinates(around).T).max() + 3.0
+        reach = np.hypot(*shapely.get_coordinates(contours(text, one, more)).T)
+        widest = reach[reach < 10].max() + 3.0
         assert 2 * widest == pytest.approx(14.0 - 2 * more, abs=0.004)
 
 
@@ -238,7 +234,7 @@ def test_a_wear_as_large_as_the_cutter_is_refused() -> None:
     st.booleans(),
     st.sampled_from(["linuxcnc", "fanuc"]),
 )
-@settings(max_examples=16)
+@settings(max_examples=10)
 def test_random_plates_are_proven_or_refused(loop, way, mill, wear, climb, control) -> None:
     """Corners of both kinds, sharp or round, narrower than the cutter or not."""
     try:
@@ -356,8 +352,8 @@ def test_the_sheet_says_what_to_type(way: str) -> None:
     first = "6.000, the diameter" if way == "control" else "0.000, the wear on the diameter"
     assert f"<b>D24</b> = {first}" in page
     assert "Set D, and bring the part to size" in page
-    low, high = ("5.80", "6.20") if way == "control" else ("−0.20", "0.20")
-    assert re.search(rf"From {low}\d* to \+?{high}\d* is proven", page.replace("-", "−"))
+    low, high = ("5.800", "6.200") if way == "control" else ("−0.200", "0.200")
+    assert f"From {low} to {high} is proven" in page
     offset = d_offset(LIBRARY.get("mill-6"), "haas", Posting(), way, 0.1)
     assert (offset.quantity, offset.limit) == ("radius", 0.1)
 

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from mechwright.program import Program
 from mechwright_cam.job import Job
 from mechwright_cam.posts.offsets import DOffset, d_offset
-from mechwright_cam.svg import signed
 
 OVERSIZE = 0.5
 """Share of the wear allowed by which D is made larger for a careful first cut: the part stays too large."""
@@ -41,12 +40,12 @@ def lines(offsets: Sequence[DOffset]) -> tuple[str, ...]:
         if offset.planned == 0:
             less = "0.02" if offset.quantity == "diameter" else "0.01"
             how = (
-                f"0 if T{offset.tool.number} is {measured}; a cutter 0.02 mm smaller in diameter has -{less}"
+                f"0 if T{offset.tool.number} is {measured}; a cutter 0.02 mm smaller in diameter has −{less}"
             )
         else:
             how = f"the {offset.quantity} of T{offset.tool.number} as measured ({measured})"
         said.append(
-            f"D{offset.number}: enter {how}. From {signed(low)} to {signed(high)} is proven; beyond that the "
+            f"D{offset.number}: enter {how}. From {_plain(low)} to {_plain(high)} is proven; beyond that the "
             "control may stop in a corner."
         )
     first = offsets[0]
@@ -59,3 +58,7 @@ def lines(offsets: Sequence[DOffset]) -> tuple[str, ...]:
         "A D that is too small cuts the part too small, which nothing brings back.",
     ]
     return tuple(said)
+
+
+def _plain(value: float) -> str:
+    return f"{value:.3f}".replace("-", "−")
