@@ -17,7 +17,7 @@ Planner and proof both start from a job and from nothing else, so that the proof
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -27,9 +27,12 @@ from mechwright.details import Detail, moved
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Profile
-from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
 from mechwright_cam.toolpath.offsets import filled
+
+LEVEL = 1e-6
+"""Heights nearer than this are one, mm: far below the last decimal of a program."""
 
 TAB_REACH = 1.0
 """How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
@@ -65,6 +68,17 @@ class Clamp:
 
 
 @dataclass(frozen=True)
+class Air:
+    """What earlier setups have cut from the other side: in ``shape`` nothing stands below ``top``.
+
+    ``shape`` is a plan view in work coordinates, ``top`` a height z, mm: 0 where they have cut through.
+    """
+
+    shape: shapely.Geometry
+    top: float
+
+
+@dataclass(frozen=True)
 class Job:
     """Everything that planning and proof need to know.
 
@@ -87,7 +101,7 @@ class Job:
     side
         ``"underside"`` if the plate has been turned over.
     gone
-        What of the plate earlier setups have cut away from top to bottom, work coordinates.
+        What of the plate earlier setups have cut away, by height; higher regions lie in lower ones.
     pick_up
         Middle of the bore by which a plate that has been turned over is picked up, work coordinates.
     """
@@ -100,7 +114,7 @@ class Job:
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
     side: Literal["top", "underside"] = "top"
-    gone: shapely.Geometry = field(default_factory=shapely.Polygon)
+    gone: tuple[Air, ...] = ()
     pick_up: Point | None = None
 
     @property
@@ -112,6 +126,11 @@ class Job:
     def floor(self) -> float:
         """Depth of through cuts, z in mm."""
         return -self.thickness - self.settings.breakthrough
+
+    def air_below(self, z: float) -> shapely.Geometry:
+        """Where earlier setups have left nothing below a height z, mm; for 0, where they have cut through."""
+        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
+        return found
 
     @cached_property
     def target(self) -> shapely.Geometry:
@@ -137,15 +156,23 @@ class Job:
         With cutter compensation that of the largest D allowed, and a little more: no inside corner of the
         contour is narrower.
         """
-        if self.settings.compensation == "computer":
-            return tool.radius
-        return tool.radius + self.settings.wear_limit + LEAST_TURN
+        return tool.radius + self.wear_margin
+
+    @property
+    def wear_margin(self) -> float:
+        """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
+        return 0.0 if self.settings.compensation == "computer" else self.settings.wear_limit + LEAST_TURN
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:
-        """The end mills, largest first."""
-        mills = [tool for tool in self.tools if tool.kind is ToolKind.END_MILL]
-        return tuple(sorted(mills, key=lambda tool: -tool.diameter))
+        """The flat end mills, largest first."""
+        return tuple(tool for tool in self.mills if tool.kind is ToolKind.END_MILL)
+
+    @property
+    def mills(self) -> tuple[Tool, ...]:
+        """The end mills, bull noses and balls, largest first; of one diameter the roundest first."""
+        mills = [tool for tool in self.tools if tool.kind in MILLS]
+        return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
 
 
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
@@ -161,7 +188,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     x0, y0, x1, y1 = part.outline.bounds
-    widest = max((tool.diameter for tool in tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
     wanted = settings.stock
     if wanted.length is not None and wanted.width is not None:
         mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2

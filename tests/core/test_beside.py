@@ -1,14 +1,17 @@
 """Work in a second interpreter: what it gives, and that nothing is lost where it fails."""
 
 import os
+import signal
 import sys
 import time
 
 import pytest
 
 from mechwright.cli.beside import Beside, cores
-from mechwright.cli.solids import SolidWork, compared_and_made
+from mechwright.cli.solids import SolidWork, Work, compared_and_made
 from mechwright.design import load
+from mechwright.errors import ProofError, ToolError
+from mechwright.findings import Finding, Severity
 from mechwright.host import host
 from mechwright.output import Exporter
 
@@ -39,6 +42,19 @@ def test_what_goes_wrong_there_is_done_here(fault):
     with Beside([]) as second:
         second.ask(eval, fault)
         assert second.result(int) == HERE
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no way to stop a process here")
+def test_a_long_request_and_a_long_answer_do_not_wait_for_each_other():
+    long = b"x" * 3_000_000
+    with Beside([]) as second:
+        # Asking returns though nobody reads: the other end is stopped, as it is by a long import.
+        second._process.send_signal(signal.SIGSTOP)
+        second.ask(bytes.upper, long)
+        second._process.send_signal(signal.SIGCONT)
+        assert second.result(bytes) == long.upper()
+    with Beside([]) as second:  # ended before it has read what it is sent
+        second.ask(bytes.upper, long)
 
 
 def test_an_error_is_told_as_if_there_were_no_second_process():
@@ -101,6 +117,51 @@ def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch):
             assert work.beside is begun
 
 
+MET = Finding("interference.collision", Severity.ERROR, "", "one and two stand in each other")
+
+
+class Late(SolidWork):
+    """A second process that has found a collision."""
+
+    beside = True
+
+    def __init__(self, exporters, *, build):
+        super().__init__(exporters, build=False)
+
+    def begin(self, design, motion, sample):
+        pass
+
+    def collisions(self):
+        return [MET]
+
+    def files(self):
+        raise AssertionError("there are none")
+
+
+@pytest.mark.parametrize("fault", [None, ProofError("the program gouges"), ToolError("no such mill")])
+def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, monkeypatch, command_line):
+    def programs(*_):
+        if fault is not None:
+            raise fault
+        return []
+
+    monkeypatch.setattr("mechwright.cli.work.SolidWork", Late)
+    monkeypatch.setattr("mechwright.cli.work._programs", programs)
+    (tmp_path / "pair.toml").write_text('format = 1\nfamily = "elliptic-gears"\n[parameters]\nteeth = 21\n')
+    code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
+    assert code == 1
+    assert str(MET) in said
+    assert "gouges" not in said
+    assert "mill" not in said
+    assert not (tmp_path / "out").exists()
+    monkeypatch.setattr(Late, "collisions", lambda self: [])
+    monkeypatch.setattr(Late, "files", lambda self: {"x.step": b"x"})
+    code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
+    assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0)
+    assert fault is None or str(fault) in said
+    assert (tmp_path / "out" / "x.step").exists() is (fault is None)
+
+
 def test_a_second_process_compares_and_writes_the_same(tmp_path):
     (tmp_path / "pair.toml").write_text(
         'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\nmodule = 2\n'
@@ -111,7 +172,7 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     exporters = [found.exporter(name) for name in ("step", "stl")]
     motion = design.family.solve(design.params, 2)
     with Beside([]) as second:
-        second.ask(compared_and_made, design, exporters, motion, 1)
+        second.ask(compared_and_made, Work(design, exporters, motion, 1))
         findings, files = second.result(tuple)
     with SolidWork(exporters, build=False) as work:
         work.begin(design, motion, 1)

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.contour_writer import ContourWriter, touching
@@ -40,11 +41,24 @@ HALVINGS = 12
 """Bisections of a lead's sweep: its start is found to a thousandth of its length."""
 
 
+def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
+    """Refuse what D cannot move, with ToolError: a groove that the mill fills, walls of round-ended mills."""
+    if job.settings.compensation == "computer":
+        return
+    why = "fills it" if zone.snug else "has a round end" if mill.nose > 0 else ""
+    if why:
+        raise ToolError(
+            f"cam.compensation: {zone.name} of part {job.part.name} cannot be brought to size by D, since "
+            f'{mill.name} {why}; list a flat end mill with room, or use "computer"'
+        )
+
+
 class CompensatedFinishing:
     """The finishing of one zone with cutter compensation, when ``left`` holds only what roughing left."""
 
-    def __init__(self, zone: Zone, job: Job) -> None:
-        self.zone, self.job, self.tool = zone, job, zone.finisher
+    def __init__(self, zone: Zone, job: Job, mill: Tool | None = None) -> None:
+        self.zone, self.job, self.tool = zone, job, mill or zone.finisher
+        check_compensated(job, zone, self.tool)
         self.settings = job.settings
         self.offsets = offsets_of(self.tool, job.settings)
         self.side = 1 if job.settings.climb else -1
@@ -177,7 +191,8 @@ class CompensatedFinishing:
             fits = one & two & apart
             if fits.any():
                 best = middle_of_longest(fits)
-                entered = contour.entered_at(float(at[best]))
+                before, after = contour.split(float(at[best]))
+                entered = after + before if after.cuts else contour
                 return (
                     entered,
                     replace(shape, sweep=float(into[best])),

@@ -9,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
+from mechwright_cam.buffers import buffered
 from mechwright_cam.interpreter.run import Ints
 
 ROUND = 1e-4
@@ -29,7 +30,7 @@ def quarter(radius: float, error: float = ROUND) -> int:
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
     """The shape and all within ``distance`` of it; shrunk if that is negative."""
-    grown: Shape = shapely.buffer(shape, distance, quad_segs=quarter(distance, error))
+    grown: Shape = buffered(shape, distance, quarter(distance, error))
     return grown
 
 
@@ -76,7 +77,7 @@ class Boundary:
 
     @cached_property
     def _edges(self) -> NDArray[Any]:
-        rings = shapely.get_rings(self.shape)
+        rings = shapely.get_rings(shapely.get_parts(self.shape))
         points, owner = shapely.get_coordinates(rings, return_index=True)
         same = owner[:-1] == owner[1:]
         edges: NDArray[Any] = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))

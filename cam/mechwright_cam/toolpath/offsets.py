@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.buffers import buffered
 
 CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
@@ -30,20 +31,25 @@ ROUGH = 0.005
 """Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
 
 
+LEAST_CORNERS = 4
+"""Of a quarter circle: fewer make corners that fitting takes for those of the drawing."""
+
+
 def corners(radius: float, tolerance: float) -> int:
     """Corners per quarter circle whose chords stay within ``tolerance``."""
-    step = 2 * math.acos(max(0.0, 1 - min(tolerance / max(radius, 1e-9), 1.0)))
-    return max(4, math.ceil(math.pi / 2 / max(step, 1e-3)))
+    if radius <= tolerance:
+        return LEAST_CORNERS
+    return max(LEAST_CORNERS, math.ceil(math.pi / 4 / math.acos(1 - tolerance / radius)))
 
 
 def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> shapely.Geometry:
     """Everything within ``distance`` (shrink if negative), arcs within ``tolerance``, mm."""
-    return shapely.buffer(shape, distance, quad_segs=corners(abs(distance), tolerance))
+    return buffered(shape, distance, corners(abs(distance), tolerance))
 
 
 def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
     """The shape without what is thinner than twice ``width``."""
-    return shapely.buffer(shapely.buffer(shape, -width, quad_segs=2), width, quad_segs=2)
+    return buffered(buffered(shape, -width, 2), width, 2)
 
 
 @lru_cache(maxsize=16)
