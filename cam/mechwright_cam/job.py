@@ -44,6 +44,11 @@ LEAST_TAB_WIDTH = 0.5
 """A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
 
 
+LEAST_TURN = 0.05
+"""With cutter compensation the tool's centre turns on at least this radius in an inside corner, mm, however
+large D is: on a smaller one rounding to three decimals would change its direction by degrees."""
+
+
 @dataclass(frozen=True)
 class Tab:
     """A bridge from the part to the frame: its plan view, its upper side (below 0), and its width, mm."""
@@ -144,6 +149,19 @@ class Job:
     def details(self) -> tuple[Detail, ...]:
         """The part's details in work coordinates."""
         return tuple(moved(detail, -self.origin[0], -self.origin[1]) for detail in self.part.details)
+
+    def reach(self, tool: Tool) -> float:
+        """Radius by which a finishing tool reaches into corners, mm.
+
+        With cutter compensation that of the largest D allowed, and a little more: no inside corner of the
+        contour is narrower.
+        """
+        return tool.radius + self.wear_margin
+
+    @property
+    def wear_margin(self) -> float:
+        """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
+        return 0.0 if self.settings.compensation == "computer" else self.settings.wear_limit + LEAST_TURN
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from mechwright.design import read_table, read_toml
 from mechwright.errors import DesignError, ToolError
 from mechwright.materials import MATERIALS
-from mechwright.tooling import CuttingChange, CuttingData, Tool
+from mechwright.tooling import CuttingChange, CuttingData, Tool, ToolKind
 
 BUILT_IN = Path(__file__).with_name("data") / "tools.toml"
 """The file of the cutters that come with the program."""
@@ -36,6 +36,15 @@ class Library:
                     f"tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
                     "give one of them another T number"
                 )
+        by_offset: dict[int, Tool] = {}
+        for tool in self.tools:
+            if tool.kind is ToolKind.END_MILL or tool.diameter_offset is not None:
+                other = by_offset.setdefault(tool.d_number, tool)
+                if other is not tool:
+                    raise DesignError(
+                        f"tools {other.name!r} and {tool.name!r} both have D number {tool.d_number}; "
+                        "give one of them another diameter_offset"
+                    )
 
     def __iter__(self) -> Iterator[Tool]:
         return iter(self.tools)

@@ -225,6 +225,11 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     findings = [*_control(post, design.cam, jobs), *findings]
     if errors(findings) or not jobs:
         return findings
+    if {"control", "wear"} <= {job.settings.compensation for job in jobs}:
+        raise DesignError(
+            f'{design.path}: cam.compensation: "control" and "wear" in one job would ask D for two things at '
+            "once; use one of them"
+        )
     made: list[Machined] = []
     for place, job in enumerate(jobs):
         made.append(machine(_after(made[-1], job, post) if job.side == "underside" else job, post, place))
@@ -235,7 +240,9 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
         for stem, text in item.files.items():
             output.add(f"{stem}{post.suffix}", text)
     tools = {tool.number: tool for item in made for tool in item.program.tools}
-    table, text = post.tool_table([tools[number] for number in sorted(tools)])
+    listed = [tools[number] for number in sorted(tools)]
+    compensated = next((job.settings for job in jobs if job.settings.compensation != "computer"), None)
+    table, text = post.offset_table(listed, compensated) if compensated else post.tool_table(listed)
     if table:
         output.add(table, text)
     runs = {item.program.name: read(item.proven, item.job, dialect_of(post)) for item in made}

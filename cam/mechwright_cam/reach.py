@@ -207,7 +207,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     from mechwright_cam.planning.zone import inner_zones, outer_zones
 
     plates = polygons(job.target)
-    walls = [closing(zone.wall, zone.finisher.radius) for zone in outer_zones(job) if zone.tabs is None]
+    walls = [closing(zone.wall, job.reach(zone.finisher)) for zone in outer_zones(job) if zone.tabs is None]
     holes = [
         shapely.Point(bore.centre).buffer(bore.diameter / 2, quad_segs=256)
         for bore in job.features
@@ -215,7 +215,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     ]
     for zone in inner_zones(job):
         if zone.bottom == job.floor:
-            radius = zone.finisher.radius
+            radius = job.reach(zone.finisher)
             holes.append(grow(grow(zone.clear, -radius, PRECISION), radius, PRECISION))
     opened = shapely.union_all(holes)
     cut = []

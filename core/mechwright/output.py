@@ -45,6 +45,13 @@ class Post(ABC):
     def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:
         """File name and text of the control's tool table; two empty strings if it has none."""
 
+    def offset_table(self, tools: "Sequence[Tool]", settings: "CamSettings") -> tuple[str, str]:  # noqa: ARG002
+        """The tool table of a job with cutter compensation, whose D offsets it holds as well.
+
+        By default that of :meth:`tool_table`.
+        """
+        return self.tool_table(tools)
+
 
 class Exporter(ABC):
     """Writes parts in one file format. The same parts give the same bytes."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from mechwright.machine import Machine
-from mechwright.tooling import Measured, Posting, Tool
+from mechwright.tooling import Compensation, Measured, Posting, Tool
 
 OPERATION_COMMENT = "operation: "
 """How a program's text names the operation that follows, in a comment; times are reported by that name."""
@@ -25,12 +25,18 @@ class Rapid:
 
 @dataclass(frozen=True, slots=True)
 class Feed:
-    """A straight cut; an axis that is None stays where it is."""
+    """A straight cut; an axis that is None stays where it is.
+
+    With a ``side`` it turns cutter compensation on (G41 ``"left"`` or G42 ``"right"`` of the contour, with
+    the tool's D number) or ``"off"`` (G40). From the end of the one on to the end of the last move before the
+    other, coordinates are those of the contour, and the control keeps the tool beside it.
+    """
 
     x: float | None
     y: float | None
     z: float | None
     feed: float
+    side: Literal["left", "right", "off"] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +123,10 @@ class Program:
         How the text is written.
     measured
         Offsets as measured, where they are to stand in the text.
+    compensation
+        What D holds where the moves turn cutter compensation on.
+    wear_limit
+        By so much D may differ from what is planned, up or down, as a radius, mm.
     """
 
     name: str
@@ -127,6 +137,19 @@ class Program:
     machine: Machine = field(default=Machine())
     posting: Posting = field(default=Posting())
     measured: Measured = field(default=Measured())
+    compensation: Compensation = field(default="computer")
+    wear_limit: float = field(default=0.0)
+
+    @property
+    def compensated(self) -> tuple[Tool, ...]:
+        """The tools that cut with compensation, in order of first use."""
+        found = {
+            section.tool.number: section.tool
+            for section in self.sections
+            for operation in section.operations
+            if any(isinstance(move, Feed) and move.side is not None for move in operation.moves)
+        }
+        return tuple(found.values())
 
     @property
     def tools(self) -> tuple[Tool, ...]:

@@ -86,6 +86,9 @@ class Tool(Parameters):
     length: Millimetres | None = Field(
         None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
     )
+    diameter_offset: int | None = Field(
+        None, ge=1, le=9999, description="D number for cutter compensation; by default that of the tool."
+    )
     cutting: dict[str, CuttingData] = Field(
         default_factory=dict, description="Material name to cutting data."
     )
@@ -106,6 +109,11 @@ class Tool(Parameters):
     def radius(self) -> float:
         """Half the diameter, mm."""
         return self.diameter / 2
+
+    @property
+    def d_number(self) -> int:
+        """D number of its cutter compensation."""
+        return self.number if self.diameter_offset is None else self.diameter_offset
 
     @property
     def nose(self) -> float:
@@ -195,6 +203,9 @@ class Posting(Parameters):
     cycles: bool = Field(True, description="Drilling cycles; false writes out their moves.")
     exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
     offsets: bool = Field(False, description="Write the measured offsets into the program (G10).")
+    d_value: Literal["radius", "diameter"] = Field(
+        "radius", description="What Fanuc and Haas keep in a D offset; LinuxCNC and Mach3 keep the diameter."
+    )
     tool_change: Literal["pause", "files"] = Field(
         "pause", description="Where the control has no tool change: stop for it, or one file per tool."
     )
@@ -211,6 +222,11 @@ class SecondSide(Parameters):
     dowel_diameter: Millimetres = Field(
         6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
     )
+
+
+Compensation = Literal["computer", "control", "wear"]
+"""Where the radius of a finishing cutter is allowed for: in the path, at the control (G41 and G42, D holds
+the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
 
 
 class Measured(Parameters):
@@ -262,6 +278,17 @@ class CamSettings(Parameters):
     )
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    compensation: Compensation = Field(
+        "computer",
+        description="Where finishing allows for the cutter's radius: in the path, at the control (G41, G42 "
+        "with the radius in D), or in the path with its wear at the control.",
+    )
+    wear_limit: Millimetres = Field(
+        0.1,
+        ge=0.01,
+        le=1,
+        description="By so much D may differ from the planned one, up or down, as a radius.",
+    )
     corner_mill: Millimetres = Field(
         2.0, ge=0.1, le=20, description="No smaller end mill is chosen for the sake of sharp inside corners."
     )

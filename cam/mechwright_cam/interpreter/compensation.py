@@ -158,6 +158,8 @@ class Compensation(Recorder):
         """Lead from the last offset to the next one, around or into the corner between them."""
         before = self.last
         assert before is not None  # noqa: S101 - there was an entry
+        if self.offset <= SAME:
+            return  # without a radius there is nothing between the two
         turn = cut.heading(cut.start) - before.heading(before.end)
         turn = (turn + math.pi) % math.tau - math.pi
         outer = -self.side * turn  # positive away from the tool: around the outside of the corner

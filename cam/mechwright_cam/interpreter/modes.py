@@ -130,13 +130,14 @@ class Modal(Compensation):
                     self._state("plane")
             elif code == 400:
                 self.end_compensation()
+                self._set(side=0)
                 self._state("cutter compensation")
             elif code in {410, 420, 411, 421}:
                 if self.plane != 170:
                     raise fail(block.line, f"{spell(code)} is read in the XY plane only (G17)")
-                self.begin_compensation(
-                    block.line, 1 if code in {410, 411} else -1, self._diameter(block, code)
-                )
+                side = 1 if code in {410, 411} else -1
+                self.begin_compensation(block.line, side, self._diameter(block, code))
+                self._set(side=side)
             elif code == 640:
                 words.pop("P", None)
                 words.pop("Q", None)

@@ -55,6 +55,8 @@ class State:
         Programmed speed, rev/min.
     coolant
         What runs.
+    side
+        1 with cutter compensation on the left of the contour (G41), -1 on the right, 0 without.
     stated
         The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
         that the program has set itself.
@@ -67,6 +69,7 @@ class State:
     spindle: int = 0
     rpm: float = 0.0
     coolant: Coolant = "off"
+    side: int = 0
     stated: frozenset[str] = frozenset()
 
 

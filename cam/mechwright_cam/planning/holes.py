@@ -15,6 +15,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
@@ -103,14 +104,21 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
     """Choose the cutters of a bore; raises ToolError if there is no way to make it."""
     depth = -bottom_of(job, bore.top, bore.depth)
     out = through(job, bore.top + bore.depth)
-    able = usable_mills(job, depth)
-    mill = boring_mill(able if out else [tool for tool in able if tool.nose < tool.radius], bore.diameter)
+    usable = usable_mills(job, depth)
+    able = usable if out else [tool for tool in usable if tool.nose < tool.radius]
+    mill = boring_mill([tool for tool in able if enters(tool, bore.diameter, job.settings)], bore.diameter)
     if mill is not None:
         drill = starting_drill(job, bore.diameter, depth) if out else None
         return BorePlan(bore, drill, mill)
     for drill in usable_drills(job, depth):
         if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
             return BorePlan(bore, drill, None)
+    if boring_mill(usable, bore.diameter) is not None:
+        raise ToolError(
+            f"cam.compensation: no listed end mill has room in {bore.name} of {bore.diameter:g} mm, part "
+            f"{job.part.name}, for an entry longer than D may be; the smallest is {usable[-1].name}: list a "
+            'smaller one, or use "wear" or "computer"'
+        )
     raise ToolError(
         f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
         f"up to {SNUG * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"

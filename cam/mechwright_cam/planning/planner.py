@@ -16,7 +16,9 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
 from mechwright_cam.planning.congruent import Copies
+from mechwright_cam.planning.contour_writer import finish_bore_compensated
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
@@ -104,6 +106,8 @@ class _Planner:
             self.clearance,
             _merged(sections),
             notes(self.job, drills, self._through_with_round_ends()),
+            compensation=job.settings.compensation,
+            wear_limit=job.settings.wear_limit,
         )
 
     def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:
@@ -206,7 +210,10 @@ class _Planner:
             return
         name, job = plan.bore.name, self.job
         after = self._milled(f"{name}: bore", plan.mill, after, lambda pen: rough_bore(job, plan, pen))
-        self._milled(f"{name}: finish", plan.mill, after, lambda pen: finish_bore(job, plan, pen))
+        write = partial(finish_bore, job, plan)
+        if job.settings.compensation != "computer":
+            write = partial(finish_bore_compensated, job, plan.bore)
+        self._milled(f"{name}: finish", plan.mill, after, write)
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:
         check_clamp(self.job)
@@ -345,6 +352,7 @@ class _Planner:
     def _finished(self, zone: Zone) -> list[Cut]:
         """The last cuts of one layer, with a flat end mill before a finer round one."""
         if zone.snug:
+            check_compensated(self.job, zone, zone.finisher)
             return [self._groove(zone, zone.finisher)]
         cuts: list[Cut] = []
         for mill in zone.last_mills:
@@ -355,7 +363,9 @@ class _Planner:
     def _finish(self, zone: Zone, mill: Tool) -> Cut:
         settings = self.job.settings
         deep = _pass(zone, mill, settings.finish_step * mill.diameter)
-        moves = self._moves(mill, Finishing(zone, settings, mill).write, depth=deep)
+        plain = settings.compensation == "computer"
+        finishing = Finishing(zone, settings, mill) if plain else CompensatedFinishing(zone, self.job, mill)
+        moves = self._moves(mill, finishing.write, depth=deep)
         if not moves:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; "

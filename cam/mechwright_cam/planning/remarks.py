@@ -138,7 +138,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
             continue
         found += _partly(job, zone)
         found += _fillet(job, zone)
-        depth = remainder(zone.wall, zone.reach_radius, zone.must)
+        depth = remainder(zone.wall, zone.reach_radius + job.wear_margin, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
                 Finding(

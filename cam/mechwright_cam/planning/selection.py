@@ -1,5 +1,6 @@
 """Which cutters a part needs."""
 
+import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -23,6 +24,7 @@ from mechwright_cam.planning.choice import (
     usable_mills,
 )
 from mechwright_cam.planning.details import plan_detail
+from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
@@ -236,11 +238,11 @@ def _worthwhile(
 def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
     """A mill for a bore, unless one is chosen already or a drill makes the bore."""
     depth = -bottom_of(every, bore.top, bore.depth)
-    able = usable_mills(every, depth)
+    able = [m for m in usable_mills(every, depth) if enters(m, bore.diameter, every.settings)]
     brisk = [mill for mill in chosen if BRISK * bore.diameter <= mill.diameter <= ROOMY * bore.diameter]
     if any(mill in able for mill in brisk):
         return []
-    largest = max((mill.diameter for mill in chosen), default=able[0].diameter)
+    largest = max((mill.diameter for mill in chosen), default=math.inf)
     mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
     return [] if mill is None else [mill]
 

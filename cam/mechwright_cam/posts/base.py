@@ -33,7 +33,7 @@ from mechwright.program import (
     ToolSection,
 )
 from mechwright.tooling import CamSettings, Tool
-from mechwright_cam.posts.offsets import OFFSETS, has_offset
+from mechwright_cam.posts.offsets import OFFSETS, DOffset, d_offset, has_offset
 from mechwright_cam.posts.text import DECIMALS, comment_lines, number
 from mechwright_cam.posts.writer import Writer, with_numbers
 
@@ -59,6 +59,8 @@ class GcodePost(Post):
     """The work offsets it has: keys of :data:`mechwright_cam.posts.offsets.OFFSETS`."""
     highest_tool: ClassVar[int] = 9999
     """The largest T number that it takes."""
+    compensates: ClassVar[bool] = True
+    """Whether it has cutter compensation, G41 and G42."""
     milliseconds: ClassVar[bool] = False
     """Whether P counts thousandths of a second."""
     modes: ClassVar[tuple[str, ...]] = ("G17", "G21", "G40", "G49", "G80", "G90", "G94")
@@ -92,13 +94,22 @@ class GcodePost(Post):
         return "\n".join(lines) + "\n"
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
-        """What the control cannot do of what a design file asks for: work offset."""
-        if has_offset(self.work_offsets, settings.work_offset):
-            return ()
-        known = ", ".join(self.work_offsets)
-        message = f"{self.title} has no work offset {settings.work_offset}"
-        remedy = f"use one of: {known}"
-        return (Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy),)
+        """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
+        found = []
+        if not has_offset(self.work_offsets, settings.work_offset):
+            known = ", ".join(self.work_offsets)
+            message = f"{self.title} has no work offset {settings.work_offset}"
+            remedy = f"use one of: {known}"
+            found.append(
+                Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy)
+            )
+        if settings.compensation != "computer" and not self.compensates:
+            message = f"{self.title} has no cutter compensation (G41, G42)"
+            remedy = 'use compensation = "computer"'
+            found.append(
+                Finding("cam.compensation", Severity.ERROR, "cam.compensation", message, remedy=remedy)
+            )
+        return tuple(found)
 
     # -- what a control spells its own way ----------------------------------------------------------------
 
@@ -160,11 +171,23 @@ class GcodePost(Post):
         self.comment(out, f"origin {program.work_offset}, Z0 on top of the stock, units mm and mm/min")
         for tool in program.tools:
             self.comment(out, self.tool_note(tool))
+        for tool in program.compensated:
+            offset = d_offset(tool, self.dialect, program.posting, program.compensation, program.wear_limit)
+            self.comment(out, self.d_note(offset))
 
     def tool_note(self, tool: Tool) -> str:
         """A tool in the head: its numbers, diameter, name and kind."""
         kind = str(tool.kind).replace("-", " ")
         return f"T{tool.number} H{tool.number} D {number(tool.diameter)} mm: {tool.name}, {kind}"
+
+    def d_note(self, offset: DOffset) -> str:
+        """What a D offset has to hold."""
+        what = f"{offset.quantity} of T{offset.tool.number}"
+        if offset.planned == 0:
+            value, what = "0 for a cutter as planned", f"wear on the {what}"
+        else:
+            value = f"{number(offset.planned)} as planned"
+        return f"D{offset.number} holds the {what}: {value}, at most {number(offset.limit)} more or less"
 
     def safe_start(self, out: Writer) -> None:
         """Set every mode that the program relies on."""
@@ -194,10 +217,15 @@ class GcodePost(Post):
             raise ProgramError(f"program {program.name} has no moves; nothing is written")
         for section in program.sections:
             tool = section.tool
-            if tool.number > self.highest_tool:
+            if not self.compensates and tool in program.compensated:
                 raise ProgramError(
-                    f"tool {tool.name} has number {tool.number}; {self.title} takes up to "
-                    f"T{self.highest_tool}; give it a lower one in the tool library"
+                    f"{self.title} has no cutter compensation (G41, G42), and program {program.name} uses "
+                    'it; use cam.compensation = "computer"'
+                )
+            if max(tool.number, tool.d_number if tool in program.compensated else 0) > self.highest_tool:
+                raise ProgramError(
+                    f"tool {tool.name} has number {max(tool.number, tool.d_number)}; {self.title} takes up "
+                    f"to T{self.highest_tool}; give it a lower one in the tool library"
                 )
             moves = [move for operation in section.operations for move in operation.moves]
             if not moves or not (isinstance(moves[0], Rapid) and None not in (moves[0].x, moves[0].y)):
@@ -286,6 +314,8 @@ class GcodePost(Post):
         match move:
             case FeedArc():
                 out.arc(move)
+            case Feed() if move.side is not None:
+                self._compensate(out, section.tool, move)
             case Feed():
                 out.straight(move)
             case Rapid():
@@ -299,6 +329,15 @@ class GcodePost(Post):
                     self.drill_in_moves(out, move)
             case Pause():
                 self._pause(out, section, move)
+
+    def _compensate(self, out: Writer, tool: Tool, move: Feed) -> None:
+        """Turn cutter compensation on or off along a straight line, which states both axes."""
+        out.x = out.y = math.nan
+        out.motion = ""  # G41, G42 and G40 want a G1 beside them, for whoever reads the block
+        word = {"left": "G41", "right": "G42"}.get(move.side or "", "G40")
+        number = f"D{tool.d_number}" if word != "G40" else ""
+        axes = out.axis_words(move.x, move.y, None)
+        out.line(out.motion_word("G1"), word, number, *axes, out.feed_word(move.feed))
 
     def _rapid(self, out: Writer, move: Rapid) -> None:
         """Travel first and go down last, or go up first: never askew past a clamp or a wall."""

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from mechwright.program import Drill, ToolSection
-from mechwright.tooling import Tool
+from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.posts.base import GcodePost
+from mechwright_cam.posts.offsets import DOffset, d_offset
 from mechwright_cam.posts.text import comment_lines, number
 from mechwright_cam.posts.writer import Writer
 
@@ -58,10 +59,28 @@ class FanucPost(GcodePost):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """A program that sets the lengths that have been measured; none if none has."""
+        return self._offsets_file(tools, ())
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same, and the D offsets: geometry (L12) as planned, wear (L13) 0."""
+        offsets = [
+            d_offset(tool, self.dialect, settings.post, settings.compensation, settings.wear_limit)
+            for tool in tools
+            if tool.kind is ToolKind.END_MILL
+        ]
+        return self._offsets_file(tools, offsets)
+
+    def _offsets_file(self, tools: Sequence[Tool], offsets: Sequence[DOffset]) -> tuple[str, str]:
         measured = {tool.number: tool for tool in tools if tool.length is not None}
-        if not measured:
+        if not measured and not offsets:
             return "", ""
-        lines = ["%", f"O{OFFSETS_NUMBER:04d}", "(TOOL LENGTHS, RUN ONCE)", "G21 G90"]
+        what = "TOOL LENGTHS, RUN ONCE"
+        if offsets:
+            what = f"TOOL LENGTHS, {offsets[0].quantity.upper()} IN D, RUN ONCE FOR NEW CUTTERS"
+        lines = ["%", f"O{OFFSETS_NUMBER:04d}", f"({what})", "G21 G90"]
         for _, tool in sorted(measured.items()):
             lines += self.tool_words(tool)
+        for offset in sorted(offsets, key=lambda offset: offset.number):
+            value = number(offset.planned, self.decimals, self.point)
+            lines += [f"G10 L12 P{offset.number} R{value}", f"G10 L13 P{offset.number} R0."]
         return "tool-offsets.nc", "\n".join([*lines, "M30", "%"]) + "\n"

@@ -24,6 +24,7 @@ class GrblPost(GcodePost):
     decimals = 3
     forbidden = "%?!~$;"  # Grbl takes ? ! ~ out of the stream wherever they stand: ! is a feed hold
     highest_tool = 255
+    compensates = False
     modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:

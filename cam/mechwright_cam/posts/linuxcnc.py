@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 from mechwright.program import Drill, ToolSection
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
+from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.posts.base import GcodePost
+from mechwright_cam.posts.offsets import d_offset
 from mechwright_cam.posts.text import comment_lines, number
 from mechwright_cam.posts.writer import Writer
 
@@ -51,9 +52,26 @@ class LinuxCncPost(GcodePost):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``tool.tbl``: pocket, length, diameter and name; a length not measured yet stands at 0."""
-        lines = [
-            f"T{tool.number} P{tool.number} Z{number(tool.length or 0.0)} D{number(tool.diameter)} "
-            f";{tool.name} {tool.kind}"
-            for tool in sorted({tool.number: tool for tool in tools}.values(), key=lambda tool: tool.number)
-        ]
-        return "tool.tbl", "\n".join(lines) + "\n"
+        return "tool.tbl", "".join(_row(tool, tool.number, tool.diameter) for tool in _each(tools))
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same with the diameters that D takes: an own row where D has a number of its own."""
+        rows = {}
+        for tool in _each(tools):
+            rows[tool.number] = _row(tool, tool.number, tool.diameter)
+        for tool in _each(tools):
+            if tool.kind is ToolKind.END_MILL:
+                offset = d_offset(
+                    tool, self.dialect, settings.post, settings.compensation, settings.wear_limit
+                )
+                rows[offset.number] = _row(tool, offset.number, offset.planned, f" D of T{tool.number}")
+        return "tool.tbl", "".join(rows[number] for number in sorted(rows))
+
+
+def _each(tools: Sequence[Tool]) -> list[Tool]:
+    return sorted({tool.number: tool for tool in tools}.values(), key=lambda tool: tool.number)
+
+
+def _row(tool: Tool, place: int, diameter: float, note: str = "") -> str:
+    length = number(tool.length or 0.0)
+    return f"T{place} P{place} Z{length} D{number(diameter)} ;{tool.name} {tool.kind}{note}\n"

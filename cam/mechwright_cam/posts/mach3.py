@@ -2,11 +2,12 @@
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mechwright.program import Drill, Program, ToolSection
-from mechwright.tooling import Tool
+from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.posts.base import GcodePost
+from mechwright_cam.posts.offsets import d_offset
 from mechwright_cam.posts.text import number
 from mechwright_cam.posts.writer import Writer
 
@@ -43,13 +44,28 @@ class Mach3Post(GcodePost):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
-        text = io.StringIO()
-        rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(["tool", "description", "diameter", "height"])
-        for tool in sorted({tool.number: tool for tool in tools}.values(), key=lambda tool: tool.number):
-            height = "" if tool.length is None else number(tool.length)
-            rows.writerow([tool.number, f"{tool.name} {tool.kind}", number(tool.diameter), height])
-        return "mach3-tools.csv", text.getvalue()
+        return _table({tool.number: (tool, "", tool.diameter) for tool in tools})
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same with the diameters that D takes: an own row where D has a number of its own."""
+        rows = {tool.number: (tool, "", tool.diameter) for tool in tools}
+        for tool in tools:
+            if tool.kind is ToolKind.END_MILL:
+                offset = d_offset(
+                    tool, self.dialect, settings.post, settings.compensation, settings.wear_limit
+                )
+                rows[offset.number] = tool, f", D of T{tool.number}", offset.planned
+        return _table(rows)
+
+
+def _table(rows: Mapping[int, tuple[Tool, str, float]]) -> tuple[str, str]:
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["tool", "description", "diameter", "height"])
+    for place, (tool, note, diameter) in sorted(rows.items()):
+        height = "" if tool.length is None else number(tool.length)
+        table.writerow([place, f"{tool.name} {tool.kind}{note}", number(diameter), height])
+    return "mach3-tools.csv", text.getvalue()
 
 
 def _waits(program: Program) -> bool:

@@ -1,8 +1,11 @@
-"""Work offsets: which there are, and how a program sets them."""
+"""Work offsets and D offsets: which there are, what they hold, and how they are set."""
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
+
+from mechwright.tooling import Compensation, Posting, Tool
 
 
 @dataclass(frozen=True)
@@ -65,3 +68,34 @@ def setting_words(offset: str) -> str:
     """
     row = next(row for row in OFFSETS if has_offset((row,), offset))
     return OFFSETS[row].setting(offset)
+
+
+Quantity = Literal["radius", "diameter"]
+
+BY_SETTING = frozenset({"fanuc", "haas"})
+"""Controls whose D offsets hold radius or diameter, as a setting of the machine says."""
+
+
+@dataclass(frozen=True)
+class DOffset:
+    """A D offset: its number, what it holds when the tool is as planned, how much that may change, mm."""
+
+    number: int
+    tool: Tool
+    quantity: Quantity
+    planned: float
+    limit: float
+
+
+def d_offset(tool: Tool, control: str, posting: Posting, compensation: Compensation, wear: float) -> DOffset:
+    """The D offset of a tool on a control, when its radius may be off by ``wear`` mm.
+
+    >>> tool = Tool(name="mill-6", number=3, kind="end-mill", diameter=6, flute_length=12)
+    >>> offset = d_offset(tool, "linuxcnc", Posting(), "control", 0.1)
+    >>> offset.quantity, offset.planned, offset.limit
+    ('diameter', 6.0, 0.2)
+    """
+    quantity: Quantity = posting.d_value if control in BY_SETTING else "diameter"
+    factor = 1 if quantity == "radius" else 2
+    planned = 0.0 if compensation == "wear" else factor * tool.radius
+    return DOffset(tool.d_number, tool, quantity, planned, factor * wear)

@@ -81,8 +81,8 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     worst, at = uncut_bores(sweeps, job)
     if not mills:
         return Remains(worst, at, ())
-    reach, round_floors = Reach(mills, PLAY), fillets(job)
-    smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
+    reach, round_floors = Reach(mills, PLAY + job.wear_margin), fillets(job)
+    smallest, widest = min(t.radius for t in mills) + PLAY + job.wear_margin, max(t.diameter for t in mills)
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
     extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))

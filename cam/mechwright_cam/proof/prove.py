@@ -15,6 +15,7 @@ from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, 
 from mechwright_cam.job import Job
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
+from mechwright_cam.proof.compensation import follows, planned_offsets
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
@@ -75,6 +76,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
         _leftover_check(left),
         held,
         details.cut(scene.paths, job),
+        follows(scene, lambda more: read(text, job, dialect, more)),
     ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
@@ -118,10 +120,13 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     return left, held, loose
 
 
-def read(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
-    """Run a program on the machine of a job; raises ProgramError that names file and line."""
+def read(text: str | Mapping[str, str], job: Job, dialect: Dialect, more: float = 0.0) -> Run:
+    """Run a program on the machine of a job; raises ProgramError that names file and line.
+
+    Every D is ``more`` mm larger than planned, as a radius.
+    """
     upper_end = job.settings.machine.retract_z
-    diameters = {tool.number: tool.diameter for tool in job.tools}
+    diameters = {number: 2 * (d + more) for number, d in planned_offsets(job).items()}
     if isinstance(text, str):
         return interpret(text, dialect, upper_end=upper_end, diameters=diameters)
     runs = []

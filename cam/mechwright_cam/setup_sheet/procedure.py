@@ -14,7 +14,8 @@ from mechwright.part import Bore
 from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.posts.offsets import setting_words
+from mechwright_cam.posts.offsets import DOffset, setting_words
+from mechwright_cam.setup_sheet.compensation import lines
 from mechwright_cam.svg import signed
 
 CHECK_HEIGHT = 50.0
@@ -36,6 +37,7 @@ def steps(
     file_name: str,
     deepest: float,
     reach: tuple[float, float, float, float] | None = None,
+    offsets: Sequence[DOffset] = (),
 ) -> list[Step]:
     """The steps in order.
 
@@ -51,6 +53,8 @@ def steps(
         Lowest z that any tool reaches, mm.
     reach
         Least x, least y, greatest x, greatest y that any cutter reaches below the rapids, mm.
+    offsets
+        The D offsets of cutter compensation.
     """
     offset = job.settings.work_offset
     over = job.side == "underside"
@@ -59,7 +63,12 @@ def steps(
         _with_reach(_turn(job) if over else _stock(job, deepest), reach),
         _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
-        *([_touch_off(job, tools)] if by_hand else [_lengths(offset, tools), _check(offset, tools)]),
+        *(
+            [_touch_off(job, tools)]
+            if by_hand
+            else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
+        ),
+        *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
         _run(job, offset, file_name),
     ]
 
@@ -199,15 +208,16 @@ def _height(offset: str) -> Step:
     )
 
 
-def _lengths(offset: str, tools: Sequence[int]) -> Step:
+def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
     listed = ", ".join(f"T{tool}" for tool in tools)
     return Step(
         "Measure each tool's length offset",
         (
             f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
             "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
-            "Enter Hn = Zn − N as the length (Z) of that tool in the tool table, and its diameter. "
-            "The table above has room for both.",
+            "Enter Hn = Zn − N as the length (Z) of that tool in the tool table"
+            + (". What goes into D comes below. " if with_d else ", and its diameter. ")
+            + "The table above has room for both.",
             f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
             f"{offset} Z names.",
         ),

@@ -12,6 +12,7 @@ from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
+from mechwright_cam.setup_sheet.compensation import d_offsets, value
 from mechwright_cam.setup_sheet.levels import side_view
 from mechwright_cam.setup_sheet.procedure import origin_words, quantity, steps
 from mechwright_cam.svg import signed
@@ -74,6 +75,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
     tools = facts.tool_rows(job, program, traced, proof)
     spots = facts.spot_rows(proof)
     marks = [(spot["x"] or 0.0, spot["y"] or 0.0) for spot in spots]
+    offsets = {offset.tool.number: offset for offset in d_offsets(job, program)}
     deepest = min((row.bottom for row in tools), default=0.0)
     return {
         "job": job,
@@ -84,6 +86,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "spots": spots,
         "tools": tools,
         "operations": facts.operation_rows(program, traced, proof),
+        "offsets": offsets,
         "loads": facts.load_rows(proof),
         "steps": steps(
             job,
@@ -91,6 +94,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
             file_name=file_name,
             deepest=deepest,
             reach=facts.reach(traced),
+            offsets=tuple(offsets.values()),
         ),
         "origin": origin_words(job),
         "quantity": quantity(job),
@@ -112,5 +116,5 @@ def environment() -> jinja2.Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    found.globals.update(duration=facts.duration, signed=signed)
+    found.globals.update(duration=facts.duration, signed=signed, d_value=value)
     return found

@@ -80,6 +80,33 @@ def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
     ]
 
 
+def spans(points: Array, tolerance: float) -> tuple[Array, Index, NDArray[np.bool_], Array]:
+    """The runs of one polyline that a line or an arc each can follow.
+
+    Parameters
+    ----------
+    points, tolerance
+        As for :func:`fit`.
+
+    Returns
+    -------
+    points
+        (n, 2), those that are distinct.
+    nodes
+        (k + 1,) index of the ends of the runs.
+    straight
+        (k,) whether a line will do.
+    height
+        (k,) of the centre over the chord, to the left of it, mm.
+    """
+    points = _distinct(np.asarray(points, dtype=float))
+    ends = np.zeros(len(points), dtype=bool)
+    ends[[0, -1]] = True
+    axes = points[:, 0].copy(), points[:, 1].copy()
+    nodes, straight, height = _verified(axes, _chain(_reach(axes, ends, tolerance)), tolerance)
+    return points, nodes, straight, height
+
+
 def _distinct(points: Array) -> Array:
     step = np.diff(points, axis=0)
     distinct: Array = points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]

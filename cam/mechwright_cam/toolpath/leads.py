@@ -81,7 +81,7 @@ def best_start(
         fits = np.asarray(free(ways.reshape(-1, 2)).reshape(len(index), -1).all(axis=1))
         fits = np.logical_and(fits, clear(ways[:, :, -1].reshape(-1, 2)).reshape(len(index), 2).all(axis=1))
         while fits.any():
-            best = _middle_of_longest(fits)
+            best = middle_of_longest(fits)
             if exact(ring[index[best]] + _arcs(rho, sweep, t[best], away[best])):
                 return int(index[best]), rho, sweep
             fits[best] = False
@@ -95,7 +95,7 @@ def _arcs(rho: float, sweep: float, along: Array, away: Array) -> Array:
     return points
 
 
-def _middle_of_longest(flags: NDArray[np.bool_]) -> int:
+def middle_of_longest(flags: NDArray[np.bool_]) -> int:
     """The middle of the longest run of true flags on a circle."""
     n = len(flags)
     if flags.all():
