@@ -15,7 +15,6 @@ cut
 Planner and proof both start from a job and from nothing else, so that the proof does not depend on the plan.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -29,25 +28,7 @@ from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Profile
 from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
-from mechwright_cam.toolpath.offsets import filled
-
-TAB_REACH = 1.0
-"""How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
-
-TAB_WIDTH = 2.0
-"""Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
-
-LEAST_TAB_WIDTH = 0.5
-"""A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
-
-
-@dataclass(frozen=True)
-class Tab:
-    """A bridge from the part to the frame: its plan view, its upper side (below 0), and its width, mm."""
-
-    shape: shapely.Polygon
-    top: float
-    width: float
+from mechwright_cam.tabs import Tab, lay_tabs
 
 
 @dataclass(frozen=True)
@@ -178,7 +159,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
                 'cannot be clamped one by one; use method = "tabs", or no cam.nest'
             )
         return replace(placed, clamp=_clamp(placed))
-    return replace(placed, tabs=_tabs(placed, max(mx, my)))
+    return replace(placed, tabs=lay_tabs(placed, max(mx, my)))
 
 
 def _clamp(job: Job) -> Clamp:
@@ -195,93 +176,3 @@ def _clamp(job: Job) -> Clamp:
         )
     hold = job.settings.hold
     return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
-
-
-def _tabs(job: Job, reach: float) -> tuple[Tab, ...]:
-    hold = job.settings.hold
-    if hold.tab_height >= job.thickness:
-        raise DesignError(
-            f"cam.hold.tab_height: {hold.tab_height:g} mm is not below the thickness of {job.thickness:g} mm"
-        )
-    tabs = []
-    for feature in job.features:
-        if isinstance(feature, Profile) and feature.side == "outside":
-            ring = shapely.LinearRing(feature.loop.flatten())
-            width = hold.tab_width or _tab_width(feature, hold.tabs)
-            for at in _tab_places(feature, ring, hold.tabs, width):
-                shape = _tab_shape(ring, at, width, _frame_at(job.part, ring, at, width, reach))
-                tabs.append(Tab(shape, hold.tab_height - job.thickness, width))
-    return tuple(tabs)
-
-
-def _tab_width(feature: Profile, count: int) -> float:
-    """The width of tabs that the design leaves open: the usual one, or the widest that all sites take."""
-    widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
-    if not widest:
-        return TAB_WIDTH
-    if len(widest) < count or widest[count - 1] < LEAST_TAB_WIDTH:
-        fit = sum(longest >= LEAST_TAB_WIDTH for longest in widest)
-        raise DesignError(
-            f"cam.hold.tabs: {feature.name} has room for {fit} tabs of at least {LEAST_TAB_WIDTH:g} mm, "
-            f"not for {count}; hold the part by its bore"
-        )
-    return min(TAB_WIDTH, widest[count - 1])
-
-
-def _tab_places(feature: Profile, ring: shapely.LinearRing, count: int, width: float) -> list[float]:
-    """Distances along the ring at which the tabs stand: near equal steps, on the sites if there are any."""
-    even = [ring.length * i / count for i in range(count)]
-    if not feature.tab_sites:
-        return even
-    fit = [ring.project(shapely.Point(site)) for site, longest in feature.tab_sites if longest >= width]
-    if len(fit) < count:
-        widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
-        at_most = widest[min(count, len(widest)) - 1]
-        raise DesignError(
-            f"cam.hold.tab_width: {count} tabs of {width:g} mm do not fit on {feature.name}; "
-            f"use at most {at_most:.2f} mm, or fewer than {count} of cam.hold.tabs"
-        )
-    chosen: list[float] = []
-    for wish in even:
-        free = [at for at in fit if at not in chosen]
-        chosen.append(
-            min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2))
-        )
-    return sorted(chosen)
-
-
-def _frame_at(part: Part, ring: shapely.LinearRing, at: float, width: float, reach: float) -> float:
-    """How far a tab reaches outwards: to the stock's edge, in a nest to the middle between two parts."""
-    if not isinstance(part, Nest):
-        return reach
-    far = float(shapely.Polygon(ring).length)
-    x, y, (tx, ty) = _across(ring, at, min(width / 2, ring.length / 100))
-    way = shapely.LineString([(x, y), (x + far * ty, y - far * tx)])
-    halfway = filled(shapely.buffer(shapely.Polygon(ring), part.gap / 2))
-    inside = shapely.get_coordinates(shapely.intersection(way, halfway))
-    return float(max(math.hypot(px - x, py - y) for px, py in inside.tolist()))
-
-
-def _across(ring: shapely.LinearRing, at: float, step: float) -> tuple[float, float, Point]:
-    """A point of a ring, and the unit vector along it there."""
-    a = ring.interpolate((at - step) % ring.length)
-    b = ring.interpolate((at + step) % ring.length)
-    middle = ring.interpolate(at)
-    length = a.distance(b)
-    return middle.x, middle.y, ((b.x - a.x) / length, (b.y - a.y) / length)
-
-
-def _tab_shape(ring: shapely.LinearRing, at: float, width: float, reach: float) -> shapely.Polygon:
-    """A rectangle across the wall: TAB_REACH inwards, ``reach`` outwards, ``width`` wide."""
-    x, y, (tx, ty) = _across(ring, at, min(width / 2, ring.length / 100))
-    nx, ny = ty, -tx  # outwards of a counter-clockwise ring
-    corners = [
-        (x + along * tx + out * nx, y + along * ty + out * ny)
-        for along, out in (
-            (-width / 2, -TAB_REACH),
-            (width / 2, -TAB_REACH),
-            (width / 2, reach),
-            (-width / 2, reach),
-        )
-    ]
-    return shapely.Polygon(corners)

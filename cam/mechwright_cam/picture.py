@@ -11,8 +11,9 @@ from mechwright.program import Program
 from mechwright.sections import sections
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam import svg
-from mechwright_cam.job import Job, Tab
+from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest, outlines_of
+from mechwright_cam.tabs import Tab
 from mechwright_cam.trace import Stroke, Traced, trace
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#56b4e9", "#5d5d5d")
@@ -154,7 +155,10 @@ def _holding(job: Job, frame: Frame) -> str:
     parts = []
     for place, tab in enumerate(job.tabs, start=1):
         shape = svg.path(list(tab.shape.exterior.coords)[:-1], close=True)
-        parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.75))
+        level = svg.path(list(tab.level.exterior.coords)[:-1], close=True)
+        if tab.ramped:
+            parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.35))
+        parts.append(svg.element("path", d=level, fill="#e6a100", fill_opacity=0.75))
         parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
     if job.clamp is not None:
         x, y = job.clamp.centre

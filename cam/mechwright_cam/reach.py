@@ -161,7 +161,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     from mechwright_cam.planning.zone import inner_zones, outer_zones
 
     plates = polygons(job.target)
-    walls = [closing(zone.wall, zone.finisher.radius) for zone in outer_zones(job) if zone.tabs is None]
+    walls = [closing(zone.wall, zone.finisher.radius) for zone in outer_zones(job) if not zone.at_tabs]
     holes = [
         shapely.Point(bore.centre).buffer(bore.diameter / 2, quad_segs=256)
         for bore in job.features

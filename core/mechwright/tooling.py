@@ -154,6 +154,10 @@ class Hold(Parameters):
         None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
     )
     tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
+    tab_shape: Literal["rectangular", "ramped"] = Field(
+        "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
+    )
+    tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."

@@ -34,6 +34,7 @@ from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
 from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_walls
+from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
@@ -110,10 +111,14 @@ class _Planner:
         return frozenset({len(self.steps) - 1})
 
     def _moves(
-        self, tool: Tool, write: Callable[[Pen], object], engagement: float = math.pi / 2
+        self,
+        tool: Tool,
+        write: Callable[[Pen], object],
+        engagement: float = math.pi / 2,
+        over: tuple[Tab, ...] = (),
     ) -> tuple[Move, ...]:
         speed = rates(tool, self.job.part.material, self.job.settings.machine, engagement)
-        pen = Pen(tool, speed, self.clearance, self.slope)
+        pen = Pen(tool, speed, self.clearance, self.slope, over)
         write(pen)
         return tuple(pen.moves)
 
@@ -274,7 +279,7 @@ class _Planner:
         zone, mill = cut.zone, cut.tool
         what = "rough the rest" if zone.begun else "rough"
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
-        moves = self._moves(mill, lambda pen: cut.write(pen, step_down))
+        moves = self._moves(mill, partial(cut.write, step_down=step_down), over=zone.slopes)
         cut.commit()
         if not zone.begun:
             zone.forget_waste(mill, self.job.settings.stock_to_leave)
@@ -316,7 +321,7 @@ class _Planner:
         return [*cuts, self._finish(zone)]
 
     def _finish(self, zone: Zone) -> Cut:
-        moves = self._moves(zone.finisher, Finishing(zone, self.job.settings).write)
+        moves = self._moves(zone.finisher, Finishing(zone, self.job.settings).write, over=zone.slopes)
         if not moves:
             raise ToolError(
                 f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {self.job.part.name}; "
@@ -339,7 +344,8 @@ class _Planner:
             cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
             if allowance > 0 and cut.take.area < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
-            moves = self._moves(mill, partial(cut.write, step_down=data.step_down * mill.diameter))
+            write = partial(cut.write, step_down=data.step_down * mill.diameter)
+            moves = self._moves(mill, write, over=zone.slopes)
             cuts.append((f"{zone.name}: {what}", mill, moves))
             zone.left = shapely.difference(
                 zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))

@@ -325,7 +325,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     """The remainder on every wall."""
     found = []
     for zone in zones:
-        if zone.tabs is not None:
+        if zone.at_tabs:
             continue
         found += _partly(job, zone)
         depth = remainder(zone.wall, zone.finisher.radius, zone.must)

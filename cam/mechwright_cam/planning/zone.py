@@ -26,6 +26,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
 from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.tabs import Tab
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
 
@@ -62,6 +63,8 @@ class Zone:
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
+    slopes: tuple[Tab, ...] = ()
+    """Ramped tabs between these heights: the cutter goes over them."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
@@ -83,6 +86,11 @@ class Zone:
             beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
             band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
             self.waste = shapely.difference(beside, band)
+
+    @property
+    def at_tabs(self) -> bool:
+        """Whether it is the layer of the tabs, below another one of the same wall."""
+        return self.tabs is not None or bool(self.slopes)
 
     @property
     def height(self) -> float:
@@ -215,11 +223,15 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
             height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - 1e-6) / 10**DECIMALS
-            tabs = shapely.union_all([tab.shape for tab in own])
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
-            name = f"{feature.name} below the tabs"
-            below = clear.difference(tabs)
-            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
+            if own[0].ramped:
+                name = f"{feature.name} over the tabs"
+                zones.append(layer(name, clear=clear, top=height, bottom=job.floor, slopes=tuple(own)))
+            else:
+                tabs = shapely.union_all([tab.shape for tab in own])
+                name = f"{feature.name} below the tabs"
+                below = clear.difference(tabs)
+                zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
         else:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
         walls.append(zones)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright.tooling import Tool, ToolKind
@@ -166,6 +167,7 @@ def entries(scene: Scene) -> Check:
     steep = drop > flat * np.tan(np.radians(limit)) + 10.0**-scene.dialect.decimals
     threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     # A thread mill goes down a finished hole, as steeply as its pitch asks.
+    allowed |= _down_a_tab(scene, steps, drop, flat) & np.isin(run.tool[steps], list(plunges))
     suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
@@ -191,6 +193,27 @@ def entries(scene: Scene) -> Check:
     return Check(
         "entries", True, "entries are ramps or plunges that the tools can do", limit=limit, unit="deg"
     )
+
+
+TAB_RISE = 0.005
+"""A path down a ramped tab may be so much steeper than the tab's side over its whole length, mm: the gouge
+limit, as the tab itself may be off by that."""
+
+
+def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[np.bool_]:
+    """(n,) whether a move goes down the side of a ramped tab: no further than the tab is high."""
+    found = np.zeros(steps.size, dtype=bool)
+    job, paths = scene.job, scene.paths
+    for tab in job.tabs:
+        if not tab.ramped:
+            continue
+        gentle = (drop > 0) & (drop <= flat * tab.slope + TAB_RISE) & (drop <= tab.top - job.floor + TAB_RISE)
+        index = np.flatnonzero(gentle & (paths.start[steps, 2] <= tab.top + TAB_RISE) & ~found)
+        if index.size:
+            lines = paths.lines(paths.below(np.inf, steps=steps[index]))
+            reach = paths.radius[steps[index]] + (job.settings.breakthrough + TAB_RISE) / tab.slope
+            found[index] = shapely.dwithin(tab.shape, lines, reach)
+    return found
 
 
 def holder(scene: Scene) -> Check:
