@@ -54,6 +54,10 @@ class Exporter(ABC):
     """Name on the command line (``"step"``)."""
     suffix: ClassVar[str]
     """Ending of its files."""
+    modules: ClassVar[tuple[str, ...]] = ()
+    """Names of modules that it imports when it writes and that take long to import: where they are not
+    imported yet, ``build`` may let it write in a second process, beside other work. A copy made by pickle
+    has to write the same bytes."""
 
     @abstractmethod
     def part(self, part: "Part") -> bytes:

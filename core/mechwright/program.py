@@ -51,10 +51,10 @@ class FeedArc:
 
 @dataclass(frozen=True, slots=True)
 class Drill:
-    """A hole: rapid to ``retract``, feed to ``bottom``, rapid out; pecks of ``peck`` mm if not None.
+    """A hole: rapid over it and down to ``retract``, feed to ``bottom``, rapid out to the height it began at.
 
-    After each peck the drill comes out of the hole, or if ``breaking`` it only draws back a little, so that
-    the chip breaks.
+    With ``peck`` it is drilled in pecks of so many mm. After each peck the drill comes out of the hole, or if
+    ``breaking`` it only draws back a little, so that the chip breaks.
     """
 
     x: float

@@ -43,10 +43,11 @@ def motions(program: Program, step: float = 0.1) -> list[Motion]:
                     assert z >= program.clearance, "the machine stops high"
                     continue
                 if isinstance(move, Drill):
-                    assert (move.x, move.y) == (x, y)
-                    points = np.array([[x, y, z], [x, y, move.bottom], [x, y, move.retract]])
+                    way = np.array([[x, y, z], [move.x, move.y, z]])
+                    out.append(Motion(section.tool, operation.name, "rapid", way, 0.0))
+                    x, y = move.x, move.y
+                    points = np.array([[x, y, z], [x, y, move.bottom], [x, y, z]])
                     out.append(Motion(section.tool, operation.name, "drill", points, move.feed))
-                    z = move.retract
                     continue
                 nx = x if move.x is None else move.x
                 ny = y if move.y is None else move.y

@@ -65,6 +65,7 @@ G53 G0 Z0
 M0
 S8000 M3
 G0 X1 Y1
+G43 H3 Z5
 Z2
 (operation: deburr)
 G1 Z-0.2 F600

@@ -50,6 +50,21 @@ def test_fit_stays_within_its_tolerance(teeth, depth, tolerance):
     assert len(path.cuts) < len(points) / 4
 
 
+def test_lines_that_go_on_straight_are_one():
+    along = np.array([(0, 0), (3, 0), (3.5, 1e-5), (10, 0), (10, 4), (10, 9)], dtype=float)
+    assert [(cut.x, cut.y) for cut in fit(along, 1e-6).cuts] == [(10, 0), (10, 9)]
+    there_and_back = np.array([(0, 0), (8, 0), (8, 0.0), (2, 0), (0, 0)], dtype=float)
+    assert [cut.x for cut in fit(there_and_back, 1e-6).cuts] == [8, 0]
+
+
+def test_a_slow_bend_is_not_straightened():
+    # Every vertex is nearly on the line of its neighbours, and the whole is far from straight.
+    x = np.linspace(0, 100, 4001)
+    bend = np.column_stack((x, x**2 / 20000))
+    path = fit(bend, 0.0005)
+    assert distance(bend, path) <= 0.0005 + 0.0004
+
+
 def test_fit_of_a_circle_is_a_few_arcs_of_its_radius():
     points = wavy(500, 1, 0.0)
     path = fit(points, 0.002)

@@ -23,6 +23,7 @@ class StepExporter(Exporter):
 
     name = "step"
     suffix = ".step"
+    modules = ("mechwright_cam.exporters.step",)
 
     def part(self, part: "Part") -> bytes:
         """One solid; raises GeometryError if it is not right."""
@@ -58,6 +59,7 @@ class StlExporter(Exporter):
 
     name = "stl"
     suffix = ".stl"
+    modules = ("mechwright_cam.exporters.mesh",)
 
     def part(self, part: "Part") -> bytes:
         """One closed mesh."""
@@ -71,6 +73,7 @@ class ThreeMfExporter(Exporter):
 
     name = "3mf"
     suffix = ".3mf"
+    modules = ("mechwright_cam.exporters.mesh",)
 
     def part(self, part: "Part") -> bytes:
         """One object."""
@@ -84,6 +87,7 @@ class GlbExporter(Exporter):
 
     name = "glb"
     suffix = ".glb"
+    modules = ("mechwright_cam.exporters.mesh",)
 
     def part(self, part: "Part") -> bytes:
         """One node."""

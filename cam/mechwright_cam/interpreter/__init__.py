@@ -5,7 +5,7 @@ Nothing here knows how programs are planned or posted; the proof rests on that.
 
 from mechwright_cam.interpreter.dialect import LINUXCNC, Dialect
 from mechwright_cam.interpreter.dialects import DIALECTS
-from mechwright_cam.interpreter.machine import interpret
+from mechwright_cam.interpreter.read import interpret
 from mechwright_cam.interpreter.run import Kind, Remark, Run, State, joined
 
 __all__ = ["DIALECTS", "LINUXCNC", "Dialect", "Kind", "Remark", "Run", "State", "interpret", "joined"]

@@ -61,6 +61,8 @@ class Dialect:
         Whether the control has a table of tool lengths for G43 H.
     variables
         Whether parameters, expressions and O-words are worked out.
+    home_cancels_length
+        Whether G28 of Z may end G43, so that it has to be stated anew.
     forbidden
         Characters that the control obeys out of the stream, wherever they stand.
     """
@@ -91,6 +93,7 @@ class Dialect:
     length_table: bool = True
     forbidden: str = ""
     variables: bool = False
+    home_cancels_length: bool = False
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}

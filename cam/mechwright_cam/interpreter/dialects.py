@@ -30,6 +30,7 @@ _SHARED = (
 
 FANUC = Dialect(
     name="Fanuc",
+    home_cancels_length=True,
     g_codes=frozenset(_COMMON | _CYCLES | {541, 300}),
     m_codes=frozenset(_M),
     unsupported=_SHARED,
@@ -48,6 +49,7 @@ FANUC = Dialect(
 
 HAAS = Dialect(
     name="Haas",
+    home_cancels_length=True,
     g_codes=frozenset(_COMMON | _CYCLES | {1540, 300}),
     m_codes=frozenset(_M),
     unsupported=_SHARED,

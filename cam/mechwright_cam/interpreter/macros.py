@@ -53,8 +53,22 @@ class _Frame:
     repeats: dict[int, int] = field(default_factory=dict)
 
 
-class Macros:
-    """A program under way.
+class Lines:
+    """The lines of a program, one after the other; whoever has run some more of them moves ``at`` on."""
+
+    def __init__(self, lines: list[str]) -> None:
+        self.lines = lines
+        self.at = 0
+
+    def run(self) -> Iterator[tuple[int, str]]:
+        """Index and text of each line that the machine has to obey, in the order of running."""
+        while self.at < len(self.lines):
+            self.at += 1
+            yield self.at - 1, self.lines[self.at - 1]
+
+
+class Macros(Lines):
+    """The same, of a program that works out its values and its way.
 
     Parameters
     ----------
@@ -69,7 +83,8 @@ class Macros:
     def __init__(
         self, lines: list[str], system: Callable[[float | str], float], returned: Callable[[], None]
     ) -> None:
-        self.lines, self.system, self.returned = lines, system, returned
+        super().__init__(lines)
+        self.system, self.returned = system, returned
         self.numbers: dict[int, float] = {}
         self.names: dict[str, float] = {}
         self.frames = [_Frame(-1, "", {})]
@@ -79,10 +94,9 @@ class Macros:
             if code.lstrip("/n0123456789").startswith("o") and (match := _O_WORD.fullmatch(code)):
                 self.words[index] = (match[1], match[2], match[3])
         self.order = sorted(self.words)
-        self.at = 0
 
     def run(self) -> Iterator[tuple[int, str]]:
-        """Number from 1 and text of each line that the machine has to obey, in the order of running."""
+        """Index and text of each line that the machine has to obey, in the order of running."""
         done = 0
         while self.at < len(self.lines):
             done += 1
@@ -94,7 +108,8 @@ class Macros:
                 if index in self.words:
                     self._obey(index, *self.words[index])
                 else:
-                    yield index + 1, self._plain(self.lines[index])
+                    yield index, self._plain(self.lines[index])
+                    done += self.at - index - 1
             except RecursionError:
                 raise fail(index + 1, "brackets are nested too deep") from None
             except (ValueError, OverflowError) as error:

@@ -14,6 +14,7 @@ from mechwright_cam.interpreter.run import Coolant, Kind, State
 INCH = 25.4
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
 """G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
+AXES = "XYZ"
 CENTRES = {"X": "I", "Y": "J", "Z": "K"}
 """The word for the centre along each axis."""
 _COOLANT: dict[tuple[bool, bool], Coolant] = {
@@ -36,8 +37,14 @@ class Modal(Compensation):
         self.to_initial = True
         self.state = State()
         self.plane = 170
+        self.motion: int | None = None
         self.offsets_are_zero = False
         self.diameters: Mapping[int, float] = {}
+
+    @property
+    def moves_plainly(self) -> bool:
+        """Whether X, Y and Z are where the tool goes, and arcs lie in the XY plane."""
+        return self.absolute and self.plane == 170 and not self.side and self.left is None
 
     def _take(self, block: Block, letter: str, missing: str) -> float:
         try:
@@ -57,7 +64,8 @@ class Modal(Compensation):
         self._set(stated=self.state.stated | {group})
 
     def _keep_state(self) -> None:
-        if self.state != self.states[self.index]:
+        kept = self.states[self.index]
+        if self.state is not kept and self.state != kept:
             self.states.append(self.state)
             self.index = len(self.states) - 1
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.motion import Array
 from mechwright_cam.interpreter.arcs import sweep_of
 from mechwright_cam.interpreter.blocks import fail
 from mechwright_cam.interpreter.dialect import Dialect
@@ -14,6 +15,11 @@ from mechwright_cam.interpreter.run import Kind, Remark, Run, State
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
+COLUMNS = (
+    *("kind", "line", "x0", "y0", "z0", "x", "y", "z"),
+    *("centre x", "centre y", "sweep", "arc error", "feed", "seconds", "state"),
+)
+"""What a step is recorded by; lengths in mm."""
 LARGEST = 1e5
 """Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 
@@ -28,7 +34,11 @@ class Recorder:
         self.ended = False
         self.states: list[State] = [State()]
         self.index = 0
+        self.tables: list[Array] = []
         self.rows: list[tuple[float, ...]] = []
+        """Steps since the last table."""
+        self.before = 0
+        """Number of steps in all tables."""
         self.pieces: list[int] = []
         self.remarks: list[Remark] = []
 
@@ -46,6 +56,25 @@ class Recorder:
     ) -> None:
         self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
         self.x, self.y, self.z = x, y, z
+
+    @property
+    def steps(self) -> int:
+        """Number of steps so far."""
+        return self.before + len(self.rows)
+
+    def append(self, table: Array) -> None:
+        """Record steps (k, 15), in the order of COLUMNS; the tool is where the last of them ends."""
+        self._close()
+        self.tables.append(table)
+        self.before += len(table)
+        self.x, self.y, self.z = table[-1, 5:8].tolist()
+
+    def _close(self) -> None:
+        """Turn the rows so far into a table."""
+        if self.rows:
+            self.tables.append(np.array(self.rows, dtype=np.float64))
+            self.before += len(self.rows)
+            self.rows = []
 
     def _rapid(self, line: int, x: float, y: float, z: float) -> None:
         if (x, y, z) != (self.x, self.y, self.z):
@@ -103,7 +132,8 @@ class Recorder:
 
     def result(self, lines: int) -> Run:
         """The record of the whole run."""
-        table = np.array(self.rows, dtype=np.float64).reshape(-1, 15)
+        self._close()
+        table = np.concatenate((np.empty((0, len(COLUMNS))), *self.tables))
         places = np.abs(table[:, 2:10])
         beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
         if beyond.size:
@@ -114,13 +144,13 @@ class Recorder:
         return Run(
             kind=_whole(table[:, 0]),
             line=_whole(table[:, 1]),
-            start=table[:, 2:5],
-            end=table[:, 5:8],
-            centre=table[:, 8:10],
-            sweep=table[:, 10],
-            arc_error=table[:, 11],
-            feed=table[:, 12],
-            seconds=table[:, 13],
+            start=table[:, 2:5].copy(),
+            end=table[:, 5:8].copy(),
+            centre=table[:, 8:10].copy(),
+            sweep=table[:, 10].copy(),
+            arc_error=table[:, 11].copy(),
+            feed=table[:, 12].copy(),
+            seconds=table[:, 13].copy(),
             state=_whole(table[:, 14]),
             states=tuple(self.states),
             remarks=tuple(self.remarks),

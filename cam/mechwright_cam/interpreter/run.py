@@ -29,8 +29,10 @@ class Kind(IntEnum):
     TOOL = 5
     """A tool change."""
     STOP = 6
-    """M0 or M1."""
+    """M0."""
     END = 7
+    MAYBE = 8
+    """M1: a stop if the operator has switched it on."""
 
 
 @dataclass(frozen=True, slots=True)

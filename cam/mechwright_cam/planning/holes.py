@@ -105,23 +105,23 @@ def drill_moves(
     peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
     bottom = rounded(-depth - point_length(drill))
     peck = None if peck is None else rounded(peck)
-    return _holes(places, bottom, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
+    holes = [(place, bottom) for place in places]
+    return _holes(holes, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
 
 
 def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
     """Spot holes for drills of the diameters given with the places."""
     speed = rates(spot, job.part.material, job.settings.machine)
-    moves: list[Move] = []
+    holes = []
     for place, diameter in places:
         wide = min(SPOT * diameter, spot.diameter)
         depth = wide / 2 / math.tan(math.radians(spot.point_angle) / 2)
-        moves.extend(_holes([place], rounded(-depth), speed.feed, clearance, None, dwell=0.2))
-    return tuple(moves)
+        holes.append((place, rounded(-depth)))
+    return _holes(holes, speed.feed, clearance, None, dwell=0.2)
 
 
 def _holes(
-    places: list[Point],
-    bottom: float,
+    holes: list[tuple[Point, float]],
     feed: float,
     clearance: float,
     peck: float | None,
@@ -129,14 +129,14 @@ def _holes(
     *,
     breaking: bool = False,
 ) -> tuple[Move, ...]:
+    """Holes, each with its bottom, one right after the other, so that holes alike share one cycle."""
     moves: list[Move] = []
-    for x, y in ((rounded(x), rounded(y)) for x, y in places):
-        moves += [
-            Rapid(x=x, y=y),
-            Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking),
-            Rapid(z=clearance),
-        ]
-    return tuple(moves)
+    for place, bottom in holes:
+        x, y = rounded(place[0]), rounded(place[1])
+        if not moves:
+            moves.append(Rapid(x=x, y=y))
+        moves.append(Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking))
+    return (*moves, Rapid(z=clearance))
 
 
 def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:

@@ -33,6 +33,8 @@ def notes(job: Job, drills: Sequence[Tool]) -> tuple[str, ...]:
         f"stock {x1 - x0:.2f} x {y1 - y0:.2f} x {job.thickness:g} mm, from X{x0:.3f} Y{y0:.3f}",
         f"origin: {where[job.settings.origin]}, Z0 on top of the stock",
     ]
+    if job.side == "underside":
+        lines.append(f"the underside: the plate is turned over about {job.settings.second_side.flip.upper()}")
     lines += [
         f"{f.name}: Ø{f.fit.text}, made to {f.diameter:g}"
         for f in job.features

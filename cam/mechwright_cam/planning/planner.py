@@ -220,7 +220,7 @@ class _Planner:
         finest = zones[0].finisher
         zones[0].rough_keep(allowance)  # what the layers share, before they ask for it at once
         for zone in zones:
-            for written in self._cleared(zone, self._clearing_mill(zone, mills)):
+            for written in self._cleared(zone, mills):
                 after = self._step(*written, after)
         for mill in [m for m in mills if m.diameter > finest.diameter]:
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
@@ -237,7 +237,7 @@ class _Planner:
         """Rough a recess to just above its floor, finish the floor, then the wall from top to bottom."""
         finest, allowance = zone.finisher, self.job.settings.stock_to_leave
         rough, floor = layers(zone, leave)
-        cuts = self._cleared(rough, self._clearing_mill(rough, zone.mills))
+        cuts = self._cleared(rough, zone.mills)
         cleared = [mill for _, mill, _ in cuts]
         for mill in [m for m in zone.mills if m.diameter > finest.diameter]:
             cut = self._roughing(rough, mill, allowance)
@@ -286,11 +286,12 @@ class _Planner:
             zone.begun = True
         return f"{zone.name}: {what}", mill, moves
 
-    def _cleared(self, zone: Zone, mill: Tool) -> list[Cut]:
+    def _cleared(self, zone: Zone, mills: list[Tool]) -> list[Cut]:
         """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
         settings = self.job.settings
         if settings.clearing != "adaptive" or zone.kind == "outside":
             return []
+        mill = self._clearing_mill(zone, mills)
         from mechwright_cam.planning import adaptive
 
         area = shapely.difference(zone.clear, zone.rough_keep(max(settings.stock_to_leave, COARSE_FROM)))

@@ -255,6 +255,7 @@ class GcodePost(Post):
     def _begin(self, out: Writer, section: ToolSection, first: Move) -> None:
         """Spindle, place, length offset and coolant, in that order."""
         assert isinstance(first, Rapid)  # noqa: S101 - the caller has seen to it
+        out.resumed = None
         offset = out.program.work_offset
         if " " in offset:  # its P must not be taken for another word's
             out.line(offset)
@@ -307,6 +308,9 @@ class GcodePost(Post):
         upward = move.z is not None and not math.isnan(out.z) and move.z > out.z
         flat, upright = (move.x, move.y, None), (None, None, move.z)
         for axes in (upright, flat) if upward else (flat, upright):
+            if move.z is not None and axes is upright and out.resumed is not None:
+                section, out.resumed = out.resumed, None
+                self.length_offset(out, section, max(move.z, out.program.clearance))
             words = out.axis_words(*axes, rapid=True)
             if words:
                 out.line(out.motion_word("G0"), *words)
@@ -345,6 +349,8 @@ class GcodePost(Post):
         out.motion = out.feed = ""  # whoever goes on from here finds both stated
         self._start_spindle(out, section)
         out.line(COOLANT[section.coolant])
+        # G28 ends G43 on some machines, and so may what the operator does at the stop.
+        out.resumed = section
 
     def _start_spindle(self, out: Writer, section: ToolSection, *words: str) -> None:
         out.line(*words, "S" + number(section.spindle, 0), "M3")

@@ -2,7 +2,7 @@
 
 import math
 
-from mechwright.program import Program
+from mechwright.program import Program, ToolSection
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.posts.text import NOISE, floored, number, rounded
 
@@ -37,6 +37,7 @@ class Writer:
         self.motion = ""
         self.feed = ""
         self.tool = 0
+        self.resumed: ToolSection | None = None
         self.cycle: tuple[str, ...] = ()
 
     def line(self, *words: str) -> None:

@@ -263,7 +263,8 @@ def clamp(scene: Scene) -> Check:
     run, held, paths = scene.run, scene.job.clamp, scene.paths
     if held is None:
         return Check("clamp", True, "there is no clamp in the way")
-    stops = np.flatnonzero(run.kind == Kind.STOP)
+    # A stop right after a T word is for that tool, where tools are changed by hand.
+    stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
     # Without a stop it can only have been there from the start.
     pieces = paths.below(held.top - NEAR, steps=paths.steps[paths.steps > (stops[0] if stops.size else -1)])
     # No path leads further than its length.

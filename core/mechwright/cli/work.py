@@ -1,6 +1,7 @@
 """The commands that work on a design file."""
 
 import json
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -9,8 +10,9 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
+from mechwright.cli.solids import SolidWork, collisions
 from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
-from mechwright.errors import DesignError, PluginError, ProgramError
+from mechwright.errors import DesignError, MechwrightError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
 from mechwright.findings import Finding, Severity, errors
 from mechwright.host import Host, host
@@ -23,9 +25,14 @@ PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
 """Bytes: surfacing programs are long, but not longer than this."""
 
 
-def _open(path: Path) -> tuple[Design, Host]:
+def _host() -> Host:
     found = host()
     warn_broken(found)
+    return found
+
+
+def _open(path: Path) -> tuple[Design, Host]:
+    found = _host()
     return load(path, found), found
 
 
@@ -41,15 +48,9 @@ def _findings(design: Design, found: Host) -> list[Finding]:
     if not errors(findings):
         from mechwright_cam import pipeline
 
-        findings += _interference(design, solids=False)
+        findings += collisions(design, solids=False)
         findings += pipeline.check(design, found)
     return findings
-
-
-def _interference(design: Design, *, solids: bool) -> list[Finding]:
-    from mechwright_cam.interference import interference_findings
-
-    return interference_findings(design.family, design.params, solids=solids)
 
 
 def check(path: Path, as_json: bool) -> None:
@@ -83,16 +84,23 @@ def write(
     at: str = "",
 ) -> None:
     """Run ``solve``, ``model``, ``cam`` or ``build`` and write its files."""
-    design, found = _open(path)
+    found = _host()
     exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
     check_folder(folder)
     output = Output()
-    with progress({"build": 6, "solve": 3}.get(command, 4)) as step:
+    with ExitStack() as stack:
+        step = stack.enter_context(progress({"build": 6, "solve": 3}.get(command, 4)))
+        work = None
+        if command in {"model", "build"}:
+            work = SolidWork([found.exporter("step"), *exporters], beside=command == "build")
+            stack.enter_context(work)
         step("checking")
+        design = load(path, found)
         findings = list(design.family.check(design.params))
         if errors(findings):
             _refuse(findings, path)
-        pose = _pose(design, at) if command in {"model", "build"} else None
+        if work is not None:
+            work.begin(design, *_pose(design, at))
         if command in {"solve", "build"}:
             from mechwright.motion_files import motion_csv, summary_json
 
@@ -100,17 +108,28 @@ def write(
             motion = design.family.solve(design.params, samples)
             output.add("motion.csv", motion_csv(motion))
             output.add("summary.json", summary_json(motion))
-        if command != "solve":
+
+        def compare() -> None:
             step("interference")
-            met = _interference(design, solids=command != "cam")
-            findings += met
+            met = collisions(design, solids=False) if work is None else work.collisions()
+            findings.extend(met)
             if errors(met):
                 _refuse(met, path)
-        if command in {"cam", "build"}:
-            from mechwright_cam import pipeline
 
+        # What a second process compares is asked for last; a collision is told first all the same.
+        late = work is not None and work.beside
+        if command != "solve" and not late:
+            compare()
+        if command in {"cam", "build"}:
             step("drawings and programs")
-            made = pipeline.write_programs(design, found, output, curves)
+            try:
+                made = _programs(design, found, output, curves)
+            except MechwrightError:
+                if late:
+                    compare()
+                raise
+            if late:
+                compare()
             findings += made
             if errors(made):
                 _refuse(made, path)
@@ -119,15 +138,22 @@ def write(
                     f"{path}: family {design.family.name} makes no plate part, so there is nothing to mill; "
                     "use mechwright model"
                 )
-        if pose is not None:
+        if work is not None:
             step("solids")
-            _write_solids(design, found, output, exporters, pose)
+            for name, content in work.files().items():
+                output.add(name, content)
         step("writing")
         write_folder(folder, output, command, _facts(design, found))
     for finding in findings:
         if finding.severity is Severity.WARNING:
             typer.echo(f"mechwright: {path}: {finding}", err=True)
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
+
+
+def _programs(design: Design, found: Host, output: Output, curves: str) -> list[Finding]:
+    from mechwright_cam import pipeline
+
+    return pipeline.write_programs(design, found, output, curves)
 
 
 def _more_formats(found: Host, also: str, written: set[str]) -> list[Exporter]:
@@ -138,20 +164,6 @@ def _more_formats(found: Host, also: str, written: set[str]) -> list[Exporter]:
     except PluginError as error:
         raise PluginError(f"--also: {error}") from error
     return [exporter for name, exporter in exporters.items() if name not in written]
-
-
-def _write_solids(
-    design: Design, found: Host, output: Output, more: list[Exporter], pose: "tuple[Motion, int]"
-) -> None:
-    parts = design.family.parts(design.params)
-    motion, sample = pose
-    for exporter in [found.exporter("step"), *more]:
-        for part in parts:
-            output.add(part.name + exporter.suffix, exporter.part(part))
-        placed = any(part.instances for part in parts)
-        assembly = exporter.assembly(design.name, parts, motion, sample) if placed else None
-        if assembly is not None:
-            output.add("assembly" + exporter.suffix, assembly)
 
 
 def _pose(design: Design, at: str) -> "tuple[Motion, int]":

@@ -1,0 +1,267 @@
+"""One small part for each operation, and its program for each control: ``python tests/cam/golden_operations.py``
+writes ``tests/golden/operations/OPERATION/CONTROL.nc`` anew, or those of the operations named after it.
+
+Every text has been read line by line as a machinist would before it was kept; read it again when it changes.
+"""
+
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from planning_parts import LIBRARY, rounded_box
+
+from mechwright.details import Chamfer, Detail, Engraving, Thread
+from mechwright.findings import errors
+from mechwright.geometry import Loop, Outline, circle
+from mechwright.host import host
+from mechwright.lettering import lettering
+from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.tooling import CamSettings
+from mechwright_cam.pipeline import Machined, _after, machine
+from mechwright_cam.setups import lay_out_setups
+
+FOLDER = Path(__file__).parents[1] / "golden" / "operations"
+CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
+
+WIDE, HIGH = 40.0, 30.0
+PLATE = rounded_box(WIDE, HIGH, 5)
+SHARP = Loop.polygon(
+    [(-WIDE / 2, -HIGH / 2), (WIDE / 2, -HIGH / 2), (WIDE / 2, HIGH / 2), (-WIDE / 2, HIGH / 2)]
+)
+BORED = {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A part, its cutters, the settings that bring the operation about, and the operations expected."""
+
+    features: tuple[Feature, ...]
+    tools: tuple[str, ...]
+    expected: tuple[str, ...]
+    thickness: float = 4.0
+    settings: Mapping[str, object] = field(default_factory=dict)
+    details: tuple[Detail, ...] = ()
+    material: str = "aluminium"
+    says: str = ""
+    """What the text has to hold on LinuxCNC, beside the names of the operations: the mark of the operation."""
+
+    def part(self, name: str) -> Part:
+        """The plate; what goes through it is in its outline."""
+        through = [f for f in self.features if f.top == 0 and f.depth == self.thickness]
+        inner = [
+            Loop((circle(f.centre, f.diameter / 2, clockwise=True),)) for f in through if isinstance(f, Bore)
+        ]
+        inner += [f.loop.reversed() for f in through if isinstance(f, Profile) and f.side == "inside"]
+        rim = PLATE if any(isinstance(f, Profile) and f.side == "outside" for f in self.features) else SHARP
+        outline = Outline(rim, tuple(inner))
+        return Part(
+            name, outline, self.thickness, self.material, machined=self.features, details=self.details
+        )
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> Loop:
+    return Loop.polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+
+
+def hole(name: str, x: float, y: float, diameter: float, depth: float, top: float = 0.0) -> Bore:
+    return Bore(name, (x, y), diameter, top, depth)
+
+
+FLUSH = {"stock": {"margin": 0}}
+"""The plate is as large as its stock: nothing but the feature is cut."""
+
+CORE = Thread("m6", (0.0, 0.0), 6.0, 1.0, 5.0).core
+
+CASES: dict[str, Case] = {
+    "face": Case(
+        (Pocket("face", box(-30, -25, 30, 25), (), 0, 0.5),), ("mill-16",), ("face: face",), settings=FLUSH
+    ),
+    "profile-outside": Case(
+        (hole("bore", 0, 0, 12, 4), Profile("outside", PLATE, "outside", 0, 4)),
+        ("mill-8",),
+        ("bore: bore", "bore: finish", "clamp", "outside: rough", "outside: finish"),
+        settings={"hold": BORED},
+        says="clamp the part",
+    ),
+    "profile-inside": Case(
+        (Profile("window", rounded_box(24, 16, 5), "inside", 0, 4),),
+        ("mill-8",),
+        ("window: rough", "window: finish"),
+        settings=FLUSH,
+    ),
+    "pocket-contour": Case(
+        (Pocket("recess", rounded_box(28, 20, 5), (), 0, 2),),
+        ("mill-8",),
+        ("recess: rough", "recess: finish"),
+        settings=FLUSH,
+    ),
+    "pocket-island": Case(
+        (Pocket("recess", rounded_box(34, 24, 5), (Loop((circle((0, 0), 4.0),)),), 0, 1),),
+        ("mill-6",),
+        ("recess: rough", "recess: finish"),
+        settings=FLUSH,
+    ),
+    "pocket-adaptive": Case(
+        (Pocket("recess", Loop((circle((0, 0), 9.0),)), (), 0, 3),),
+        ("mill-8",),
+        ("recess: clear", "recess: rough the rest", "recess: finish"),
+        settings={**FLUSH, "clearing": "adaptive", "engagement": 90},
+    ),
+    "slot": Case(
+        (Pocket("slot", rounded_box(30, 8.0, 4.0), (), 0, 2),),
+        ("mill-6",),
+        ("slot: rough", "slot: finish"),
+        settings=FLUSH,
+    ),
+    "groove": Case(
+        (Pocket("groove", box(-30, -5, 30, 5), (), 0, 2),),
+        ("mill-6",),
+        ("groove: rough", "groove: finish"),
+        settings=FLUSH,
+    ),
+    "rest": Case(
+        (Pocket("recess", rounded_box(26, 18, 2.5), (), 0, 2),),
+        ("mill-12", "mill-4"),
+        ("recess: rough", "recess: rough the rest", "recess: finish"),
+        settings=FLUSH,
+    ),
+    "spot": Case(
+        (hole("one", -10, 5, 5, 4), hole("two", 10, -5, 5, 4)),
+        ("spot-6", "drill-5", "mill-8"),
+        ("spot drill", "drill 5"),
+        settings=FLUSH,
+        says="G82",
+    ),
+    "drill": Case(
+        (hole("one", -10, 5, 5, 4), hole("two", 10, -5, 5, 4), hole("three", 10, 8, 8, 4)),
+        ("drill-5", "drill-8", "mill-8"),
+        ("drill 5", "drill 8"),
+        settings=FLUSH,
+        says="G81",
+    ),
+    "chip-break": Case(
+        (hole("one", -10, 5, 5, 18), hole("two", 10, -5, 5, 18)),
+        ("drill-5", "mill-8"),
+        ("drill 5",),
+        thickness=18,
+        settings=FLUSH,
+        says="G73",
+    ),
+    "peck": Case(
+        (hole("one", -10, 5, 3, 18), hole("two", 10, -5, 3, 18)),
+        ("drill-3", "mill-8"),
+        ("drill 3",),
+        thickness=18,
+        settings=FLUSH,
+        says="G83",
+    ),
+    "bore-helix": Case(
+        (hole("bore", 0, 0, 14, 4), hole("seat", 0, 0, 20, 2)),
+        ("mill-8",),
+        ("bore: bore", "bore: finish", "seat: bore", "seat: finish"),
+        settings=FLUSH,
+    ),
+    "thread": Case(
+        (hole("core", 0, 0, CORE, 4),),
+        ("mill-3", "thread-m6"),
+        ("core: bore", "core: finish", "m6: thread"),
+        settings=FLUSH,
+        details=(Thread("m6", (0.0, 0.0), 6.0, 1.0, 3.0),),
+    ),
+    "chamfer": Case(
+        (Profile("window", rounded_box(20, 14, 5), "inside", 0, 3),),
+        ("mill-8", "chamfer-6"),
+        ("window: rough", "window: finish", "edge: chamfer"),
+        thickness=3,
+        settings=FLUSH,
+        details=(Chamfer("edge", rounded_box(20, 14, 5), "inside", 0.4),),
+    ),
+    "engrave": Case(
+        (hole("pin", -14, 0, 5, 4),),
+        ("drill-5", "engrave-3", "mill-8"),
+        ("drill 5", "number: engrave"),
+        settings=FLUSH,
+        details=(Engraving("number", lettering("MW-25", 5.0, (2.0, 0.0)), 0.2),),
+    ),
+    "ramp": Case(
+        (Pocket("keyway", rounded_box(24, 6.0, 3.0), (), 0, 1.5),),
+        ("mill-5",),
+        ("keyway: rough", "keyway: finish"),
+        settings={**FLUSH, "ramp_angle": 2},
+    ),
+    "helix": Case(
+        (Pocket("seat", Loop((circle((0, 0), 8.0),)), (), 0, 2),),
+        ("mill-8",),
+        ("seat: rough", "seat: finish"),
+        settings={**FLUSH, "ramp_angle": 5},
+    ),
+    "tabs": Case(
+        (Profile("outside", PLATE, "outside", 0, 3),),
+        ("mill-8",),
+        (
+            "outside: rough",
+            "outside: finish",
+            "outside below the tabs: rough",
+            "outside below the tabs: finish",
+        ),
+        thickness=3,
+        settings={"hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},
+    ),
+    "conventional": Case(
+        (Pocket("recess", rounded_box(24, 16, 5), (), 0, 2),),
+        ("mill-8",),
+        ("recess: rough", "recess: finish"),
+        settings={**FLUSH, "climb": False, "spring_passes": 0, "stock_to_leave": 0.5},
+    ),
+    "second-side": Case(
+        (hole("bore", 0, 0, 10, 6), hole("counterbore", 0, 0, 16, 3, top=3)),
+        ("mill-6",),
+        ("bore: bore", "bore: finish", "counterbore: bore", "counterbore: finish"),
+        thickness=6,
+        settings=FLUSH,
+        says="G55",
+    ),
+}
+"""Operation to its case. Every one is as small as shows the operation in both of its passes."""
+
+
+@cache
+def made(operation: str, control: str) -> tuple[Machined, ...]:
+    """The proven programs of an operation's part: one, or two where it has a second side."""
+    case, post = CASES[operation], host().post(control)
+    cam = CamSettings.model_validate({"control": control, "tools": case.tools, **case.settings})
+    jobs, found = lay_out_setups(case.part(operation), cam, LIBRARY)
+    if errors(found):
+        raise AssertionError(f"{operation}: {errors(found)[0]}")
+    done: list[Machined] = []
+    for place, job in enumerate(jobs):
+        done.append(machine(job if job.side == "top" else _after(done[-1], job, post), post, place))
+    return tuple(done)
+
+
+def texts(operation: str) -> dict[str, str]:
+    """File name to text of an operation's programs on all controls."""
+    kept = {}
+    for control in CONTROLS:
+        for place, one in enumerate(made(operation, control)):
+            kept[f"{control}{'-underside' if place else ''}.nc"] = one.text
+    return kept
+
+
+def keep(operation: str) -> None:
+    """Write the kept texts of an operation, and take away those that nothing writes."""
+    here = FOLDER / operation
+    here.mkdir(parents=True, exist_ok=True)
+    written = texts(operation)
+    for old in here.glob("*.nc"):
+        if old.name not in written:
+            old.unlink()
+    for name, text in written.items():
+        (here / name).write_text(text, encoding="ascii")
+
+
+if __name__ == "__main__":
+    for operation in sys.argv[1:] or CASES:
+        keep(operation)

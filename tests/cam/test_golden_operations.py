@@ -1,0 +1,50 @@
+"""The kept program of every operation on every control: its text, its proof, and what other programs read in it."""
+
+import difflib
+
+import numpy as np
+import pytest
+from golden_operations import CASES, CONTROLS, FOLDER, made, texts
+from rs274 import needs_rs274, run_rs274
+from test_rs274 import LAST_DECIMAL, distinct, our_ends
+
+from mechwright.host import host
+from mechwright_cam.interpreter import interpret
+
+
+@pytest.mark.parametrize("operation", CASES)
+def test_the_text_is_as_it_was_reviewed(operation: str) -> None:
+    for name, text in texts(operation).items():
+        kept = (FOLDER / operation / name).read_text(encoding="ascii")
+        changed = "\n".join(difflib.unified_diff(kept.splitlines(), text.splitlines(), "kept", "now", n=1))
+        assert not changed, (
+            f"{operation}/{name}; read it, then: python tests/cam/golden_operations.py {operation}\n{changed}"
+        )
+
+
+def test_no_text_is_kept_that_nothing_writes() -> None:
+    kept = {f"{path.parent.name}/{path.name}" for path in FOLDER.glob("*/*")}
+    assert kept == {f"{operation}/{name}" for operation in CASES for name in texts(operation)}
+
+
+@pytest.mark.parametrize("operation", CASES)
+def test_the_part_shows_the_operation(operation: str) -> None:
+    case = CASES[operation]
+    one = made(operation, "linuxcnc")
+    named = [o.name for m in one for section in m.program.sections for o in section.operations]
+    assert tuple(named) == case.expected
+    assert case.says in "".join(m.text for m in one)
+    for control in CONTROLS:
+        assert all(m.proof.ok and m.proof.cutting_length_mm > 0 for m in made(operation, control))
+
+
+@needs_rs274
+@pytest.mark.parametrize("operation", CASES)
+def test_linuxcnc_reads_its_own(operation: str, tmp_path) -> None:
+    post = host().post("linuxcnc")
+    for one in made(operation, "linuxcnc"):
+        canon = run_rs274(one.text, tmp_path, post.tool_table(one.program.tools)[1])
+        assert canon.ok, canon.error
+        ours, theirs = distinct(our_ends(interpret(one.text))), distinct(canon.ends)
+        assert ours.shape == theirs.shape
+        np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)

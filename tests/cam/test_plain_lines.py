@@ -1,0 +1,198 @@
+"""Stretches of plain lines are run at once; line by line the same has to come out."""
+
+import math
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright.errors import ProgramError
+from mechwright_cam.interpreter import DIALECTS, Dialect, Kind, Run, interpret, stretch
+from mechwright_cam.interpreter.blocks import Block, read_block
+from mechwright_cam.interpreter.plain import LETTERS, PlainLines
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+PLAIN = re.compile(
+    " *" + "".join(rf"(?:{letter}(?P<{letter}>{NUMBER}) *)?" for letter in LETTERS), re.IGNORECASE
+)
+COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "arc_error", "feed", "seconds", "state")
+
+
+@contextmanager
+def stretches_from(lines: int) -> Iterator[None]:
+    """Run stretches at once from so many lines on."""
+    before = stretch.SHORTEST
+    stretch.SHORTEST = lines
+    try:
+        yield
+    finally:
+        stretch.SHORTEST = before
+
+
+def outcome(text: str, dialect: Dialect, lines: int) -> Run | str:
+    with stretches_from(lines):
+        try:
+            return interpret(text, dialect)
+        except ProgramError as error:
+            return str(error)
+
+
+def assert_alike(text: str, dialect: Dialect) -> None:
+    at_once, singly = outcome(text, dialect, 1), outcome(text, dialect, 10**9)
+    if isinstance(at_once, str) or isinstance(singly, str):
+        assert at_once == singly
+        return
+    for name in COLUMNS:
+        np.testing.assert_allclose(
+            getattr(at_once, name), getattr(singly, name), rtol=1e-12, atol=1e-12, err_msg=f"{name}\n{text}"
+        )
+    assert at_once.states == singly.states
+    assert at_once.remarks == singly.remarks
+    assert at_once.ended == singly.ended
+
+
+number = st.sampled_from(["0", "1", "-1", "2.5", "-.5", "+3.", "0.0", "10", "007.250", "0.3333"])
+tail = st.sampled_from(["", "", "", "", " ", "  ", " (then)", ";", "M8", "M9", "\t", "%"])
+
+
+@st.composite
+def lines(draw: st.DrawFn) -> str:
+    """A line that is plain, or nearly."""
+    letters = draw(
+        st.sampled_from(
+            ["", "X", "Y", "XY", "XYZ", "Z", "XIJ", "XYIJ", "XI", "YJ", "IJ", "XYZIJ", "F", "XYF", "XF", "R"]
+        )
+    )
+    words = [letter + draw(number) for letter in letters]
+    if draw(st.booleans()):
+        words.insert(
+            0,
+            draw(
+                st.sampled_from(
+                    ["G0", "G1", "G01", "G2", "G3", "G03", "G1.", "g1", "G90", "G91", "G81", "G4"]
+                )
+            ),
+        )
+    if draw(st.integers(0, 9)) == 0:
+        words.insert(0, f"N{draw(st.integers(1, 99))}")
+    return draw(st.sampled_from(["", " "])).join(words) + draw(tail)
+
+
+SAFE = "G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 X1 F200\n"
+arcs = st.sampled_from(["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0", "G3 X2 Y0 I1", "X0 Y0"])
+
+
+@settings(max_examples=200)
+@given(
+    st.sampled_from(["", SAFE]),
+    st.lists(st.one_of(lines(), arcs), max_size=14),
+    st.sampled_from(sorted(DIALECTS)),
+)
+def test_a_stretch_runs_as_its_lines_do(head: str, body: list[str], control: str) -> None:
+    assert_alike(head + "\n".join(body), DIALECTS[control])
+
+
+steps = st.integers(-3000, 3000).map(lambda number: number / 1000)
+
+
+@settings(max_examples=60)
+@given(st.lists(st.tuples(st.sampled_from([0, 1, 2, 3]), steps, steps, steps), min_size=1, max_size=40))
+def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, float]]) -> None:
+    """Arcs to the other side of their centre are right however the tool got to where they start."""
+    out, x, y = ["G21 G17 G90 G40", "G0 X0.0 Y0.0 Z1.0", "G1 Z0.0 F100.0"], 0.0, 0.0
+    for motion, i, j, z in moves:
+        if motion >= 2:
+            i, j = (i, j) if i or j else (1.0, 0.0)
+            x, y = x + 2 * i, y + 2 * j
+            out.append(f"G{motion} X{x:.4f} Y{y:.4f} Z{z:.4f} I{i:.4f} J{j:.4f}")
+        else:
+            x, y = x + i, y + j
+            out.append(f"G{motion} X{x:.4f} Y{y:.4f}")
+    for control in ("linuxcnc", "fanuc"):
+        assert_alike("\n".join([*out, "M30"]), DIALECTS[control])
+
+
+@given(st.lists(st.text("NGXYZIJFgxK0123456789.+- \t(%", max_size=9), max_size=5))
+def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
+    read = PlainLines("\n".join(texts), DIALECTS["linuxcnc"])
+    for index, text in enumerate(texts):
+        match = PLAIN.fullmatch(text)
+        words = {} if match is None else {k: float(v) for k, v in match.groupdict().items() if v is not None}
+        plain = match is not None and words.get("G", 0) in {0, 1, 2, 3} and not words.get("F", 0) < 0
+        assert bool(read.plain[index]) == plain, text
+        for row, letter in enumerate(LETTERS):
+            expected = words.get(letter, math.nan) if plain else math.nan
+            np.testing.assert_equal(read.words[row, index], expected)
+
+
+def test_a_point_that_the_control_wants_makes_a_line_plain() -> None:
+    text = "X1.Y2.5\nX1\nX0Y1.\nX1.F100"
+    assert PlainLines(text, DIALECTS["fanuc"]).plain.tolist() == [True, False, True, True]
+    assert PlainLines(text, DIALECTS["linuxcnc"]).plain.all()
+
+
+def test_a_line_too_long_for_the_control_is_not_plain() -> None:
+    text = "G1 X" + "0" * 80 + "1"
+    assert not PlainLines(text, DIALECTS["grbl"]).plain[0]
+    assert PlainLines(text, DIALECTS["linuxcnc"]).plain[0]
+
+
+STRAIGHT = "".join(f"X{k}.\n" for k in range(1, 40))
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("G2 X5 Y5 I1 J0", r"line 43: the arc ends .* refuses it"),
+        ("G2 X39 Y1 I0 J0", "line 43: an arc of radius 0"),
+        ("G3 X5 Y5", "line 43: an arc without a centre"),
+        ("X5 F0", "line 43: a feed move without a feed"),
+        ("X5 F-1", "line 43: F is below 0"),
+        ("X5 I1", "line 43: I means nothing in this line"),
+        ("X1.2.3", "line 43: '.' starts no word"),
+        ("X200000", "line 43: a coordinate or an arc's centre is beyond"),
+    ],
+)
+def test_an_error_in_a_stretch_names_its_line(line: str, message: str) -> None:
+    with pytest.raises(ProgramError, match=message):
+        interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}{line}\n{STRAIGHT}M2\n")
+
+
+def test_a_number_beyond_all_numbers_is_an_error_and_no_warning() -> None:
+    huge = "9" * 200 + "." + "9"
+    with pytest.raises(ProgramError, match="line 44"):
+        interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}Y{huge}\nG2 X0 Y0 I{huge} J1\nM2\n")
+
+
+def test_a_stretch_in_a_loop_is_run_every_time() -> None:
+    body = "".join(f"G1 X{k % 2} Y0\n" for k in range(20))
+    text = f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nF100\nO1 repeat [3]\n{body}G1 X[1+1]\nO1 endrepeat\nM2\n"
+    with stretches_from(1):
+        run = interpret(text)
+    assert int((run.kind == Kind.FEED).sum()) == 63
+    assert run.line[1:22].tolist() == list(range(5, 26)) == run.line[22:43].tolist()
+    assert_alike(text, DIALECTS["linuxcnc"])
+
+
+def test_lines_of_a_loop_count_however_they_are_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mechwright_cam.interpreter.macros.MOST_LINES", 500)
+    body = "".join(f"X{k % 2}\n" for k in range(100))
+    with stretches_from(1), pytest.raises(ProgramError, match="more than 500 lines are run"):
+        interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nO1 while [1]\n{body}O1 endwhile\nM2\n")
+
+
+def test_most_lines_of_a_program_are_run_in_stretches(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The quick way is taken at all; else every test here would hold for want of it."""
+    read: list[int] = []
+
+    def counted(line: int, text: str, dialect: Dialect) -> Block:
+        read.append(line)
+        return read_block(line, text, dialect)
+
+    monkeypatch.setattr("mechwright_cam.interpreter.read.read_block", counted)
+    interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}(again)\n{STRAIGHT}M2\n")
+    assert read == [1, 2, 3, 43, 83]

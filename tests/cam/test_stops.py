@@ -1,0 +1,60 @@
+"""Stops: which of them sets the clamp, and what a program may rely on after one."""
+
+from dataclasses import replace
+
+import pytest
+from golden_operations import CONTROLS, made
+from planning_parts import bore, job, plate
+
+from mechwright.host import host
+from mechwright.tooling import Posting
+from mechwright_cam.interpreter import DIALECTS, Kind, interpret
+from mechwright_cam.pipeline import machine
+from mechwright_cam.proof import prove
+
+HELD = {"hold": {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}}
+
+
+def failed(text: str, control: str) -> set[str]:
+    (one,) = made("profile-outside", control)
+    return {check.name for check in prove(text, one.job, DIALECTS[control]).failures}
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_without_its_stop_the_clamp_was_there_from_the_start(control: str) -> None:
+    (one,) = made("profile-outside", control)
+    lines = one.text.splitlines()
+    last = max(number for number, line in enumerate(lines) if line == "M0")
+    assert failed("\n".join([*lines[:last], *lines[last + 1 :], ""]), control) == {"clamp"}
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_an_optional_stop_sets_no_clamp(control: str) -> None:
+    settings = {"control": control, "post": Posting(optional_stops=True), **HELD}
+    of = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
+    made_of = machine(of, host().post(control))
+    assert made_of.text.count("\nM1\n") == 2
+    plain = made_of.text.replace("\nM0\n(", "\n(").replace("\nM0\nS", "\nS")
+    kinds = interpret(made_of.text, DIALECTS[control]).kind
+    assert list(kinds).count(Kind.MAYBE) == 2
+    assert "clamp" in {check.name for check in prove(plain, of, DIALECTS[control]).failures}
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_the_length_offset_is_stated_anew_after_a_stop(control: str) -> None:
+    (one,) = made("profile-outside", control)
+    head, after = one.text.rsplit("\nM0\n", 1)
+    word = "G49\n" if control == "grbl" else "G43 H23 "
+    assert after.count(word) == 1
+    # Where the way to the top is a G28, G43 may be gone; a G53 leaves it in force.
+    expected = {"length-offset"} if control == "fanuc" else set()
+    assert failed(f"{head}\nM0\n{after.replace(word, '')}", control) == expected
+
+
+def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> None:
+    text = "G21 G90 G17\nT1 M6\nG54 S1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\nG91 G28 Z0.\nG90\nG0 X3.\nM30\n"
+    for control, dialect in DIALECTS.items():
+        if control == "grbl":
+            continue
+        run = interpret(text, replace(dialect, percent=True))
+        assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)

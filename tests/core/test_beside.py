@@ -1,0 +1,122 @@
+"""Work in a second interpreter: what it gives, and that nothing is lost where it fails."""
+
+import os
+import sys
+import time
+
+import pytest
+
+from mechwright.cli.beside import Beside, cores
+from mechwright.cli.solids import SolidWork, compared_and_made
+from mechwright.design import load
+from mechwright.host import host
+from mechwright.output import Exporter
+
+HERE = os.getpid()
+
+
+def test_a_call_runs_in_another_process_that_has_the_modules_already():
+    with Beside(["colorsys", "no_such_module"]) as second:
+        second.ask(eval, "__import__('os').getpid(), 'colorsys' in __import__('sys').modules")
+        process, imported = second.result(tuple)
+    assert process != HERE
+    assert imported
+
+
+WHERE = "__import__('os').getpid()"
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        f"{HERE} if {WHERE} == {HERE} else __import__('os')._exit(3)",
+        f"{HERE} // ({WHERE} == {HERE})",
+        f"{HERE} if {WHERE} == {HERE} else 'another type'",
+        f"{HERE} if {WHERE} == {HERE} else __import__('threading').Lock()",  # no copy of it
+    ],
+)
+def test_what_goes_wrong_there_is_done_here(fault):
+    with Beside([]) as second:
+        second.ask(eval, fault)
+        assert second.result(int) == HERE
+
+
+def test_an_error_is_told_as_if_there_were_no_second_process():
+    with Beside([]) as second:
+        second.ask(int, "twelve")
+        with pytest.raises(ValueError, match="twelve"):
+            second.result(int)
+
+
+def test_what_cannot_be_copied_is_done_here():
+    with Beside([]) as second:
+        second.ask(lambda: os.getpid())
+        assert second.result(int) == HERE
+
+
+@pytest.mark.parametrize("executable", ["", "/nowhere/python"])
+def test_where_no_process_can_be_started_all_is_done_here(executable, monkeypatch):
+    monkeypatch.setattr(sys, "executable", executable)
+    with Beside([]) as second:
+        second.ask(os.getpid)
+        assert second.result(int) == HERE
+
+
+def test_the_second_interpreter_ends_with_its_caller_and_at_once():
+    start = time.perf_counter()
+    with Beside([]) as second:
+        second.ask(time.sleep, 60)
+        process = second._process
+    assert process.returncode is not None
+    assert time.perf_counter() - start < 30
+    orphan = Beside([])
+    orphan.ask(time.sleep, 60)
+    orphan._process.stdin.close()  # as when the caller dies
+    assert orphan._process.wait(30) == 1
+    orphan.close()
+
+
+class Heavy(Exporter):
+    name, suffix = "heavy", ".hvy"
+    modules = ("a_module_that_is_not_imported",)
+
+    def part(self, part):
+        return b""
+
+
+class Light(Heavy):
+    modules = ("os",)
+
+
+def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch):
+    assert cores() >= 1
+    for exporter, count, wanted, begun in (
+        (Heavy, 2, True, True),
+        (Heavy, 1, True, False),
+        (Heavy, 2, False, False),
+        (Light, 2, True, False),
+    ):
+        monkeypatch.setattr("mechwright.cli.solids.cores", lambda count=count: count)
+        with SolidWork([exporter()], beside=wanted) as work:
+            assert work.beside is begun
+
+
+def test_a_second_process_compares_and_writes_the_same(tmp_path):
+    (tmp_path / "pair.toml").write_text(
+        'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\nmodule = 2\n'
+        "bore = 8\neccentricity = 0.1\n"
+    )
+    found = host()
+    design = load(tmp_path / "pair.toml", found)
+    exporters = [found.exporter(name) for name in ("step", "stl")]
+    motion = design.family.solve(design.params, 2)
+    with Beside([]) as second:
+        second.ask(compared_and_made, design, exporters, motion, 1)
+        findings, files = second.result(tuple)
+    with SolidWork(exporters, beside=False) as work:
+        work.begin(design, motion, 1)
+        assert not work.beside
+        assert files.keys() == {"gear.step", "gear.stl", "assembly.step"}
+        assert work.files() == files
+        assert [f.code for f in findings] == ["interference.clear"]
+        assert work.collisions() == findings

@@ -1,0 +1,57 @@
+(program second-side-underside, LinuxCNC)
+(part second-side-underside, aluminium, 6 mm thick)
+(stock 40.00 x 30.00 x 6 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(the underside: the plate is turned over about X)
+(origin G55, Z0 on top of the stock, units mm and mm/min)
+(T24 H24 D 6 mm: mill-6, end mill)
+G17 G21 G40 G49 G80 G90 G94
+G64 P0.002
+G53 G0 Z0
+(operation: counterbore: bore)
+T24 M6
+G55 S11671 M3
+G0 X2.4 Y0
+G43 H24 Z5
+M8
+Z1
+G1 Z0 F1470
+G3 X-2.4 Y0 Z-0.375 I-2.4 J0 F653
+X2.4 Y0 Z-0.75 I2.4 J0
+X-2.4 Y0 Z-1.125 I-2.4 J0
+X2.4 Y0 Z-1.5 I2.4 J0
+X-2.4 Y0 Z-1.875 I-2.4 J0
+X2.4 Y0 Z-2.25 I2.4 J0
+X-2.4 Y0 Z-2.625 I-2.4 J0
+X2.4 Y0 Z-3 I2.4 J0
+X-2.4 Y0 I-2.4 J0
+X2.4 Y0 I2.4 J0
+G1 X0 F1470
+G0 Z5
+X4.8
+Z1
+G1 Z0
+G3 X-4.8 Y0 Z-0.75 I-4.8 J0 F735
+X4.8 Y0 Z-1.5 I4.8 J0
+X-4.8 Y0 Z-2.25 I-4.8 J0
+X4.8 Y0 Z-3 I4.8 J0
+X-4.8 Y0 I-4.8 J0 F905
+X4.8 Y0 I4.8 J0
+G1 X0 F1470
+G0 Z5
+(operation: counterbore: finish)
+Z1
+G1 Z-3
+G3 X4.9994 Y0 I2.4997 J0 F919
+X-4.9994 Y0 I-4.9994 J0
+X4.9994 Y0 I4.9994 J0
+X0 Y0 I-2.4997 J0
+X4.9994 Y0 I2.4997 J0
+X-4.9994 Y0 I-4.9994 J0
+X4.9994 Y0 I4.9994 J0
+X0 Y0 I-2.4997 J0
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

@@ -1,0 +1,59 @@
+(program second-side, LinuxCNC)
+(part second-side, aluminium, 6 mm thick)
+(stock 40.00 x 30.00 x 6 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T24 H24 D 6 mm: mill-6, end mill)
+G17 G21 G40 G49 G80 G90 G94
+G64 P0.002
+G53 G0 Z0
+(operation: bore: bore)
+T24 M6
+G54 S11671 M3
+G0 X1.8 Y0
+G43 H24 Z5
+M8
+Z1
+G1 Z0 F1470
+G3 X-1.8 Y0 Z-0.2863 I-1.8 J0 F551
+X1.8 Y0 Z-0.5727 I1.8 J0
+X-1.8 Y0 Z-0.8591 I-1.8 J0
+X1.8 Y0 Z-1.1455 I1.8 J0
+X-1.8 Y0 Z-1.4318 I-1.8 J0
+X1.8 Y0 Z-1.7182 I1.8 J0
+X-1.8 Y0 Z-2.0046 I-1.8 J0
+X1.8 Y0 Z-2.2909 I1.8 J0
+X-1.8 Y0 Z-2.5773 I-1.8 J0
+X1.8 Y0 Z-2.8636 I1.8 J0
+X-1.8 Y0 Z-3.15 I-1.8 J0
+X1.8 Y0 Z-3.4364 I1.8 J0
+X-1.8 Y0 Z-3.7228 I-1.8 J0
+X1.8 Y0 Z-4.0091 I1.8 J0
+X-1.8 Y0 Z-4.2955 I-1.8 J0
+X1.8 Y0 Z-4.5818 I1.8 J0
+X-1.8 Y0 Z-4.8681 I-1.8 J0
+X1.8 Y0 Z-5.1545 I1.8 J0
+X-1.8 Y0 Z-5.4409 I-1.8 J0
+X1.8 Y0 Z-5.7273 I1.8 J0
+X-1.8 Y0 Z-6.0137 I-1.8 J0
+X1.8 Y0 Z-6.3 I1.8 J0
+X-1.8 Y0 I-1.8 J0
+X1.8 Y0 I1.8 J0
+G1 X0 F1470
+G0 Z5
+(operation: bore: finish)
+Z1
+G1 Z-6.3
+G3 X1.9994 Y0 I0.9997 J0 F588
+X-1.9994 Y0 I-1.9994 J0
+X1.9994 Y0 I1.9994 J0
+X0 Y0 I-0.9997 J0
+X1.9994 Y0 I0.9997 J0
+X-1.9994 Y0 I-1.9994 J0
+X1.9994 Y0 I1.9994 J0
+X0 Y0 I-0.9997 J0
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30
