@@ -20,8 +20,8 @@ import shapely
 from mechwright.errors import DesignError
 from mechwright.findings import Finding, Severity, errors
 from mechwright.geometry import Loop, Outline
-from mechwright.geometry.mirror import turned_over, turned_point
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.geometry.mirror import turned_over, turned_point, turned_segment
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Hold, Stock, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
@@ -38,6 +38,10 @@ UNDERSIDE = "-underside"
 """What a part's name ends in for its second setup."""
 WALL = 3.0
 """Stock around a dowel hole, mm: it must not break out under the dowel."""
+
+
+MIRRORED: dict[str, Literal["left", "right", "on"]] = {"left": "right", "right": "left", "on": "on"}
+"""Side of a path to its side when the plate has been turned over."""
 
 
 def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
@@ -89,6 +93,9 @@ def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Featu
         case Profile():
             sites = tuple((turned_point(site, about), width) for site, width in feature.tab_sites)
             return replace(feature, loop=turned_over(feature.loop, about), top=top, tab_sites=sites)
+        case OpenProfile():
+            path = tuple(turned_segment(segment, about) for segment in feature.path)
+            return replace(feature, path=path, side=MIRRORED[feature.side], top=top)
         case Pocket():
             islands = tuple(turned_over(loop, about) for loop in feature.islands)
             return replace(feature, boundary=turned_over(feature.boundary, about), islands=islands, top=top)

@@ -9,7 +9,7 @@ import shapely
 from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore
+from mechwright.part import Bore, OpenProfile
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
@@ -33,6 +33,7 @@ from mechwright_cam.planning.notes import clamp_message, notes
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
+from mechwright_cam.planning.slot import slots, write_slot
 from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_walls
 from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
@@ -130,7 +131,7 @@ class _Planner:
     def _inner(self) -> frozenset[int]:
         job = self.job
         bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
-        zones = inner_zones(job)
+        zones = inner_zones(job, skip=slots(job))
         entries = {
             zone.name: self._entry(zone)
             for zone in zones
@@ -143,10 +144,11 @@ class _Planner:
         drilled = self._drilled(holes)
         after = drilled
         # What starts on the floor of a recess waits until all recesses above are cut.
-        for top in sorted({*(zone.top for zone in zones), *(-plan.bore.top for plan in bores)}, reverse=True):
+        for top in sorted({-feature.top for feature in job.features}, reverse=True):
             for plan in bores:
                 if -plan.bore.top == top:
                     self._bore(plan, after)
+            self._slots(top, after)
             for zone in zones:
                 if zone.top != top:
                     continue
@@ -171,6 +173,15 @@ class _Planner:
         depth = mill.cutting[self.job.part.material].step_down * mill.diameter
         leave = floor_allowance(self.job, zone.top, zone.bottom)
         self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth, leave))
+
+    def _slots(self, top: float, after: frozenset[int]) -> None:
+        """Grooves as wide as a mill that begin at this height."""
+        mills = slots(self.job)
+        for feature in self.job.features:
+            if isinstance(feature, OpenProfile) and feature.name in mills and -feature.top == top:
+                leave = floor_allowance(self.job, top, -feature.top - feature.depth)
+                write = partial(write_slot, self.job, feature, leave=leave)
+                self._milled(f"{feature.name}: slot", mills[feature.name], after, write)
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)

@@ -10,7 +10,7 @@ from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolE
 from mechwright.findings import Finding, Severity
 from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
-from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
@@ -31,6 +31,7 @@ from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.recess import recess
+from mechwright_cam.planning.slot import slot_mill, slots
 from mechwright_cam.planning.zone import (
     Zone,
     bores,
@@ -130,6 +131,10 @@ def _mills(every: Job) -> list[Tool]:
 
 def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     """The mill for an opening or a recess; none if the feature takes nothing, which planning will say."""
+    if isinstance(feature, OpenProfile):
+        mill = slot_mill(every, feature)
+        if mill is not None:
+            return [mill]
     bottom = bottom_of(every, feature.top, feature.depth)
     able = usable_mills(every, -bottom)
     shapes = recess(every, feature, able[0].diameter, bottom)
@@ -271,7 +276,7 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     zones: list[Zone] = []
     for bore in bores(job):
         _try(found, partial(plan_bore, job, bore))
-    _try(found, lambda: zones.extend(inner_zones(job)))
+    _try(found, lambda: zones.extend(inner_zones(job, skip=slots(job))))
     _try(found, lambda: zones.extend(outer_zones(job)))
     _try(found, partial(check_clamp, job))
     for detail in job.details:

@@ -13,6 +13,7 @@ room
 """
 
 import math
+from collections.abc import Container
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from typing import Literal
@@ -143,10 +144,12 @@ LEAST_SHARE = 0.02
 """A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
 
 
-def inner_zones(job: Job) -> list[Zone]:
-    """Openings that are not round, and pockets."""
+def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
+    """Openings that are not round, and pockets, but for those of some names."""
     zones = []
     for feature in job.features:
+        if feature.name in skip:
+            continue
         if not isinstance(feature, Pocket) and not (
             isinstance(feature, Profile) and feature.side == "inside"
         ):

@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.part import Profile
+from mechwright.part import OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
@@ -36,6 +36,8 @@ SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
 PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
 """A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
+ENTERED = 1e-4
+"""A groove so much wider than a cutter on either side lets it in, mm: what the chords of both may be off."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -112,13 +114,16 @@ def remains(paths: Paths, job: Job) -> Remains:
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
         groups = sweeps(paths, height, band.bottom)
         if id(band.keep) not in closings:
-            closings[id(band.keep)] = closing(band.keep, smallest)
+            entered = shapely.difference(band.keep, _grooves_of(smallest, job, band))
+            closings[id(band.keep)] = closing(entered, smallest)
         lowest[id(band.keep)] = band, groups  # of one cross-section the lowest band is swept least
         tabs = [tab.shape for tab in job.tabs if tab.top + TAB_SLACK >= band.top - NEAR]
         reached = closings[id(band.keep)]
         aside = None
         if tabs:
-            reached = closing(shapely.union_all([band.keep, *tabs]), smallest)
+            held = shapely.union_all([band.keep, *tabs])
+            entered = shapely.difference(held, _grooves_of(smallest, job, band))
+            reached = closing(entered, smallest)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in tabs])
         thick, place = _on_walls(reached, aside, job, groups, smallest)
@@ -130,6 +135,23 @@ def remains(paths: Paths, job: Job) -> Remains:
     ]
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
+
+
+def _grooves_of(reach: float, job: Job, band: Band) -> Shape:
+    """The grooves in a band made for a cutter that reaches so far, mm, so much wider that it enters them.
+
+    A cutter with the play of others would find no way into a groove of its own width. The stock on the
+    groove's walls is measured from walls that lie as much further out, and all the more is asked of it.
+    """
+    shapes = [shapely.Polygon()]
+    for feature in job.features:
+        inside = feature.top < -(band.top + band.bottom) / 2 < feature.top + feature.depth
+        if isinstance(feature, OpenProfile) and feature.side == "on" and inside:
+            lack = reach - feature.width / 2
+            if -ENTERED < lack <= PLAY + NEAR:
+                shapes.append(grow(floor_of(feature, job), lack + ENTERED))
+    wider: Shape = shapely.union_all(shapes)
+    return wider
 
 
 def _on_walls(
