@@ -23,12 +23,14 @@ from typing import Literal
 import shapely
 
 from mechwright.details import Detail, moved
-from mechwright.errors import DesignError, GeometryError
+from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Profile
 from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
+from mechwright_cam.plate import plate_box
 from mechwright_cam.tabs import Tab, lay_tabs
+from mechwright_cam.vice import Jaw, lay_jaws
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,8 @@ class Job:
         Bridges that hold the part; empty if a clamp does.
     clamp
         The bore clamp, if that holds the part.
+    jaws
+        The jaws of the vice, if that holds the part.
     side
         ``"underside"`` if the plate has been turned over.
     gone
@@ -75,6 +79,7 @@ class Job:
     stock: tuple[float, float, float, float]
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
+    jaws: tuple[Jaw, ...] = ()
     side: Literal["top", "underside"] = "top"
     gone: shapely.Geometry = field(default_factory=shapely.Polygon)
     pick_up: Point | None = None
@@ -124,22 +129,9 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
     DesignError
         The stock is too small, or the part has no bore to be held by.
     """
-    if part.outline is None:
-        raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    x0, y0, x1, y1 = part.outline.bounds
     widest = max((tool.diameter for tool in tools if tool.kind is ToolKind.END_MILL), default=0.0)
-    wanted = settings.stock
-    if wanted.length is not None and wanted.width is not None:
-        mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2
-    else:
-        # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
-        mx = my = widest + 3.0 if wanted.margin is None else wanted.margin
-    if min(mx, my) < 0:
-        raise DesignError(
-            f"cam.stock: the part {part.name} is {x1 - x0:.1f} x {y1 - y0:.1f} mm and does not fit into "
-            f"{wanted.length:g} x {wanted.width:g} mm; take a larger plate"
-        )
-    stock = (x0 - mx, y0 - my, x1 + mx, y1 + my)
+    # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
+    stock = plate_box(part, settings, widest + 3.0)
     origin = {
         "axis": (0.0, 0.0),
         "corner": (stock[0], stock[1]),
@@ -152,14 +144,22 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
         origin,
         (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
     )
+    if isinstance(part, Nest) and settings.hold.method != "tabs":
+        raise DesignError(
+            f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
+            'cannot be clamped one by one; use method = "tabs", or no cam.nest'
+        )
     if settings.hold.method == "bore":
-        if isinstance(part, Nest):
-            raise DesignError(
-                f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
-                'cannot be clamped one by one; use method = "tabs", or no cam.nest'
-            )
         return replace(placed, clamp=_clamp(placed))
-    return replace(placed, tabs=lay_tabs(placed, max(mx, my)))
+    if settings.hold.method == "vice":
+        return replace(placed, jaws=lay_jaws(placed, widest))
+    if settings.stock.finished:
+        raise DesignError(
+            f"cam.stock.finished: tabs hold part {part.name} in a frame, and there is none at a finished "
+            'edge; use hold.method = "vice" or "bore"'
+        )
+    x0, y0, _, _ = placed.target.bounds
+    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1])))
 
 
 def _clamp(job: Job) -> Clamp:

@@ -49,6 +49,10 @@ def tool_colours(program: Program) -> dict[int, str]:
     return {tool.number: COLOURS[i % len(COLOURS)] for i, tool in enumerate(program.tools)}
 
 
+JAW = 1.2
+"""So much of a vice's jaws is drawn, in heights of letters: up to the first dimension."""
+
+
 def plan_view(
     job: Job,
     program: Program | None = None,
@@ -160,12 +164,23 @@ def _holding(job: Job, frame: Frame) -> str:
             parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.35))
         parts.append(svg.element("path", d=level, fill="#e6a100", fill_opacity=0.75))
         parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
+    for jaw in job.jaws:
+        x0, y0, x1, y1 = shapely.intersection(jaw.shape, _around(job, JAW * frame.letters)).bounds
+        look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}
+        parts.append(svg.element("rect", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, **look))
+        parts.append(_tag((x0 + x1) / 2, (y0 + y1) / 2, "jaw", frame))
     if job.clamp is not None:
         x, y = job.clamp.centre
         circle = {"cx": x, "cy": -y, "r": job.clamp.diameter / 2}
         parts.append(svg.element("circle", **circle, fill="#e6a100", fill_opacity=0.45, stroke="#8a6100"))
         parts.append(_tag(x, y - job.clamp.diameter / 2 + frame.letters, "clamp", frame))
     return "".join(parts)
+
+
+def _around(job: Job, width: float) -> shapely.Polygon:
+    """The stock and so much around it."""
+    x0, y0, x1, y1 = job.stock
+    return shapely.box(x0 - width, y0 - width, x1 + width, y1 + width)
 
 
 def _outer_end(job: Job, tab: Tab) -> Point:

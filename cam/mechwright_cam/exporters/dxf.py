@@ -2,7 +2,7 @@
 
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
 ``OPENING`` all others, ``POCKET`` the edges of recesses as far as they lie on the plate, ``CENTRE`` the axes
-of the part and its bores, ``TEXT`` lines that say what it is.
+of the part and its bores and the centre lines of grooves, ``TEXT`` lines that say what it is.
 """
 
 import io
@@ -19,7 +19,7 @@ from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.geometry.trim import stretches
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.exporters.curves import cubic, vertices
@@ -122,6 +122,9 @@ def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", c
         case Pocket():
             loops = (feature.boundary, *feature.islands)
     attributes = {"layer": "POCKET"}
+    if isinstance(feature, OpenProfile) and feature.side == "on":
+        for segment in feature.path:
+            _segment(space, segment, {"layer": "CENTRE"}, simple=curves != "spline")
     for loop in loops:
         edges = stretches(loop, plates)
         if edges == list(loop.segments):

@@ -42,6 +42,7 @@ from mechwright_cam.planning.zone import (
     roughing_mills,
     through,
 )
+from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closed_area, closing, leaves_at_most, remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow, thinned
 
@@ -51,6 +52,8 @@ HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 PAYS = 1.5
 """An intermediate roughing mill is at least this many times as wide as the finishing one."""
+AMPLE = 1000.0
+"""Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
 MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
 """Cutters whose chip load goes with their diameter."""
 HALF = 0.5
@@ -84,24 +87,12 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    every = Job(part, settings, library.tools, (0.0, 0.0), _stock(part, settings))
+    every = Job(part, settings, library.tools, (0.0, 0.0), plate_box(part, settings, AMPLE))
     mills = _mills(every)
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
-
-
-def _stock(part: Part, settings: CamSettings) -> tuple[float, float, float, float]:
-    """The plate if its size is given, else one that is large enough for any channel."""
-    assert part.outline is not None  # noqa: S101 - choose_tools refuses the others
-    x0, y0, x1, y1 = part.outline.bounds
-    wanted = settings.stock
-    if wanted.length is not None and wanted.width is not None:
-        mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2
-    else:
-        mx = my = 1000.0 if wanted.margin is None else wanted.margin
-    return x0 - mx, y0 - my, x1 + mx, y1 + my
 
 
 def _mills(every: Job) -> list[Tool]:

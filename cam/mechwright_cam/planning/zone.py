@@ -30,6 +30,7 @@ from mechwright_cam.planning.recess import reached_share, recess
 from mechwright_cam.tabs import Tab
 from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
 from mechwright_cam.toolpath.path import DECIMALS
+from mechwright_cam.vice import CLAMP_GAP, RUN_OUT, beside
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
@@ -89,6 +90,11 @@ class Zone:
             self.waste = shapely.difference(beside, band)
 
     @property
+    def in_the_open(self) -> bool:
+        """Whether all of the plate around the part goes, so that the cutter may run out anywhere."""
+        return self.kind == "outside" and self.channel is None
+
+    @property
     def at_tabs(self) -> bool:
         """Whether it is the layer of the tabs, below another one of the same wall."""
         return self.tabs is not None or bool(self.slopes)
@@ -102,7 +108,7 @@ class Zone:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
         if self.kind == "outside":
             if self.channel is None:
-                return grow(self.clear, radius, ROUGH)
+                return grow(self.clear, radius + (RUN_OUT if finishing else 0.0), ROUGH)
             return grow(self.channel, slack - radius, ROUGH)
         if self.must is not None and finishing:
             # Past the end of a wall and around its corner, but not on along the outside.
@@ -221,6 +227,8 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             channel=channel,
         )
         zones: list[Zone] = []
+        if shapely.is_empty(clear):
+            continue  # all of its edges are those of the stock
         top = -feature.top
         own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
         if own:
@@ -308,14 +316,12 @@ def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geome
     thin = thinned(part)  # the finishing of the wall does not depend on it
     if not _has_frame(job, part, width):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
+        if job.settings.stock.finished:
+            return beside(shapely.box(*job.stock), part), None
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
     channel = filled(grow(thin, width, ROUGH))
     return channel.difference(thin), channel
-
-
-CLAMP_GAP = 1.0
-"""Least distance of the cutter from the clamp, mm."""
 
 
 def check_clamp(job: Job) -> None:

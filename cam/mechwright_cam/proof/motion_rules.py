@@ -219,7 +219,7 @@ def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[
 def holder(scene: Scene) -> Check:
     """Shank and holder stay out of the stock and of finished walls, where the tool library knows them."""
     paths, run = scene.paths, scene.run
-    for body in _bodies(scene):
+    for body in bodies(scene):
         low = np.minimum(paths.start[:, 2], paths.end[:, 2]) + body.lift
         steps = paths.steps[(run.tool[paths.steps] == body.tool.number) & (low[paths.steps] < -NEAR)]
         # The deepest first: if they pass where material may still be, the others nearly always do.
@@ -239,7 +239,7 @@ def holder(scene: Scene) -> Check:
 
 
 @dataclass(frozen=True)
-class _Body:
+class Body:
     """What is above a tool's flutes: a cylinder from ``lift`` above the tip."""
 
     tool: Tool
@@ -248,59 +248,12 @@ class _Body:
     radius: float
 
 
-def _bodies(scene: Scene) -> list[_Body]:
+def bodies(scene: Scene) -> list[Body]:
+    """Shanks and holders, as far as the tool library knows them."""
     bodies = []
     for tool in scene.tools.values():
         if tool.shank_diameter is not None and tool.shank_diameter > tool.diameter:
-            bodies.append(_Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
+            bodies.append(Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
         if tool.stick_out is not None:
-            bodies.append(_Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
+            bodies.append(Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
     return bodies
-
-
-def clamp(scene: Scene) -> Check:
-    """Cutter, shank and holder stay clear of the clamp, from the stop on at which the operator sets it."""
-    run, held, paths = scene.run, scene.job.clamp, scene.paths
-    if held is None:
-        return Check("clamp", True, "there is no clamp in the way")
-    # A stop right after a T word is for that tool, where tools are changed by hand.
-    stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
-    # Without a stop it can only have been there from the start.
-    pieces = paths.below(held.top - NEAR, steps=paths.steps[paths.steps > (stops[0] if stops.size else -1)])
-    # No path leads further than its length.
-    away = np.hypot(*(paths.start[pieces.step, :2] - held.centre).T) - np.nan_to_num(run.length[pieces.step])
-    pieces = pieces.only(away < held.diameter / 2 + paths.radius[pieces.step])
-    if len(pieces):
-        gap = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
-        room = gap - paths.radius[pieces.step] - held.diameter / 2
-        worst = int(np.argmin(room))
-        if room[worst] < 0:
-            return scene.bad(
-                "clamp",
-                int(pieces.step[worst]),
-                f"the cutter goes {-room[worst]:.2f} mm into the clamp (diameter {held.diameter:g} mm, "
-                f"up to Z{held.top:g})",
-                float(room[worst]),
-                0.0,
-                "mm",
-            )
-    after = paths.steps[paths.steps > (stops[0] if stops.size else -1)]
-    for body in _bodies(scene):
-        own = after[run.tool[after] == body.tool.number]
-        pieces = paths.below(held.top - body.lift - NEAR, steps=own)
-        if len(pieces) == 0:
-            continue
-        room = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
-        room = room - body.radius - held.diameter / 2
-        worst = int(np.argmin(room))
-        if room[worst] < 0:
-            return scene.bad(
-                "clamp",
-                int(pieces.step[worst]),
-                f"the {body.name} of T{body.tool.number} goes {-room[worst]:.2f} mm into the clamp (diameter "
-                f"{held.diameter:g} mm, up to Z{held.top:g}); let the tool stick out further",
-                float(room[worst]),
-                0.0,
-                "mm",
-            )
-    return Check("clamp", True, "the cutter stays clear of the clamp")

@@ -82,6 +82,8 @@ def quantity(job: Job) -> int:
 
 def _stock(job: Job, deepest: float) -> Step:
     x0, y0, x1, y1 = job.stock
+    if job.jaws:
+        return _vice(job, deepest)
     lines = [
         f"Plate of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z), "
         "edges parallel to X and Y. Indicate the rear edge to 0.02 mm.",
@@ -99,6 +101,29 @@ def _stock(job: Job, deepest: float) -> Step:
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
+
+
+def _vice(job: Job, deepest: float) -> Step:
+    x0, y0, x1, y1 = job.stock
+    edges = " and ".join(jaw.edge for jaw in job.jaws)
+    along = job.jaws[0].face
+    low, high, axis = along.bounds[0], along.bounds[2], "X"
+    if low == high:
+        low, high, axis = along.bounds[1], along.bounds[3], "Y"
+    finished = ", ".join(job.settings.stock.finished)
+    lines = [
+        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). Edges "
+        f"that stay as they are: {finished}. Measure them: they are edges of the finished part.",
+        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} and "
+        f"no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
+        f"{job.thickness + job.jaws[0].top:g} mm above the underside.",
+    ]
+    if deepest < -job.thickness:
+        lines.append(
+            f"Keep parallels away from holes and ends: cutters go down to Z {signed(deepest)}, "
+            f"{-deepest - job.thickness:.2f} mm below the bar."
+        )
+    return Step("Clamp the bar in a vice", tuple(lines))
 
 
 def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> Step:

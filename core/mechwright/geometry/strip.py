@@ -158,7 +158,9 @@ def _check_bends(spline: BSpline, distance: float) -> None:
     rate = spline.derivative(t)
     second = np.gradient(rate, t, axis=0)
     speed = np.hypot(*rate.T)
-    bend = (rate[:, 0] * second[:, 1] - rate[:, 1] * second[:, 0]) / speed**3
+    cross = rate[:, 0] * second[:, 1] - rate[:, 1] * second[:, 0]
+    turning = np.sign(distance) * np.inf  # where it stops, at a cusp, it bends either way
+    bend = np.divide(cross, speed**3, out=np.full(SAMPLES, turning), where=speed > TOLERANCES.closure)
     worst = int(np.argmax(bend * distance))
     if bend[worst] * distance >= 1 - TOLERANCES.outline:
         x, y = spline.at(t[worst])[0].tolist()
