@@ -78,7 +78,10 @@ class Tab:
     @property
     def level(self) -> shapely.Polygon:
         """Plan view of its level top."""
-        return _rectangle((*self.at, self.along), self.width, self.ends) if self.ramped else self.shape
+        if not self.ramped:
+            return self.shape
+        place = (*self.at, self.along)
+        return _piece_at(shapely.intersection(_rectangle(place, self.width, self.ends), self.shape), place)
 
     def least_z(self, points: Array, radius: float) -> Array:
         """Lowest z (n,) of a flat cutter of ``radius`` at places (n, 2) that leaves a ramped tab whole, mm.
@@ -194,7 +197,7 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
             ends = (-depth, _outer_end(job, part, tab, 2 * half))
             shape = _rectangle(place, tab.width + slopes, ends)
             openings = shapely.difference(part, job.target)
-            bridge = shapely.difference(shape, openings)
+            bridge = shapely.difference(shapely.intersection(shape, shapely.box(*job.stock)), openings)
             return Tab(_piece_at(bridge, place), tab.top, tab.width, tab.slope, tab.at, tab.along, ends)
         depth *= DEEPER
     raise DesignError(

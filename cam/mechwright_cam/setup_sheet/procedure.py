@@ -56,7 +56,7 @@ def steps(
     over = job.side == "underside"
     by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
     return [
-        _with_reach(_turn(job) if over else _stock(job, deepest), reach),
+        _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
         _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
         *([_touch_off(job, tools)] if by_hand else [_lengths(offset, tools), _check(offset, tools)]),
@@ -112,10 +112,10 @@ def _vice(job: Job, deepest: float) -> Step:
         low, high, axis = along.bounds[1], along.bounds[3], "Y"
     finished = ", ".join(job.settings.stock.finished)
     lines = [
-        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). Edges "
-        f"that stay as they are: {finished}. Measure them: they are edges of the finished part.",
-        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} and "
-        f"no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
+        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). "
+        f"Edges that stay as they are: {finished}. Measure them: they are edges of the finished part.",
+        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} "
+        f"and no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
         f"{job.thickness + job.jaws[0].top:g} mm above the underside.",
     ]
     if deepest < -job.thickness:
