@@ -160,6 +160,7 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
     assert names == sorted(
         [
             "motion.csv",
+            "motion.html",
             "summary.json",
             "gear.step",
             "assembly.step",

@@ -23,10 +23,12 @@ from mechwright.motion import Array
 from mechwright.part import Bore
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
-from mechwright_cam.toolpath.offsets import grow, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons, thinned
 
 PRECISION = 1e-4
 """Chord error of the closing, mm: a hundredth of the leftover that the proof lets pass."""
+ROUGHLY = 3 * ROUGH
+"""How far a first look may be off, mm: by the thinned shape, once more to be safe, and by the chords."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,7 @@ class Spot:
     depth: float
 
 
+@lru_cache(maxsize=16)
 def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     """What a cutter of ``radius`` leaves of everything around ``keep``, mm.
 
@@ -54,6 +57,15 @@ def closing(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
 def _swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     """``keep`` grown by ``radius``; the choice of cutters asks for the same shapes again and again."""
     return grow(keep, radius, PRECISION)
+
+
+@lru_cache(maxsize=32)
+def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
+    """``keep`` grown by ``radius``, mm, for a first look, in a third of the time.
+
+    It is nowhere smaller than the exact shape, and nowhere more than ROUGHLY larger.
+    """
+    return grow(thinned(keep), radius + 2 * ROUGH, ROUGH)
 
 
 def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
@@ -101,13 +113,37 @@ def leaves_at_most(
 ) -> bool:
     """Whether a cutter of ``radius`` comes within ``limit`` of all walls, or of those ``near`` a shape."""
     # A wall point has more than that in front of it if it lies that deep in the closing: a test of points
-    # against one polygon, much faster than distances.
-    deep = grow(_swollen(keep, radius), -radius - limit, PRECISION)
-    if shapely.is_empty(deep):
-        return True
-    shapely.prepare(deep)
+    # against one polygon, much faster than distances. What leaves much more shows on thinned shapes.
+    if _deep(_much(keep, radius, limit), thinned(keep), near).any():
+        return False
+    return not _deep(grow(_swollen(keep, radius), -radius - limit, PRECISION), keep, near).any()
+
+
+def leaves_much_more(
+    keep: shapely.Geometry, radius: float, finer: float, limit: float, near: shapely.Geometry | None = None
+) -> bool:
+    """Whether a cutter of ``radius`` leaves more than ``limit`` on a wall that a ``finer`` one reaches.
+
+    This is a first look: no means that it may be so all the same.
+    """
+    walls = thinned(keep)
+    left = _deep(grow(roughly_swollen(keep, finer), -finer - ROUGHLY, ROUGH), walls, near)
+    return bool((_deep(_much(keep, radius, limit + ROUGHLY), walls, near) & ~left).any())
+
+
+def _much(keep: shapely.Geometry, radius: float, limit: float) -> shapely.Geometry:
+    """Where a wall point has certainly more than ``limit`` in front of it; thinned shapes show it."""
+    return grow(roughly_swollen(keep, radius - ROUGHLY), -radius - limit - ROUGH, ROUGH)
+
+
+def _deep(
+    shape: shapely.Geometry, keep: shapely.Geometry, near: shapely.Geometry | None
+) -> NDArray[np.bool_]:
+    """Which corners of ``keep``, or those ``near`` a shape, lie in another one."""
+    shapely.prepare(shape)
     x, y = _points(keep, near).T
-    return not shapely.contains_xy(deep, x, y).any()
+    inside: NDArray[np.bool_] = shapely.contains_xy(shape, x, y)
+    return inside
 
 
 def closed_area(swollen: shapely.Geometry, radius: float) -> float:
@@ -126,6 +162,11 @@ def closed_area(swollen: shapely.Geometry, radius: float) -> float:
     parts = polygons(swollen)
     euler = len(parts) - sum(len(part.interiors) for part in parts)
     return float(swollen.area - radius * swollen.length + math.pi * radius**2 * euler)
+
+
+def roughly_closed_area(keep: shapely.Geometry, radius: float) -> float:
+    """Area of what a cutter of ``radius`` leaves around ``keep``, mm², from a first look."""
+    return closed_area(roughly_swollen(keep, radius), radius + 2 * ROUGH)
 
 
 def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
@@ -158,8 +199,8 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     There is one for the part, or one for each part of a nest, work coordinates. Each wall is judged with the
     cutter that finishes it, the one :func:`plan` takes.
     """
+    from mechwright_cam.planning.grooves import grooves
     from mechwright_cam.planning.recess import plan_view
-    from mechwright_cam.planning.slot import slots
     from mechwright_cam.planning.zone import inner_zones, outer_zones, through
 
     plates = polygons(job.target)
@@ -169,7 +210,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
         for bore in job.features
         if isinstance(bore, Bore) and bore.top + bore.depth >= job.thickness
     ]
-    in_one = slots(job)
+    in_one = grooves(job)
     holes += [plan_view(f) for f in job.features if f.name in in_one and through(job, f.top + f.depth)]
     for zone in inner_zones(job, skip=in_one):
         if zone.bottom == job.floor:

@@ -62,6 +62,14 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True)
+class Trace:
+    """A point whose path is worth seeing: a ``body``, and a place in that body's coordinates, mm."""
+
+    body: str
+    point: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
 class Motion:
     """The motion of a mechanism.
 
@@ -75,17 +83,21 @@ class Motion:
         Body name to its poses, n samples each, for every body that a part is an instance of.
     scalars
         Figures of the whole motion (maxima, ratios), name to value and unit.
+    traces
+        Points whose paths are drawn, by name: the coupler point of a linkage.
 
     Raises
     ------
     KinematicsError
-        The input is no channel, or a channel or body has another number of samples than the input.
+        The input is no channel, a channel or body has another number of samples than the input, or a trace
+        is that of no body.
     """
 
     input_name: str
     channels: Mapping[str, Channel]
     poses: Mapping[str, Poses] = field(default_factory=dict)
     scalars: Mapping[str, Scalar] = field(default_factory=dict)
+    traces: Mapping[str, Trace] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.input_name not in self.channels:
@@ -100,6 +112,17 @@ class Motion:
         for what, (shape, wanted) in shapes.items():
             if shape != wanted:
                 raise KinematicsError(f"{what}: shape {shape}; the input has {n} samples, so {wanted}")
+        for name, trace in self.traces.items():
+            if trace.body not in self.poses:
+                raise KinematicsError(
+                    f"the trace {name!r} is a point of body {trace.body!r}, which has no poses"
+                )
+
+    def path(self, name: str) -> Array:
+        """Path (n, 3), mm, of the trace ``name``."""
+        trace = self.traces[name]
+        path: Array = self.poses[trace.body].transform(np.array([trace.point]))[:, 0]
+        return path
 
     @property
     def samples(self) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Poses
+from mechwright.motion import Array, Channel, Motion, Poses, Trace
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import (
@@ -68,7 +68,8 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     steepest = np.maximum.reduce([shaft_pressure_angle(one, e, alpha) for one in inputs])
     channels["pressure_angle"] = Channel(steepest, "rad")
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
-    return Motion("theta2", channels, poses, figures(params))
+    traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
+    return Motion("theta2", channels, poses, figures(params), traces)
 
 
 def _point_channels(q: PointMotion) -> dict[str, Channel]:

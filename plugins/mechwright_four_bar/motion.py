@@ -6,7 +6,7 @@ import numpy as np
 
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.findings import errors
-from mechwright.motion import Array, Channel, Motion, Scalar
+from mechwright.motion import Array, Channel, Motion, Scalar, Trace
 from mechwright.planar import BodyMotion, PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
@@ -74,7 +74,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
     channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
     channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
-    return Motion("phi", channels, frames_of(params, bodies), _figures(params, bar, omega))
+    point = params.coupler_point
+    traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
+    return Motion("phi", channels, frames_of(params, bodies), _figures(params, bar, omega), traces)
 
 
 def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Scalar
+from mechwright.motion import Array, Channel, Motion, Scalar, Trace
 from mechwright.planar import Plane, acceleration_pole
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
@@ -46,7 +46,9 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
         **_poles(linkage, phi, bodies),
         **_forces(carried),
     }
-    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega))
+    point = params.coupler_point
+    traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
+    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega), traces)
 
 
 def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:

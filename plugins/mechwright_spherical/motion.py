@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright.errors import DesignError, KinematicsError
-from mechwright.motion import Channel, Motion, Poses, Scalar
+from mechwright.motion import Channel, Motion, Poses, Scalar, Trace
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
@@ -58,7 +58,9 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     bodies = poses(linkage, phase, state, angles, train)
     position, rotation = base_pose(linkage, shells_of(params), params.stand)
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
-    return Motion("theta", channels, bodies, _figures(params, linkage))
+    x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
+    traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
+    return Motion("theta", channels, bodies, _figures(params, linkage), traces)
 
 
 def _turning(angle: str, rate: str, acceleration: str, jerk: str, turning: Turning) -> dict[str, Channel]:

@@ -97,7 +97,7 @@ def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch):
         (Light, 2, True, False),
     ):
         monkeypatch.setattr("mechwright.cli.solids.cores", lambda count=count: count)
-        with SolidWork([exporter()], beside=wanted) as work:
+        with SolidWork([exporter()], build=wanted) as work:
             assert work.beside is begun
 
 
@@ -113,10 +113,10 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     with Beside([]) as second:
         second.ask(compared_and_made, design, exporters, motion, 1)
         findings, files = second.result(tuple)
-    with SolidWork(exporters, beside=False) as work:
+    with SolidWork(exporters, build=False) as work:
         work.begin(design, motion, 1)
         assert not work.beside
-        assert files.keys() == {"gear.step", "gear.stl", "assembly.step"}
-        assert work.files() == files
+        assert files.keys() == {"gear.step", "gear.stl", "assembly.step", "motion.html"}
+        assert work.files() == {name: text for name, text in files.items() if name != "motion.html"}
         assert [f.code for f in findings] == ["interference.clear"]
         assert work.collisions() == findings

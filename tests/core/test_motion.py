@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mechwright.errors import KinematicsError
-from mechwright.motion import Channel, Motion, Poses
+from mechwright.motion import Channel, Motion, Poses, Trace
 from mechwright.testing import assert_points_close, assert_rotations
 
 ANGLE = np.linspace(0, math.tau, 9)
@@ -28,6 +28,15 @@ def test_samples_are_those_of_the_input():
     assert Motion("theta", {"theta": channel()}, {"crank": Poses.planar(0, 0, ANGLE)}).samples == 9
 
 
+def test_the_path_of_a_trace_is_that_of_its_point():
+    poses = Poses.planar(10.0, np.arange(9), ANGLE)
+    motion = Motion(
+        "theta", {"theta": channel()}, {"crank": poses}, traces={"P": Trace("crank", (2.0, 0.0, 3.0))}
+    )
+    wanted = np.column_stack((10 + 2 * np.cos(ANGLE), np.arange(9) + 2 * np.sin(ANGLE), np.full(9, 3.0)))
+    assert_points_close(motion.path("P"), wanted, 1e-14)
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
@@ -40,6 +49,10 @@ def test_samples_are_those_of_the_input():
         (
             lambda: Motion("theta", {"theta": channel()}, {"crank": Poses(np.zeros((9, 3)), np.eye(3))}),
             "rotations of body crank",
+        ),
+        (
+            lambda: Motion("theta", {"theta": channel()}, traces={"P": Trace("rod", (0, 0, 0))}),
+            "trace 'P' is a point of body 'rod'",
         ),
     ],
 )

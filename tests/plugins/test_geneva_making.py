@@ -17,7 +17,7 @@ from mechwright_cam.exporters.dxf import part as drawing
 from mechwright_cam.job import make_job
 from mechwright_cam.library import load_library
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.choice import outside_mills
+from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.setup_sheet.procedure import _run
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of

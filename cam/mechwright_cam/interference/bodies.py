@@ -23,6 +23,15 @@ class Body:
         return self.part.outline is not None
 
 
+def label_of(body: Body) -> str:
+    """What a picture calls it: the part, and of a part with several copies the body as well.
+
+    Copies in one body share their label.
+    """
+    part = body.part
+    return part.name if len(part.instances) == 1 else f"{part.name} ({body.instance.body})"
+
+
 def bodies_of(parts: Sequence[Part], motion: Motion) -> list[Body]:
     """All instances, named as the assembly names them: by the body, and by the part where a body has several.
 

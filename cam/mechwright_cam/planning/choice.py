@@ -1,5 +1,6 @@
 """Which of a job's end mills does what."""
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -10,7 +11,7 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
-from mechwright_cam.reach import closing, leaves_at_most
+from mechwright_cam.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.toolpath.offsets import BIAS, polygons
 from mechwright_cam.toolpath.path import rounded
 
@@ -61,35 +62,15 @@ def finishing_choice(
 @lru_cache(maxsize=64)
 def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: shapely.Geometry | None) -> int:
     """Index of the largest radius that leaves no more on the walls of ``keep`` than the last one."""
-    reference = closing(keep, radii[-1] - BIAS)
-    low, high = 0, len(radii) - 1
-    while low < high:  # what is left only grows with the radius
-        middle = (low + high) // 2
-        if leaves_at_most(reference, radii[middle], SAME_REACH, near):
-            high = middle
-        else:
-            low = middle + 1
-    return low
+    finest = radii[-1] - BIAS
 
+    def as_good(radius: float) -> bool:
+        if leaves_much_more(keep, radius, finest, SAME_REACH, near):
+            return False
+        return leaves_at_most(closing(keep, finest), radius, SAME_REACH, near)
 
-FILLS = 0.9
-"""Share of a mill's radius. Where a disc of this size has room that a mill with its allowance cannot enter,
-the walls are parallel, and as far apart as the mill is wide: a corner of 25 degrees or more has no such room
-for mills from 1 mm and the usual allowance on."""
-
-
-def outside_mills(mills: list[Tool], part: shapely.Geometry, allowance: float) -> list[Tool]:
-    """The mills for an outside without those as wide as one of its slots, as far as a smaller one is there.
-
-    Such a mill would cut with its whole width, and leave no stock to finish on either wall.
-    """
-    return [m for m in mills if m is mills[-1] or not _fills_a_slot(m.radius, part, max(allowance, BIAS))]
-
-
-@lru_cache(maxsize=64)
-def _fills_a_slot(radius: float, part: shapely.Geometry, allowance: float) -> bool:
-    only = shapely.difference(closing(part, radius + allowance), closing(part, radius + BIAS))
-    return not shapely.is_empty(shapely.buffer(only, -FILLS * radius, quad_segs=8))
+    # What is left only grows with the radius.
+    return bisect_left(radii, True, hi=len(radii) - 1, key=as_good)
 
 
 def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:

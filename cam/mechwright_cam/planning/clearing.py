@@ -1,5 +1,8 @@
 """Roughing: remove what is left in front of a wall, ring by ring from the far side to the wall.
 
+Of the stock to take a cut looks at the core only: what is left when a sliver is shaved off all round. What is
+thinner than two slivers has none, and grown by the sliver the core is the stock again.
+
 Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because
 the way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
 """
@@ -25,7 +28,6 @@ from mechwright_cam.toolpath.offsets import (
     Piece,
     densified,
     grow,
-    opened,
     pieces,
     polygons,
     rings,
@@ -38,6 +40,9 @@ FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
+OVERLAP = 1.5 * ROUGH
+"""What a cut takes is made larger by this than by the cut before, mm: then their chords keep apart along
+walls, where shapes that all but coincide would cross at every corner. Tests of what is clear allow for it."""
 COARSE_FIT = 2 * ROUGH
 """How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
 lines again."""
@@ -113,37 +118,51 @@ class Roughing:
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
-        # The shape that the cutter's edge must not enter.
-        self.keep = zone.rough_keep(allowance) if coarse else grow(zone.keep, max(allowance, BIAS))
+        self.coarse, self.allowance = coarse, allowance
         self.step = min(step_over, TIGHT) * tool.diameter
-        self.blocked = grow(self.keep, tool.radius, self.chord)
+        self.blocked = self._blocked(0)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
-        self.reach = grow(self.free, tool.radius, ROUGH)
-        take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
-        self.take = opened(take, self.sliver)  # first, for it leaves far fewer corners
+        self.over = zone.over + min(OVERLAP, self.sliver / 2)
+        self.reach = grow(self.free, tool.radius + self.over, ROUGH)
+        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
-            self.take = opened(shapely.difference(self.take, zone.waste), self.sliver)
+            self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
+
+    def _blocked(self, order: int) -> shapely.Geometry:
+        """Where the centre must not be on the ring of this order."""
+        radius = self.tool.radius + order * self.step
+        if self.coarse:
+            return self.zone.rough_keep(self.allowance, radius)
+        return grow(self.zone.keep, max(self.allowance, BIAS) + radius)
+
+    @property
+    def taken(self) -> float:
+        """Area of what the cut is for, mm²: that of the core grown back, by Steiner's formula."""
+        count, margin = len(polygons(self.core)), self.sliver
+        return float(self.core.area + margin * self.core.length + math.pi * margin**2 * count)
 
     @property
     def share(self) -> float:
         """Part of what is left that this cut takes."""
-        return float(self.take.area / self.zone.left.area) if self.zone.left.area > 0 else 0.0
+        return self.taken / self.zone.left.area if self.zone.left.area > 0 else 0.0
 
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
         self.zone.left = shapely.difference(self.zone.left, self.reach)
+        self.zone.over = self.over
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
-        parts = polygons(self.take)
+        parts = polygons(self.core)
         found = self._pieces() if parts else []
         if not found:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.left, self.tool.radius - CLEAR, ROUGH)
+        near = grow(self.zone.left, self.tool.radius + self.zone.over - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -162,7 +181,8 @@ class Roughing:
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
             if shapes:
-                cavities.append(self._linked(shapes, parts[part], near, free))
+                stock = grow(parts[part], self.sliver, ROUGH)
+                cavities.append(self._linked(shapes, stock, near, free))
         return cavities
 
     def _linked(
@@ -195,18 +215,19 @@ class Roughing:
         radius = self.tool.radius
         shapely.prepare(self.room)
         found: list[Piece] = []
-        blocked, take = self.blocked, self.take
-        near = grow(take, radius + CLEAR, ROUGH)
+        blocked, core = self.blocked, self.core
+        wanted = grow(core, radius, ROUGH)
+        near = grow(wanted, self.sliver + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                take = opened(shapely.difference(take, grow(blocked, radius - CLEAR, ROUGH)), self.sliver)
-                if not polygons(take):
+                core = shapely.difference(core, grow(blocked, radius - CLEAR + self.sliver, ROUGH))
+                if not polygons(core):
                     return found
-                blocked = grow(self.keep, radius + order * self.step, self.chord)
-            wanted = grow(take, radius - self.sliver, ROUGH)
+                blocked = self._blocked(order)
+                wanted = grow(core, radius, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):

@@ -34,7 +34,7 @@ class Finishing:
             # Along a tab only as far as the finishing of the wall needs it.
             near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
             self.room = shapely.intersection(self.room, near)
-        self.near = grow(zone.left, radius - CLEAR, ROUGH)
+        self.near = grow(zone.left, radius + zone.over - CLEAR, ROUGH)
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
         self.free = shapely.difference(

@@ -19,6 +19,7 @@ from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
 from mechwright_cam.planning.floors import floor_allowance, layers
+from mechwright_cam.planning.grooves import grooves, write_groove
 from mechwright_cam.planning.holes import (
     BorePlan,
     drill_moves,
@@ -33,7 +34,6 @@ from mechwright_cam.planning.notes import clamp_message, notes
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
-from mechwright_cam.planning.slot import slots, write_slot
 from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_walls
 from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
@@ -131,7 +131,7 @@ class _Planner:
     def _inner(self) -> frozenset[int]:
         job = self.job
         bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
-        zones = inner_zones(job, skip=slots(job))
+        zones = inner_zones(job, skip=grooves(job))
         entries = {
             zone.name: self._entry(zone)
             for zone in zones
@@ -176,11 +176,11 @@ class _Planner:
 
     def _slots(self, top: float, after: frozenset[int]) -> None:
         """Grooves as wide as a mill that begin at this height."""
-        mills = slots(self.job)
+        mills = grooves(self.job)
         for feature in self.job.features:
             if isinstance(feature, OpenProfile) and feature.name in mills and -feature.top == top:
                 leave = floor_allowance(self.job, top, -feature.top - feature.depth)
-                write = partial(write_slot, self.job, feature, leave=leave)
+                write = partial(write_groove, self.job, feature, leave=leave)
                 self._milled(f"{feature.name}: slot", mills[feature.name], after, write)
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
@@ -229,11 +229,11 @@ class _Planner:
         """
         allowance = self.job.settings.stock_to_leave
         finest = zones[0].finisher
-        zones[0].rough_keep(allowance)  # what the layers share, before they ask for it at once
         for zone in zones:
             for written in self._cleared(zone, mills):
                 after = self._step(*written, after)
         for mill in [m for m in mills if m.diameter > finest.diameter]:
+            zones[0].rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
             if max(zip(zones, cuts, strict=True), key=lambda pair: pair[0].height)[1].share >= WORTH_A_TOOL:
@@ -259,7 +259,7 @@ class _Planner:
         cuts += [self._rough(self._roughing(rough, finest, allowance)), *self._rough_heavy(rough, finest)]
         cuts += [self._floored(floor, mill) for mill in [*(m for m in cleared if m is not finest), finest]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
-        zone.left = shapely.union(rough.left, floor.left)
+        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
         for written in [*cuts, self._finish(zone)]:
             after = self._step(*written, after)
 
@@ -354,14 +354,13 @@ class _Planner:
             if not polygons(thick):
                 break
             cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
-            if allowance > 0 and cut.take.area < NEARLY * thick.area:
+            if allowance > 0 and cut.taken < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
             write = partial(cut.write, step_down=data.step_down * mill.diameter)
             moves = self._moves(mill, write, over=zone.slopes)
             cuts.append((f"{zone.name}: {what}", mill, moves))
-            zone.left = shapely.difference(
-                zone.left, shapely.intersection(cut.reach, grow(cut.take, mill.radius))
-            )
+            near = grow(cut.core, cut.sliver + mill.radius)
+            zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, near))
         return cuts
 
     def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:

@@ -25,10 +25,21 @@ from mechwright.part import Bore, Pocket, Profile
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import finishing_choice, outside_mills, roomy_mills, usable_mills
+from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
 from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.planning.slots import outside_mills
+from mechwright_cam.reach import roughly_swollen
 from mechwright_cam.tabs import Tab
-from mechwright_cam.toolpath.offsets import BIAS, CHORD, ROUGH, filled, grow, polygons, thinned
+from mechwright_cam.toolpath.offsets import (
+    BIAS,
+    CHORD,
+    ROUGH,
+    filled,
+    grow,
+    polygons,
+    simplified,
+    thinned,
+)
 from mechwright_cam.toolpath.path import DECIMALS
 from mechwright_cam.vice import CLAMP_GAP, RUN_OUT, beside
 
@@ -70,9 +81,11 @@ class Zone:
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
+    over: float = field(default=0.0, init=False)
+    """By how much more than the cutters reached may be missing in ``left``, mm."""
     begun: bool = field(default=False, init=False)
     """Whether an end mill has been in it."""
-    _rough: dict[float, shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
+    _rough: dict[tuple[float, float], shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.left = self.clear
@@ -115,14 +128,20 @@ class Zone:
             return shapely.intersection(self.clear, grow(self.must, radius + BIAS + 2 * CHORD))
         return self.clear
 
-    def rough_keep(self, allowance: float) -> shapely.Geometry:
-        """``keep`` with stock on the part's walls, and next to none on the tabs, thinned."""
-        if allowance not in self._rough:
+    def rough_keep(self, allowance: float, radius: float = 0.0) -> shapely.Geometry:
+        """``keep`` with stock on the part's walls, and next to none on the tabs, thinned.
+
+        With a ``radius`` it is what the centre of a cutter must not enter: grown by that, tabs apart, for the
+        layers above and below their tops have the same wall.
+        """
+        if (allowance, radius) not in self._rough:
             wall = _with_allowance(self.thinned, allowance)
+            if radius > 0:
+                wall = _grown(wall, radius)
             if self.tabs is not None:
-                wall = shapely.union(wall, grow(self.tabs, min(allowance, TAB_SLACK), ROUGH))
-            self._rough[allowance] = wall
-        return self._rough[allowance]
+                wall = shapely.union(wall, grow(self.tabs, min(allowance, TAB_SLACK) + radius, ROUGH))
+            self._rough[allowance, radius] = wall
+        return self._rough[allowance, radius]
 
     @cached_property
     def thinned(self) -> shapely.Geometry:
@@ -133,7 +152,13 @@ class Zone:
 @lru_cache(maxsize=16)
 def _with_allowance(wall: shapely.Geometry, allowance: float) -> shapely.Geometry:
     """A thinned wall with stock on it; layers above and below tabs have the same."""
-    return shapely.simplify(grow(wall, allowance, ROUGH), ROUGH / 2)
+    return simplified(grow(wall, allowance, ROUGH), ROUGH / 2)
+
+
+@lru_cache(maxsize=16)
+def _grown(wall: shapely.Geometry, radius: float) -> shapely.Geometry:
+    """A wall for roughing as far as the centre of a cutter may come."""
+    return grow(wall, radius, ROUGH)
 
 
 def through(job: Job, depth: float) -> bool:
@@ -320,7 +345,8 @@ def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geome
             return beside(shapely.box(*job.stock), part), None
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
-    channel = filled(grow(thin, width, ROUGH))
+    near = roughly_swollen(part, width - mill.radius)
+    channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
     return channel.difference(thin), channel
 
 

@@ -32,7 +32,6 @@ from mechwright.program import (
     Rapid,
     ToolSection,
 )
-from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, Tool
 from mechwright_cam.posts.offsets import OFFSETS, has_offset
 from mechwright_cam.posts.text import DECIMALS, comment_lines, number
@@ -282,17 +281,15 @@ class GcodePost(Post):
             out.x = out.y = math.nan
 
     def _move(self, out: Writer, section: ToolSection, move: Move) -> None:
-        if not isinstance(move, Drill):
+        if out.cycle and not isinstance(move, Drill):
             self.end_drilling(out)
         match move:
+            case FeedArc():
+                out.arc(move)
+            case Feed():
+                out.straight(move)
             case Rapid():
                 self._rapid(out, move)
-            case Feed():
-                words = out.axis_words(move.x, move.y, move.z)
-                if words:
-                    out.line(out.motion_word("G1"), *words, out.feed_word(move.feed))
-            case FeedArc():
-                self._arc(out, move)
             case Drill():
                 if math.isnan(out.z):
                     self._rapid(out, Rapid(z=out.program.clearance))
@@ -314,27 +311,6 @@ class GcodePost(Post):
             words = out.axis_words(*axes, rapid=True)
             if words:
                 out.line(out.motion_word("G0"), *words)
-
-    def _arc(self, out: Writer, move: FeedArc) -> None:
-        x0, y0 = out.x, out.y
-        whole = math.hypot(move.x - x0, move.y - y0) <= TOLERANCES.closure
-        start, end = (out.rounded(x0), out.rounded(y0)), (out.rounded(move.x), out.rounded(move.y))
-        if not whole and start == end:
-            # Shorter than the last decimal: written as an arc it would be a full circle.
-            words = out.axis_words(move.x, move.y, move.z)
-            if words:
-                out.line(out.motion_word("G1"), *words, out.feed_word(move.feed))
-            return
-        if whole:
-            end = start
-        i, j = out.centre(
-            x0 + move.i - start[0], y0 + move.j - start[1], (end[0] - start[0], end[1] - start[1])
-        )
-        out.x = out.y = math.nan  # an arc states its end in full: some controls want both axes
-        axes = out.axis_words(end[0], end[1], None) + out.axis_words(None, None, move.z)
-        out.x, out.y = (x0, y0) if whole else (move.x, move.y)
-        word = out.motion_word("G3" if move.ccw else "G2")
-        out.line(word, *axes, "I" + out.length(i), "J" + out.length(j), out.feed_word(move.feed))
 
     def _stop(self, out: Writer, move: Pause) -> None:
         self.end_drilling(out)

@@ -2,7 +2,7 @@
 
 import math
 
-from mechwright.program import Program, ToolSection
+from mechwright.program import Feed, FeedArc, Program, ToolSection
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.posts.text import NOISE, floored, number, rounded
 
@@ -36,13 +36,17 @@ class Writer:
         self.height_text = ""
         self.motion = ""
         self.feed = ""
+        self._last_feed = math.nan
         self.tool = 0
         self.resumed: ToolSection | None = None
         self.cycle: tuple[str, ...] = ()
+        # By identity: the program holds its moves as long as it is written.
+        self._ends: dict[tuple[int, float, float], str] = {}
+        self._arcs: dict[tuple[int, float, float], tuple[str, str, bool]] = {}
 
     def line(self, *words: str) -> None:
         """Write a line of these words; empty ones are left out."""
-        text = " ".join(word for word in words if word)
+        text = " ".join(filter(None, words))
         if text:
             self.lines.append(text)
 
@@ -70,6 +74,9 @@ class Writer:
 
     def feed_word(self, feed: float) -> str:
         """The feed if it is not in force already."""
+        if feed == self._last_feed and self.feed:
+            return ""
+        self._last_feed = feed
         word = "F" + number(feed, 1, self.point)
         if self.feed == word:
             return ""
@@ -82,11 +89,11 @@ class Writer:
         """The coordinates that change in the text, and keep them all in mind."""
         # A position that the text does not state is NaN: its text equals none that is written.
         words = []
-        if x is not None:
+        if x is not None and x != self.x:
             if (text := self.length(x)) != self.length(self.x):
                 words.append("X" + text)
             self.x = x
-        if y is not None:
+        if y is not None and y != self.y:
             if (text := self.length(y)) != self.length(self.y):
                 words.append("Y" + text)
             self.y = y
@@ -97,6 +104,54 @@ class Writer:
                 self.height_text = text
             self.z = z
         return words
+
+    def straight(self, move: Feed | FeedArc) -> None:
+        """Write a straight cut to the end of a move, if the text shows that it goes anywhere.
+
+        Passes at many depths make the same moves from the same places: their words are kept in mind.
+        """
+        key = id(move), self.x, self.y
+        ends = self._ends.get(key)
+        if ends is None:
+            ends = self._ends[key] = " ".join(self.axis_words(move.x, move.y, None))
+        self.x = self.x if move.x is None else move.x
+        self.y = self.y if move.y is None else move.y
+        height = self.axis_words(None, None, move.z) if move.z is not None else ()
+        if ends or height:
+            self.line(self.motion_word("G1"), ends, *height, self.feed_word(move.feed))
+
+    def arc(self, move: FeedArc) -> None:
+        """Write an arc from the present place; one that is shorter than the last decimal is straight."""
+        key = id(move), self.x, self.y
+        words = self._arcs.get(key)
+        if words is None:
+            words = self._arcs[key] = self._arc_words(move)
+        ends, centre, whole = words
+        if not ends:
+            self.straight(move)
+            return
+        if not whole:
+            self.x, self.y = move.x, move.y
+        word = self.motion_word("G3" if move.ccw else "G2")
+        height = self.axis_words(None, None, move.z) if move.z is not None else ()
+        self.line(word, ends, *height, centre, self.feed_word(move.feed))
+
+    def _arc_words(self, move: FeedArc) -> tuple[str, str, bool]:
+        """End and centre of an arc, and whether it is a full turn; empty if it is written as a line."""
+        whole = math.hypot(move.x - self.x, move.y - self.y) <= TOLERANCES.closure
+        start = self.rounded(self.x), self.rounded(self.y)
+        end = start if whole else (self.rounded(move.x), self.rounded(move.y))
+        if not whole and start == end:
+            return "", "", False  # as an arc it would be a full circle
+        i, j = self.centre(
+            self.x + move.i - start[0], self.y + move.j - start[1], (end[0] - start[0], end[1] - start[1])
+        )
+        # An arc states its end in full: some controls want both axes.
+        return (
+            f"X{self.length(end[0])} Y{self.length(end[1])}",
+            f"I{self.length(i)} J{self.length(j)}",
+            whole,
+        )
 
     def centre(self, i: float, j: float, end: tuple[float, float]) -> tuple[float, float]:
         """The centre from the rounded start, (i, j), rounded so that both ends of an arc agree best.

@@ -15,10 +15,10 @@ from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
-from mechwright_cam.proof.leftover import sweeps
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.proof.wall import Wall
 
 OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
@@ -88,11 +88,8 @@ def cut(paths: Paths, job: Job) -> Check:
 def _off(paths: Paths, points: Array, height: float, level: float) -> Array:
     """Distance (n,) of points from the nearest cut of a pointed tool that goes down to ``height``, mm."""
     found = np.full(len(points), np.inf)
-    for group in sweeps(paths.of_kinds({ToolKind.CHAMFER}), height, level):
-        _, distance = group.tree.query_nearest(
-            shapely.points(points), return_distance=True, all_matches=False
-        )
-        found = np.minimum(found, distance - group.radius)
+    for group in Sweeps(paths.of_kinds({ToolKind.CHAMFER})).at(height, level):
+        found = np.minimum(found, group.chords.distance(points) - group.radius)
     return found
 
 

@@ -33,7 +33,8 @@ def obstacles(scene: Scene) -> list[Obstacle]:
         for jaw in job.jaws
     ]
     if job.clamp is not None:
-        stops = np.flatnonzero(run.kind == Kind.STOP)
+        # A stop right after a T word is for that tool, where tools are changed by hand.
+        stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
         name = f"the clamp (diameter {job.clamp.diameter:g} mm, up to Z{job.clamp.top:g})"
         # Without a stop it can only have been there from the start.
         since = int(stops[0]) if stops.size else -1

@@ -6,10 +6,10 @@ import shapely
 from mechwright.part import Profile
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands, inside_of, stock_shape
-from mechwright_cam.proof.leftover import ROUNDING, Sweep, sweeps
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.sweep import Sweep, Sweeps
 
 ROUGHLY = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
@@ -17,9 +17,9 @@ JAMS = 1.0
 """A loose piece wider than this is worth a remark, mm: it can be caught between cutter and part."""
 
 
-def holding(paths: Paths, job: Job) -> tuple[Check, list[str]]:
+def holding(sweeps: Sweeps, job: Job) -> tuple[Check, list[str]]:
     """Whether the tabs join the part to a frame, and remarks on pieces that come loose in openings."""
-    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
+    cut = sweeps.through(job.thickness)
     loose = _loose(cut, job)
     if job.jaws:
         return _gripped(job), loose
@@ -60,12 +60,12 @@ def _gripped(job: Job) -> Check:
 
 def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     """Whether nothing cuts the plate's edge or the way from any tab to it: the usual case, found quickly."""
-    edge = stock_shape(job).exterior
-    ways = [edge, *(shapely.shortest_line(tab.shape, edge) for tab in job.tabs)]
+    plate = stock_shape(job)
+    ways = [shapely.shortest_line(tab.shape, plate.exterior) for tab in job.tabs]
     for sweep in cut:
-        for way in ways:
+        for way in ways if sweep.stays_inside(plate) else [plate.exterior, *ways]:
             shapely.prepare(way)
-            if shapely.dwithin(way, sweep.chains, sweep.radius).any():
+            if shapely.dwithin(way, sweep.beside(way), sweep.radius).any():
                 return False
     return True
 
@@ -75,7 +75,8 @@ def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     shapely.prepare(region)
     shapes: list[Shape] = []
     for sweep in cut:
-        near = sweep.chains[shapely.dwithin(region, sweep.chains, sweep.radius)]
+        chains = sweep.beside(region)
+        near = chains[shapely.dwithin(region, chains, sweep.radius)]
         shapes.append(swept(near, sweep.radius, ROUGHLY))
     return shapes
 

@@ -11,7 +11,6 @@ What is between the part and its closing no cutter of the program can remove: it
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,15 +20,13 @@ from mechwright.motion import Array
 from mechwright.part import OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
+from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 
-ROUNDING = 1e-4
-"""A path that should reach the underside may be short by the last decimal of the program, mm."""
 VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
@@ -53,8 +50,6 @@ REFINE = 33
 """Trial points beside a place that is looked at closely: a wall sample is searched every 10 µm or less."""
 BESIDE = 0.1
 """How far from its expected place a finishing path is looked for first, mm; found or not, the proof holds."""
-SWEEP_CHORD = 0.0005
-"""Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
 COARSE = 0.002
 """Accuracy of areas that are not reported, mm: a fifth of the leftover limit."""
 
@@ -69,38 +64,9 @@ class Remains:
     """x, y, z, depth, area of each unreachable place, mm, deepest first."""
 
 
-@dataclass(frozen=True)
-class Sweep:
-    """Paths that reach a height, of one effective radius: chains for areas, chords for distances."""
-
-    radius: float
-    chains: Any
-
-    @cached_property
-    def tree(self) -> shapely.STRtree:
-        """The straight pieces of all chains, and their points: short ones make a tree quick to ask."""
-        points, owner = shapely.get_coordinates(self.chains, return_index=True)
-        same = owner[:-1] == owner[1:]
-        chords = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
-        return shapely.STRtree(
-            np.concatenate((chords, self.chains[shapely.get_dimensions(self.chains) == 0]))
-        )
-
-
-def sweeps(paths: Paths, height: float, bottom: float) -> list[Sweep]:
-    """What is cut at ``bottom`` by the feed moves that go down to ``height``."""
-    cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-    pieces = paths.below(height, steps=cutting)
-    radius = np.round(paths.radius_at(pieces, bottom), 6)
-    groups = []
-    for one in np.unique(radius[radius > NEAR]):
-        group = pieces.only(radius == one)
-        groups.append(Sweep(float(one), paths.chains(group, SWEEP_CHORD)))
-    return groups
-
-
-def remains(paths: Paths, job: Job) -> Remains:
+def remains(sweeps: Sweeps, job: Job) -> Remains:
     """Measure the stock that the program leaves around the part."""
+    paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
     mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
     if not mills:
@@ -109,16 +75,18 @@ def remains(paths: Paths, job: Job) -> Remains:
     worst, at = 0.0, None
     closings: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
-    for band in bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs)):
+    unseen: dict[int, Shape | None] = {}
+    for band in reversed(bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs))):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
-        groups = sweeps(paths, height, band.bottom)
-        if id(band.keep) not in closings:
+        groups = sweeps.at(height, band.bottom)
+        key = id(band.keep)
+        if key not in closings:
             entered = shapely.difference(band.keep, _grooves_of(smallest, job, band))
-            closings[id(band.keep)] = closing(entered, smallest)
-        lowest[id(band.keep)] = band, groups  # of one cross-section the lowest band is swept least
+            closings[key] = closing(entered, smallest)
+            lowest[key] = band, groups
         tabs = [tab.shape for tab in job.tabs if tab.top + TAB_SLACK >= band.top - NEAR]
-        reached = closings[id(band.keep)]
+        reached = closings[key]
         aside = None
         if tabs:
             held = shapely.union_all([band.keep, *tabs])
@@ -126,7 +94,11 @@ def remains(paths: Paths, job: Job) -> Remains:
             reached = closing(entered, smallest)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in tabs])
-        thick, place = _on_walls(reached, aside, job, groups, smallest)
+        # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
+        thick, place = 0.0, None
+        if key not in unseen or unseen[key] is not None:
+            thick, place = _on_walls(reached, unseen.get(key), aside, job, groups, smallest)
+        unseen[key] = aside
         for depth, where in ((min(thick, 2 * smallest), place), _on_floors(reached, band, job, groups)):
             if where is not None and depth > worst:
                 worst, at = depth, (*where, band.bottom)
@@ -155,9 +127,17 @@ def _grooves_of(reach: float, job: Job, band: Band) -> Shape:
 
 
 def _on_walls(
-    reached: Shape, aside: Shape | None, job: Job, groups: list[Sweep], smallest: float
+    reached: Shape,
+    within: Shape | None,
+    aside: Shape | None,
+    job: Job,
+    groups: list[Sweep],
+    smallest: float,
 ) -> tuple[float, tuple[float, float] | None]:
-    """Thickest stock on the wall that can be reached, and its place; inf where no cutter went."""
+    """Thickest stock on the wall that can be reached, and its place; inf where no cutter went.
+
+    If ``within`` is given only the wall in there counts, and never the wall in ``aside``.
+    """
     # Between two discs that stand apart a cusp stays; one of the leftover limit is wider than this where it
     # is CLEARED thick, so a sample meets it, and the refinement finds its peak.
     limit = TOLERANCES.leftover
@@ -165,21 +145,22 @@ def _on_walls(
     wall = Wall(reached)
     if wall.length == 0:
         return 0.0, None
-    if aside is not None:
-        shapely.prepare(aside)
+    for region in (within, aside):
+        if region is not None:
+            shapely.prepare(region)
     stations = wall.stations(spacing)
-    _, thick, stations = _measured(wall, stations, aside, job, groups)
+    _, thick, stations = _measured(wall, stations, within, aside, job, groups)
     if thick.size == 0:
         return 0.0, None
     worst = stations[np.argsort(thick)[-REFINED:]]
     finer = (worst[:, None] + np.linspace(-spacing, spacing, REFINE)).ravel()
-    points, thick, _ = _measured(wall, np.clip(finer, 0.0, wall.length), aside, job, groups)
+    points, thick, _ = _measured(wall, np.clip(finer, 0.0, wall.length), within, aside, job, groups)
     best = int(np.argmax(thick))
     return float(max(thick[best], 0.0)), (float(points[best, 0]), float(points[best, 1]))
 
 
 def _measured(
-    wall: Wall, stations: Array, aside: Shape | None, job: Job, groups: list[Sweep]
+    wall: Wall, stations: Array, within: Shape | None, aside: Shape | None, job: Job, groups: list[Sweep]
 ) -> tuple[Array, Array, Array]:
     """Points (k, 2), thickness (k,) and stations (k,) where the wall is to be cut at all."""
     points, outward = wall.at(stations)
@@ -188,6 +169,8 @@ def _measured(
     # Where the part's edge is the stock's edge there is nothing to cut, nothing above the limit at least.
     edge = TOLERANCES.leftover
     asked = (x > x0 + edge) & (x < x1 - edge) & (y > y0 + edge) & (y < y1 - edge)
+    if within is not None:
+        asked &= shapely.intersects_xy(within, x, y)
     if aside is not None:
         asked &= ~shapely.contains_xy(aside, x, y)
     return points[asked], _thickness(points[asked], outward[asked], groups), stations[asked]
@@ -199,7 +182,6 @@ def _thickness(points: Array, outward: Array, groups: list[Sweep]) -> Array:
     A path that finishes a wall runs one radius off it, so the nearest piece of path is looked for there
     first: its distance from the point is an upper bound, and where that is within the limit it will do.
     """
-    spots = shapely.points(points)
     thick = np.full(len(points), np.inf)
     for group in groups:
         # A point that one cutter has cleared needs no other, which could only have left less; the smallest,
@@ -207,18 +189,14 @@ def _thickness(points: Array, outward: Array, groups: list[Sweep]) -> Array:
         open_ = np.flatnonzero(thick > CLEAN)
         if open_.size == 0:
             break
-        beside = shapely.points(points[open_] + group.radius * outward[open_])
-        found, chord = group.tree.query_nearest(beside, max_distance=BESIDE, all_matches=False)
-        at = open_[found]
-        distance = shapely.distance(spots[at], group.tree.geometries[chord]) - group.radius
-        thick[at] = np.minimum(thick[at], distance)
+        beside = points[open_] + group.radius * outward[open_]
+        distance = group.chords.distance_beside(points[open_], beside, BESIDE) - group.radius
+        thick[open_] = np.minimum(thick[open_], distance)
     for group in groups:
         open_ = np.flatnonzero(thick > TOLERANCES.leftover)
         if open_.size == 0:
             break
-        (found, _), distance = group.tree.query_nearest(spots[open_], return_distance=True, all_matches=False)
-        at = open_[found]
-        thick[at] = np.minimum(thick[at], distance - group.radius)
+        thick[open_] = np.minimum(thick[open_], group.chords.distance(points[open_]) - group.radius)
     return thick
 
 

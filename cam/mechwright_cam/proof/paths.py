@@ -142,32 +142,36 @@ class Paths:
         offset = np.cumsum(count) - count
         share = (np.arange(owner.size) - offset[owner]) / (count[owner] - 1)
         t = pieces.first[owner] + (pieces.last - pieces.first)[owner] * share
-        at = step[owner]
-        flat = self.start[at, :2] + (self.end[at, :2] - self.start[at, :2]) * t[:, None]
-        bent = arc[owner]
-        if bent.any():
-            flat[bent] = self._on_arc(at[bent], t[bent])
+        start = self.start[step, :2]
+        way = self.end[step, :2] - start
+        flat = start[owner] + way[owner] * t[:, None]
+        bent = np.flatnonzero(arc)
+        if bent.size:
+            on = arc[owner]
+            flat[on] = self._on_arc(step[bent], np.repeat(np.arange(bent.size), count[bent]), t[on])
         return flat, owner
 
-    def _on_arc(self, step: Ints, t: Array) -> Array:
-        """Points (k, 2) on arcs; a small difference of the two radii is spread along the arc."""
+    def _on_arc(self, step: Ints, owner: Ints, t: Array) -> Array:
+        """Points (k, 2) on arcs (m,); a small difference of the two radii is spread along the arc."""
         centre = self.run.centre[step]
-        out = self.start[step, :2] - centre
-        last = np.hypot(*(self.end[step, :2] - centre).T)
-        first = np.hypot(*out.T)
-        angle = np.arctan2(out[:, 1], out[:, 0]) + self.run.sweep[step] * t
-        radius = (first + (last - first) * t)[:, None]
-        points: Array = centre + radius * np.column_stack((np.cos(angle), np.sin(angle)))
+        out, back = self.start[step, :2] - centre, self.end[step, :2] - centre
+        first = np.hypot(out[:, 0], out[:, 1])
+        more = np.hypot(back[:, 0], back[:, 1]) - first
+        angle = np.arctan2(out[:, 1], out[:, 0])[owner] + self.run.sweep[step][owner] * t
+        radius = first[owner] + more[owner] * t
+        points = centre[owner]
+        points[:, 0] += radius * np.cos(angle)
+        points[:, 1] += radius * np.sin(angle)
         return points
 
-    def extent(self) -> tuple[Array, Array]:
-        """Least and greatest x and y, (m, 2) each, of every step in ``steps``, mm."""
-        run, step = self.run, self.steps
+    def extent(self, steps: Ints | None = None) -> tuple[Array, Array]:
+        """Least and greatest x and y, (m, 2) each, of every one of some steps, or of ``self.steps``, mm."""
+        run, step = self.run, self.steps if steps is None else steps
         start, end = self.start[step, :2], self.end[step, :2]
         least, most = np.minimum(start, end), np.maximum(start, end)
         arc = np.flatnonzero(run.kind[step] == Kind.ARC)
         centre, sweep = run.centre[step[arc]], run.sweep[step[arc]]
-        radius = run.radius[step[arc]]
+        radius = run.radius[step[arc]] + run.arc_error[step[arc]]
         spoke = start[arc] - centre
         first = np.arctan2(spoke[:, 1], spoke[:, 0])
         for axis, angle, side in ((0, 0.0, 1), (1, np.pi / 2, 1), (0, np.pi, -1), (1, -np.pi / 2, -1)):

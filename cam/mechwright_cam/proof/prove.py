@@ -17,7 +17,7 @@ from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
-from mechwright_cam.proof.leftover import ROUNDING, SPOTS, Remains, remains, sweeps
+from mechwright_cam.proof.leftover import SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.ramped import deepest_in_tab
@@ -25,12 +25,15 @@ from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.proof.sweep import ROUNDING, Sweeps
 from mechwright_cam.timing import step_times
 
 SWEPT = 0.01
 """Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
 
 
+FEW = 64
+"""So many of the deepest moves are asked first whether they cut a feature."""
 BESIDE = 0.5
 """The cut around an outside is looked for so near to it, mm: half of the least frame between two channels."""
 
@@ -108,8 +111,9 @@ def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
 
 def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     """What is left, and what holds the part."""
-    left = remains(scene.paths, scene.job)
-    held, loose = holding(scene.paths, scene.job)
+    sweeps = Sweeps(scene.paths)
+    left = remains(sweeps, scene.job)
+    held, loose = holding(sweeps, scene.job)
     return left, held, loose
 
 
@@ -131,7 +135,7 @@ def read(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
 def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
     """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
     paths = Paths(read(text, job, dialect), {tool.number: tool for tool in job.tools})
-    cut = sweeps(paths, -job.thickness + ROUNDING, -job.thickness)
+    cut = Sweeps(paths).through(job.thickness)
     gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
     rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)
     return rest
@@ -202,10 +206,16 @@ def _depth_check(scene: Scene) -> Check:
 
 def _lowest(paths: Paths, pieces: Pieces, shape: Shape) -> float:
     """Lowest z at which any piece cuts into a shape; 0 if none does."""
-    # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
-    radius = np.maximum(paths.radius[pieces.step] - NEAR, NEAR)
-    near = shapely.dwithin(shape, paths.lines(pieces), radius)
-    return float(pieces.low[near].min(initial=0.0))
+    order, some, begin = np.argsort(pieces.low, kind="stable"), FEW, 0
+    while begin < order.size:  # the lowest first: one of them nearly always does
+        few = pieces.only(order[begin : begin + some])
+        # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
+        radius = np.maximum(paths.radius[few.step] - NEAR, NEAR)
+        near = np.flatnonzero(shapely.dwithin(shape, paths.lines(few), radius))
+        if near.size:
+            return min(float(few.low[near[0]]), 0.0)
+        begin, some = begin + some, 4 * some
+    return 0.0
 
 
 def _leftover_check(left: Remains) -> Check:

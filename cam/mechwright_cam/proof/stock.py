@@ -5,6 +5,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 
+from mechwright.motion import Array
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
@@ -14,6 +15,8 @@ from mechwright_cam.proof.plane import Shape, grow
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
+TOGETHER = 32
+"""Cuts that follow on each other and are looked for together."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -29,10 +32,30 @@ class Stock:
         self.cuts: Ints = paths.steps[cutting & (low < 0)]
 
     @cached_property
+    def _extents(self) -> tuple[Array, Array]:
+        return self.paths.extent(self.cuts)
+
+    @cached_property
     def _tree(self) -> shapely.STRtree:
-        pieces = self.paths.below(np.inf, steps=self.cuts)
-        lines: Geometries = self.paths.lines(pieces)
-        return shapely.STRtree(lines)
+        """Rectangles around so many cuts at a time."""
+        least, most = self._extents
+        first = np.arange(0, self.cuts.size, TOGETHER)
+        low, high = np.minimum.reduceat(least, first), np.maximum.reduceat(most, first)
+        return shapely.STRtree(shapely.box(*low.T, *high.T))
+
+    def _cuts_near(self, body: Shape, reach: float, before: int) -> Ints:
+        """The steps that cut before a step, within ``reach`` of a shape."""
+        least, most = self._extents
+        group = np.sort(self._tree.query(body, predicate="dwithin", distance=reach + NEAR))
+        index = (group[:, None] * TOGETHER + np.arange(TOGETHER)).ravel()
+        index = index[index < np.searchsorted(self.cuts, before)]
+        x0, y0, x1, y1 = shapely.bounds(body)
+        apart = (least[index] > (x1 + reach, y1 + reach)) | (most[index] < (x0 - reach, y0 - reach))
+        steps = self.cuts[index[~apart.any(axis=1)]]
+        lines: Geometries = self.paths.lines(self.paths.below(np.inf, steps=steps))
+        shapely.prepare(body)
+        near: Ints = steps[shapely.dwithin(body, lines, reach)]
+        return near
 
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
         """Whether the tool, moving straight as this step does, meets material that earlier steps left.
@@ -60,8 +83,7 @@ class Stock:
         if self.cuts.size == 0:
             return shapely.Polygon()
         reach = float(np.nanmax(paths.radius))
-        near = self.cuts[np.sort(self._tree.query(body, predicate="dwithin", distance=reach))]
-        pieces = paths.below(z + NEAR, steps=near[near < step])
+        pieces = paths.below(z + NEAR, steps=self._cuts_near(body, reach, step))
         radius = paths.radius_at(pieces, z)
         # A drill that stops at z exactly is pointed there, but its own hole is no material for it again.
         own = paths.run.tool[pieces.step] == paths.run.tool[step]

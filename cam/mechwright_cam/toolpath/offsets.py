@@ -49,7 +49,23 @@ def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
 @lru_cache(maxsize=16)
 def thinned(shape: shapely.Geometry) -> shapely.Geometry:
     """The shape for roughing, within ROUGH; every layer and every mill asks for the same ones."""
-    return shapely.simplify(shape, ROUGH)
+    return simplified(shape, ROUGH)
+
+
+def simplified(shape: shapely.Geometry, tolerance: float) -> shapely.Geometry:
+    """The shape with fewer corners, its boundary within ``tolerance``.
+
+    Watching over topology takes ten times as long, and is needed only in the rare shape whose walls come as
+    near to each other: there something would be lost, and it shows in rings and area.
+    """
+    simple = shapely.simplify(shape, tolerance, preserve_topology=False)
+    if _rings(simple) == _rings(shape) and abs(simple.area - shape.area) <= tolerance * shape.length:
+        return simple
+    return shapely.simplify(shape, tolerance)
+
+
+def _rings(shape: shapely.Geometry) -> list[int]:
+    return [1 + len(part.interiors) for part in polygons(shape)]
 
 
 def filled(shape: shapely.Geometry) -> shapely.Geometry:

@@ -100,7 +100,10 @@ def check(design: DesignFile, as_json: AsJson = False) -> None:
 
 @app.command()
 def solve(design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) -> None:
-    """Write the motion: motion.csv and summary.json."""
+    """Write the motion: tables, and a page that moves.
+
+    They are motion.csv, summary.json and motion.html.
+    """
     from mechwright.cli import work
 
     work.write(design, output, "solve", samples=samples)

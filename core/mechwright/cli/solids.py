@@ -50,10 +50,19 @@ def solid_files(
     return made.files
 
 
+def motion_page(design: Design, *, solids: bool) -> dict[str, bytes]:
+    """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
+    from mechwright_cam.animation import MOTION, page_of
+
+    return {MOTION: page_of(design.name, design.family, design.params, solids=solids).encode()}
+
+
 def compared_and_made(design: Design, exporters: Sequence[Exporter], motion: "Motion", sample: int) -> Made:
-    """Whether bodies collide; and the files, if none do."""
+    """Whether bodies collide; and the files of a build, if none do."""
     met = collisions(design, solids=True)
-    return met, {} if errors(met) else solid_files(design, exporters, motion, sample)
+    if errors(met):
+        return met, {}
+    return met, solid_files(design, exporters, motion, sample) | motion_page(design, solids=True)
 
 
 class SolidWork:
@@ -63,15 +72,16 @@ class SolidWork:
     ----------
     exporters
         One for each format.
-    beside
-        Whether there is other work meanwhile. The second process is begun only if it gains something: if a
-        library that the exporters need is not imported yet, and there is a core to do it.
+    build
+        Whether the motion is shown as well, and there is other work meanwhile. The second process is begun
+        only if it gains something: if a library that the exporters need is not imported yet, and there is a
+        core to do it.
     """
 
-    def __init__(self, exporters: Sequence[Exporter], *, beside: bool) -> None:
-        self._exporters = exporters
+    def __init__(self, exporters: Sequence[Exporter], *, build: bool) -> None:
+        self._exporters, self._build = exporters, build
         heavy = sorted({module for exporter in exporters for module in exporter.modules} - set(sys.modules))
-        self._second = Beside(heavy) if beside and heavy and cores() > 1 else None
+        self._second = Beside(heavy) if build and heavy and cores() > 1 else None
         self._work: Work | None = None
         self._made: Made | None = None
 
@@ -92,7 +102,10 @@ class SolidWork:
 
     def files(self) -> dict[str, bytes]:
         """File name to content."""
-        return solid_files(*self._begun) if self._second is None else self._result()[1]
+        if self._second is not None:
+            return self._result()[1]
+        page = motion_page(self._begun[0], solids=True) if self._build else {}
+        return solid_files(*self._begun) | page
 
     @property
     def _begun(self) -> "Work":

@@ -1,6 +1,7 @@
 """The commands that work on a design file."""
 
 import json
+from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -10,7 +11,7 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
-from mechwright.cli.solids import SolidWork, collisions
+from mechwright.cli.solids import SolidWork, collisions, motion_page
 from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
 from mechwright.errors import DesignError, MechwrightError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
@@ -92,13 +93,18 @@ def write(
         step = stack.enter_context(progress({"build": 6, "solve": 3}.get(command, 4)))
         work = None
         if command in {"model", "build"}:
-            work = SolidWork([found.exporter("step"), *exporters], beside=command == "build")
+            work = SolidWork([found.exporter("step"), *exporters], build=command == "build")
             stack.enter_context(work)
         step("checking")
         design = load(path, found)
         findings = list(design.family.check(design.params))
         if errors(findings):
             _refuse(findings, path)
+
+        def add(files: Mapping[str, bytes]) -> None:
+            for name, content in files.items():
+                output.add(name, content)
+
         if work is not None:
             work.begin(design, *_pose(design, at))
         if command in {"solve", "build"}:
@@ -108,6 +114,8 @@ def write(
             motion = design.family.solve(design.params, samples)
             output.add("motion.csv", motion_csv(motion))
             output.add("summary.json", summary_json(motion))
+            if command == "solve":
+                add(motion_page(design, solids=False))
 
         def compare() -> None:
             step("interference")
@@ -140,8 +148,7 @@ def write(
                 )
         if work is not None:
             step("solids")
-            for name, content in work.files().items():
-                output.add(name, content)
+            add(work.files())
         step("writing")
         write_folder(folder, output, command, _facts(design, found))
     for finding in findings:

@@ -20,7 +20,7 @@ DENSE = 2.0
 """Distance of points on straight stretches of a centre line, mm, between which arcs are looked for."""
 
 
-def slot_mill(job: Job, feature: OpenProfile) -> Tool | None:
+def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
     """The mill that cuts a groove to its width in one; None if there is none.
 
     Where clearing is adaptive, a narrower mill with room to turn in loops goes first.
@@ -39,10 +39,10 @@ def slot_mill(job: Job, feature: OpenProfile) -> Tool | None:
     return next((mill for mill in mills if -1e-9 <= feature.width - mill.diameter <= PLAY), None)
 
 
-def slots(job: Job) -> dict[str, Tool]:
+def grooves(job: Job) -> dict[str, Tool]:
     """The grooves that are cut in one, by name, each with its mill."""
-    grooves = [feature for feature in job.features if isinstance(feature, OpenProfile)]
-    chosen = {feature.name: slot_mill(job, feature) for feature in grooves}
+    every = [feature for feature in job.features if isinstance(feature, OpenProfile)]
+    chosen = {feature.name: groove_mill(job, feature) for feature in every}
     return {name: mill for name, mill in chosen.items() if mill is not None}
 
 
@@ -53,7 +53,7 @@ def centre_line(feature: OpenProfile) -> Path:
     return fit(densified(points, DENSE), FIT)
 
 
-def write_slot(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None:
+def write_groove(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None:
     """Write ramped passes of full width along the centre line, to and fro, and the last over the floor."""
     path = centre_line(feature)
     top, bottom = -feature.top, bottom_of(job, feature.top, feature.depth)

@@ -1,0 +1,83 @@
+// The input: a slider, a button that lets it run, and a mark in the address (#at=40) where it starts.
+const [unitOfInput, factorOfInput] = degrees(input.unit);
+const slider = document.getElementById("input"), button = document.getElementById("play");
+const pace = document.getElementById("pace"), said = document.getElementById("now");
+let time = 0, forwards = 1, before = null;
+
+const place = document.getElementById("picture");
+const draw = Object.keys(data.poses).length ? (data.layers ? planePicture : spacePicture)(place) : () => {};
+if (!Object.keys(data.poses).length) place.remove();
+
+function show() {
+  const value = (at(input.values, time) * factorOfInput).toFixed(unitOfInput === "°" ? 1 : 3);
+  const words = `${data.input} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
+  said.textContent = words;
+  slider.value = time;
+  slider.setAttribute("aria-valuetext", words);
+  draw(time);
+  for (const cursor of cursors) cursor(time);
+  for (const cell of cells.values()) cell(time);
+}
+function seek(wanted) {
+  time = wanted;
+  show();
+}
+function run(clock) {
+  if (before === null) return;
+  let next = time + forwards * (clock - before) / 1000 / Number(pace.value) * last;
+  before = clock;
+  if (data.round) next = (next % last + last) % last;
+  else if (next > last || next < 0) {
+    forwards = -forwards;
+    next = Math.min(last, Math.max(0, next > last ? 2 * last - next : -next));
+  }
+  seek(next);
+  requestAnimationFrame(run);
+}
+function play(on) {
+  button.textContent = on ? "Pause" : "Play";
+  button.setAttribute("aria-pressed", String(on));
+  before = on ? performance.now() : null;
+  if (on) requestAnimationFrame(run);
+}
+document.getElementById("way").textContent = data.round ? "once round" : "one way";
+slider.max = last;
+slider.setAttribute("aria-label", `Input ${data.input}`);
+slider.addEventListener("input", () => seek(Number(slider.value)));
+slider.addEventListener("keydown", (event) => {
+  // A step of the slider is a sample, a page a tenth of the motion.
+  const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: last / 10, PageDown: -last / 10 };
+  if (!(event.key in steps)) return;
+  event.preventDefault();
+  seek(Math.min(last, Math.max(0, time + steps[event.key])));
+});
+button.addEventListener("click", () => play(before === null));
+document.addEventListener("keydown", (event) => {
+  if (event.key !== " " || event.target !== document.body) return;
+  event.preventDefault();
+  play(before === null);
+});
+const legend = document.getElementById("legend");
+for (const [name, show_] of shown) {
+  const label = element("label", {}, legend), box = element("input", { type: "checkbox" }, label);
+  box.checked = true;
+  box.addEventListener("change", () => show_.parts.forEach((part) => part(box.checked)));
+  const swatch = element("span", { class: "swatch" }, label);
+  swatch.style.background = show_.colour || "var(--accent)";
+  label.append(name);
+}
+if (!shown.size) legend.remove();
+if (data.missing.length) {
+  const note = document.getElementById("note");
+  note.hidden = false;
+  note.textContent = `Not drawn, because they are no plates: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
+}
+firstChoice();
+table(seek, show);
+plots(seek);
+const wanted = /^#at=(-?[\d.]+)$/.exec(location.hash);
+if (wanted) {
+  const value = Number(wanted[1]) / factorOfInput, span = input.values[last] - input.values[0];
+  time = Math.min(last, Math.max(0, (value - input.values[0]) / span * last)) || 0;
+}
+show();

@@ -1,0 +1,94 @@
+"""What the cutters sweep at a height: paths that reach it, by effective radius."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from mechwright.motion import Array
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.gouge import distinct
+from mechwright_cam.proof.near import Chords
+from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
+
+ROUNDING = 1e-4
+"""A path that should reach the underside may be short by the last decimal of the program, mm."""
+SWEEP_CHORD = 0.0005
+"""Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Paths of one effective radius, mm: as lines for areas, as chords for distances."""
+
+    radius: float
+    paths: Paths
+    pieces: Pieces
+
+    @cached_property
+    def _points(self) -> tuple[Array, Ints]:
+        return self.paths.points(self.pieces, SWEEP_CHORD)
+
+    @cached_property
+    def chains(self) -> Geometries:
+        """All of the paths, repeated ones once."""
+        return self.paths.chains(self.pieces, SWEEP_CHORD)
+
+    @cached_property
+    def chords(self) -> Chords:
+        """The straight pieces of all paths."""
+        points, owner = self._points
+        same = owner[:-1] == owner[1:]
+        return Chords(points[:-1][same], points[1:][same])
+
+    @cached_property
+    def _extents(self) -> tuple[Array, Array]:
+        """Least and greatest x and y (m, 2) of each piece, mm."""
+        points, owner = self._points
+        first = np.searchsorted(owner, np.arange(len(self.pieces)))
+        return np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
+
+    def stays_inside(self, box: shapely.Polygon) -> bool:
+        """Whether nothing that is swept reaches the edge of a rectangle along the axes, nor beyond."""
+        least, most = self._extents
+        x0, y0, x1, y1 = box.bounds
+        reach = self.radius + NEAR
+        return bool(((least > (x0 + reach, y0 + reach)) & (most < (x1 - reach, y1 - reach))).all())
+
+    def beside(self, shape: shapely.Geometry) -> Geometries:
+        """Those of the paths that may come within the radius of a shape."""
+        least, most = self._extents
+        x0, y0, x1, y1 = shape.bounds
+        reach = self.radius + NEAR
+        near = (least <= (x1 + reach, y1 + reach)) & (most >= (x0 - reach, y0 - reach))
+        return self.paths.chains(self.pieces.only(np.flatnonzero(near.all(axis=1))), SWEEP_CHORD)
+
+
+class Sweeps:
+    """What is cut at different heights, each worked out once."""
+
+    def __init__(self, paths: Paths) -> None:
+        self.paths = paths
+        self._known: dict[tuple[float, float], list[Sweep]] = {}
+
+    def at(self, height: float, bottom: float) -> list[Sweep]:
+        """What is cut at ``bottom`` by feed moves that go down to ``height``, smallest radius first."""
+        if (height, bottom) not in self._known:
+            self._known[height, bottom] = self._cut(height, bottom)
+        return self._known[height, bottom]
+
+    def _cut(self, height: float, bottom: float) -> list[Sweep]:
+        paths = self.paths
+        cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
+        pieces = distinct(paths, paths.below(height, steps=cutting))
+        pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
+        radius = np.round(paths.radius_at(pieces, bottom), 6)
+        return [
+            Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
+        ]
+
+    def through(self, thickness: float) -> list[Sweep]:
+        """What is cut at the underside of a plate."""
+        return self.at(-thickness + ROUNDING, -thickness)
