@@ -190,9 +190,8 @@ def test_turned_over_and_nested_it_is_the_same_strip():
     side=st.sampled_from(["left", "right", "on"]),
     width=st.sampled_from([3.0, 4.0, 6.0, 7.3]),
     tools=st.sampled_from([(), ("mill-6", "mill-3"), ("mill-4", "mill-2")]),
-    clearing=st.sampled_from(["contour", "contour", "adaptive"]),
 )
-def test_any_path_is_cut_or_refused(start, heading, items, side, width, tools, clearing):
+def test_any_path_is_cut_or_refused(start, heading, items, side, width, tools):
     path, place = [], start
     for length, radius, turn in items:
         end = (place[0] + length * math.cos(heading), place[1] + length * math.sin(heading))
@@ -205,7 +204,7 @@ def test_any_path_is_cut_or_refused(start, heading, items, side, width, tools, c
         place = path[-1].end
     try:
         of = opened(side, width, tuple(path))
-        wanted = CamSettings.model_validate({"tools": tools, "clearing": clearing})
+        wanted = CamSettings.model_validate({"tools": tools})
         made = make_job(of, wanted, choose_tools(of, wanted, LIBRARY))
         program = plan(made)
     except GeometryError as error:

@@ -46,8 +46,8 @@ def notes(job: Job, drills: Sequence[Tool]) -> tuple[str, ...]:
         if low == high:
             axis, (_, low, _, high) = "Y", job.jaws[0].face.bounds
         lines.append(
-            f"vice on the {job.jaws[0].edge} and {job.jaws[1].edge} edges: jaws from {axis}{low:.2f} to "
-            f"{axis}{high:.2f} at most, up to Z{job.jaws[0].top:g}"
+            f"vice: {job.jaws[0].edge} and {job.jaws[1].edge} edges, jaws {axis}{low:.2f} to "
+            f"{axis}{high:.2f}, top Z{job.jaws[0].top:g}"
         )
     if drills:
         below = max(point_length(drill) for drill in drills) + job.settings.breakthrough

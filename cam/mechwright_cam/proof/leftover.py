@@ -23,7 +23,7 @@ from mechwright.tooling import ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Boundary, Shape, closing, grow, swept
+from mechwright_cam.proof.plane import ROUND, Boundary, Shape, closing, grow, swept
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 
@@ -33,8 +33,9 @@ SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
 PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
 """A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
-ENTERED = 1e-4
-"""A groove so much wider than a cutter on either side lets it in, mm: what the chords of both may be off."""
+ENTERED = 2 * (TOLERANCES.flatten + ROUND)
+"""A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
+may be off."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""

@@ -2,8 +2,7 @@
 (part open-ends, aluminium, 4 mm thick)
 (stock 46.00 x 30.00 x 4 mm, from X-23.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(vice on the front and rear edges: jaws from X-9.21 to X9.21 at most,)
-(up to Z-2)
+(vice: front and rear edges, jaws X-9.21 to X9.21, top Z-2)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T27 D 3 mm: mill-3, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
