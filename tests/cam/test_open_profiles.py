@@ -117,7 +117,8 @@ def test_a_narrower_mill_cuts_both_walls_and_adaptive_clearing_turns_in_loops():
     straight = (Line((-40.0, 0.0), (40.0, 0.0)),)
     wide = job(opened("on", 9.0, straight), "mill-6", "mill-4")
     assert names(proven(wide)[0]) == ["open: rough", "open: finish the floor", "open: finish"]
-    loops = job(opened("on", 6.0), "mill-6", "mill-3", clearing="adaptive")
+    short = (Line((-8.0, 0.0), (8.0, 0.0)),)
+    loops = job(opened("on", 8.0, short), "mill-8", "mill-4", clearing="adaptive")
     assert names(proven(loops)[0])[0] == "open: clear"
     only = job(opened("on", 6.0), "mill-6", clearing="adaptive")
     assert names(proven(only)[0]) == ["open: slot"]
