@@ -19,6 +19,7 @@ from mechwright.part import Instance, Part
 from mechwright_cam import solids
 from mechwright_cam.exporters import dxf, mesh, step
 from mechwright_cam.solid_check import check_plate
+from mechwright_cam.wires import extruded
 
 GEAR = RackGear()
 THICKNESS = 10.0
@@ -49,7 +50,7 @@ def by_spline_edges() -> cq.Solid:
 
 
 def ours_unchecked() -> cq.Solid:
-    return solids._extruded(outline(GEAR), THICKNESS)
+    return extruded(outline(GEAR), THICKNESS)
 
 
 def cadquery_step(solid: cq.Solid) -> int:

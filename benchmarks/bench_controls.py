@@ -20,6 +20,8 @@ from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.proof import prove
 
 MOVES = 100_000
+SECONDS = 1.0
+"""They have to be read and proven in this time: a third of what is promised."""
 ANCHOR, ANCHOR_SECONDS = "import cadquery", 1.6
 
 
@@ -39,9 +41,10 @@ def main() -> int:
         f"{name}: read and proven": partial(prove, text, job, DIALECTS[name]) for name, text in texts.items()
     }
     ratios = report(f"{MOVES} moves", race(work, rounds=3), ANCHOR)
-    limit = 3.0 / ANCHOR_SECONDS
+    limit = SECONDS / ANCHOR_SECONDS
     kept = [
-        require(f"{name}, {MOVES} moves in 3 s", ratios[f"{name}: read and proven"], limit) for name in texts
+        require(f"{name}, {MOVES} moves in {SECONDS:g} s", ratios[f"{name}: read and proven"], limit)
+        for name in texts
     ]
     return 0 if all(kept) else 1
 

@@ -16,7 +16,7 @@ Planner and proof both start from a job and from nothing else, so that the proof
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -26,11 +26,14 @@ from mechwright.details import Detail, moved
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, Feature, Part, Profile
-from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
 from mechwright_cam.plate import plate_box
 from mechwright_cam.tabs import Tab, lay_tabs
 from mechwright_cam.vice import Jaw, lay_jaws
+
+LEVEL = 1e-6
+"""Heights nearer than this are one, mm: far below the last decimal of a program."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,17 @@ class Clamp:
 
     centre: Point
     diameter: float
+    top: float
+
+
+@dataclass(frozen=True)
+class Air:
+    """What earlier setups have cut from the other side: in ``shape`` nothing stands below ``top``.
+
+    ``shape`` is a plan view in work coordinates, ``top`` a height z, mm: 0 where they have cut through.
+    """
+
+    shape: shapely.Geometry
     top: float
 
 
@@ -67,7 +81,7 @@ class Job:
     side
         ``"underside"`` if the plate has been turned over.
     gone
-        What of the plate earlier setups have cut away from top to bottom, work coordinates.
+        What of the plate earlier setups have cut away, by height; higher regions lie in lower ones.
     pick_up
         Middle of the bore by which a plate that has been turned over is picked up, work coordinates.
     """
@@ -81,7 +95,7 @@ class Job:
     clamp: Clamp | None = None
     jaws: tuple[Jaw, ...] = ()
     side: Literal["top", "underside"] = "top"
-    gone: shapely.Geometry = field(default_factory=shapely.Polygon)
+    gone: tuple[Air, ...] = ()
     pick_up: Point | None = None
 
     @property
@@ -93,6 +107,11 @@ class Job:
     def floor(self) -> float:
         """Depth of through cuts, z in mm."""
         return -self.thickness - self.settings.breakthrough
+
+    def air_below(self, z: float) -> shapely.Geometry:
+        """Where earlier setups have left nothing below a height z, mm; for 0, where they have cut through."""
+        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
+        return found
 
     @cached_property
     def target(self) -> shapely.Geometry:
@@ -114,9 +133,14 @@ class Job:
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:
-        """The end mills, largest first."""
-        mills = [tool for tool in self.tools if tool.kind is ToolKind.END_MILL]
-        return tuple(sorted(mills, key=lambda tool: -tool.diameter))
+        """The flat end mills, largest first."""
+        return tuple(tool for tool in self.mills if tool.kind is ToolKind.END_MILL)
+
+    @property
+    def mills(self) -> tuple[Tool, ...]:
+        """The end mills, bull noses and balls, largest first; of one diameter the roundest first."""
+        mills = [tool for tool in self.tools if tool.kind in MILLS]
+        return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
 
 
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
@@ -129,7 +153,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
     DesignError
         The stock is too small, or the part has no bore to be held by.
     """
-    widest = max((tool.diameter for tool in tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
     # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
     stock = plate_box(part, settings, widest + 3.0)
     origin = {

@@ -14,7 +14,7 @@ import shapely
 from mechwright.design import Design
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.part import Part, check_name
-from mechwright.tooling import CamSettings, ToolKind
+from mechwright.tooling import MILLS, CamSettings
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, Placed, make_nest
@@ -160,7 +160,7 @@ def channel_of(group: Iterable[Part], settings: CamSettings, library: Library) -
         except MechwrightError:
             continue  # laying out the nest says what is missing
         job = Job(part, settings, tools, (0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
-        mills = [channel_width(job, tool) for tool in tools if tool.kind is ToolKind.END_MILL]
+        mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
         found.append(max(mills, default=0.0))
     return min(found, default=0.0)
 

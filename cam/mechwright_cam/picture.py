@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import shapely
 
+from mechwright.cutter import cutter
+from mechwright.details import Chamfer, Engraving, Thread, chamfer_lines
 from mechwright.geometry.segments import Point
 from mechwright.program import Program
 from mechwright.sections import sections
-from mechwright.tooling import Tool, ToolKind
+from mechwright.tooling import Tool
 from mechwright_cam import svg
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest, outlines_of
@@ -22,8 +24,14 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#5
 DETAIL = 0.02
 """Chord error of outlines in pictures, mm."""
 
+WIDE = 0.58
+"""Width of a letter in its height, on average, generously."""
+
 LETTERS = 0.026
 """Height of letters as a share of the picture's larger side."""
+
+THREAD_ENDS = (math.radians(100.0), math.radians(10.0))
+"""A thread's circle is drawn from here on for three quarters of a turn, as drawings do (ISO 6410-1)."""
 
 SAME = 2
 """Decimals, mm: paths that lie over one another this closely (passes at several depths) are drawn once."""
@@ -84,7 +92,10 @@ def plan_view(
         layers += _paths(program, trace(program) if traced is None else traced, frame)
     layers += [_holding(job, frame), _dimensions(job, frame), _origin(frame), _spots(spots, frame)]
     margin = 4.6 * frame.letters
-    box = (x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin)
+    # Words that do not fit between the arrows of a short dimension stand beyond its far end.
+    right = max([margin, *(at - x1 for at in _ends(job, frame, 0))])
+    above = max([margin, *(at - y1 for at in _ends(job, frame, 1))])
+    box = (x0 - margin, -y1 - above, x1 - x0 + margin + right, y1 - y0 + above + margin)
     return svg.element(
         "svg",
         "\n".join(layer for layer in layers if layer),
@@ -116,7 +127,7 @@ def _part(job: Job, frame: Frame) -> str:
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
-    return plate + _gone(job, frame) + _recesses(job, frame) + _names(job, frame)
+    return plate + _gone(job, frame) + _recesses(job, frame) + _details(job, frame) + _names(job, frame)
 
 
 def _names(job: Job, frame: Frame) -> str:
@@ -135,7 +146,7 @@ def _names(job: Job, frame: Frame) -> str:
 
 def _gone(job: Job, frame: Frame) -> str:
     """What an earlier setup has cut through."""
-    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.gone, DETAIL)))
+    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.air_below(0.0), DETAIL)))
     data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
     look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
     return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
@@ -145,7 +156,7 @@ def _recesses(job: Job, frame: Frame) -> str:
     """The floors of recesses, darker the deeper they lie."""
     whole = job.target
     layers = []
-    for layer in sections(job.part, DETAIL)[:-1]:
+    for layer in sections(job.part, DETAIL, steps=0)[:-1]:
         taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
         rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
         data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
@@ -153,6 +164,23 @@ def _recesses(job: Job, frame: Frame) -> str:
             look = {"fill": "#5f7688", "fill_opacity": 0.4, "fill_rule": "evenodd", "stroke": "#1b2733"}
             layers.append(svg.element("path", d=data, **look, stroke_width=0.04 * frame.letters))
     return "".join(layers)
+
+
+def _details(job: Job, frame: Frame) -> str:
+    """Where chamfers end, strokes of engravings, and three quarters of each thread's circle."""
+    data = []
+    for detail in job.details:
+        match detail:
+            case Chamfer():
+                data += [svg.path(loop.flatten(DETAIL), close=True) for loop in chamfer_lines(detail)]
+            case Engraving():
+                data += [svg.path(stroke) for stroke in detail.strokes]
+            case Thread():
+                (x, y), r = detail.centre, detail.diameter / 2
+                start, end = ((x + r * math.cos(a), y + r * math.sin(a)) for a in THREAD_ENDS)
+                data.append("M" + svg.place(*start) + svg.arc_to(start, end, (x, y), ccw=True))
+    look = {"fill": "none", "stroke": "#1b2733", "stroke_width": 0.04 * frame.letters}
+    return svg.element("path", d="".join(data), **look) if data else ""
 
 
 def _holding(job: Job, frame: Frame) -> str:
@@ -235,11 +263,9 @@ def _paths(program: Program, traced: Sequence[Traced], frame: Frame) -> list[str
 
 
 def _swath(tool: Tool, items: Sequence[Traced]) -> float:
-    """Width of what a tool cuts at the top face, mm: a pointed one is narrower than its diameter."""
-    if tool.kind is not ToolKind.CHAMFER:
-        return tool.diameter
-    depth = -min((item.bottom for item in items if item.bottom is not None), default=0.0)
-    return min(tool.diameter, tool.tip_diameter + 2 * depth * math.tan(math.radians(tool.point_angle / 2)))
+    """Width of what a tool cuts at the top face, mm: near its tip it may be narrower than its diameter."""
+    depth = -min((item.bottom for item in items if item.bottom is not None), default=-math.inf)
+    return 2 * float(cutter(tool).radius_at(depth))
 
 
 def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:
@@ -277,56 +303,101 @@ def _key(stroke: Stroke) -> tuple[object, ...] | None:
     return start, end, tuple(round(value, SAME) for value in stroke.centre), stroke.ccw
 
 
-def _dimensions(job: Job, frame: Frame) -> str:
+@dataclass(frozen=True)
+class _Dimension:
+    """A length along X (``axis`` 0) or Y (1), ``at`` across, measured from the ``edge``."""
+
+    axis: int
+    ends: tuple[float, float]
+    at: float
+    edge: float
+    words: str
+    colour: str = "#333333"
+
+    def length(self, size: float) -> float:
+        """Of the words, mm."""
+        return WIDE * size * len(self.words)
+
+    def fits(self, size: float) -> bool:
+        """Whether the words have room between the arrows."""
+        return self.length(size) <= self.ends[1] - self.ends[0]
+
+    def middle(self, size: float) -> float:
+        """Where the middle of the words stands along the axis, mm."""
+        if self.fits(size):
+            return (self.ends[0] + self.ends[1]) / 2
+        return self.ends[1] + AWAY * size + self.length(size) / 2
+
+
+AWAY = 1.3
+"""Words beyond a short dimension stand so many heights away from it, past its arrow."""
+
+
+def _listed(job: Job, frame: Frame) -> list[_Dimension]:
     x0, y0, x1, y1 = job.stock
     px0, py0, px1, py1 = job.target.bounds
     step = 1.7 * frame.letters
     what = "parts" if isinstance(job.part, Nest) else "part"
     rows = [
-        _level((x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}", frame),
-        _level((px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}", frame),
-        _upright((y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}", frame),
-        _upright((py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}", frame),
+        _Dimension(0, (x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}"),
+        _Dimension(0, (px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}"),
+        _Dimension(1, (y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}"),
+        _Dimension(1, (py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}"),
     ]
     # How far the origin is from the edges that are probed, unless it is on them.
     if x0 < 0:
-        rows.append(_level((x0, 0.0), y0 - step, y0, f"{-x0:.2f}", frame, "#b00020"))
+        rows.append(_Dimension(0, (x0, 0.0), y0 - step, y0, f"{-x0:.2f}", "#b00020"))
     if y0 < 0:
-        rows.append(_upright((y0, 0.0), x0 - step, x0, f"{-y0:.2f}", frame, "#b00020"))
-    return "".join(rows)
+        rows.append(_Dimension(1, (y0, 0.0), x0 - step, x0, f"{-y0:.2f}", "#b00020"))
+    return rows
 
 
-def _level(
-    ends: tuple[float, float], y: float, edge: float, words: str, frame: Frame, colour: str = "#333333"
-) -> str:
-    size, (a, b) = frame.letters, ends
-    beyond = y + math.copysign(0.4 * size, y - edge)
-    lines = f"M{svg.place(a, edge)}V{svg.number(-beyond)}M{svg.place(b, edge)}V{svg.number(-beyond)}"
-    main = f"M{svg.place(a, y)}H{svg.number(b)}"
-    label = svg.text((a + b) / 2, y + 0.3 * size, words, size, text_anchor="middle", fill=colour)
-    return _dimension_lines(lines, main, colour, size) + _heads((a, y), (b, y), colour, size) + label
+def _ends(job: Job, frame: Frame, axis: int) -> list[float]:
+    """Where the words of the dimensions along an axis end, mm."""
+    size = frame.letters
+    return [d.middle(size) + d.length(size) / 2 + size for d in _listed(job, frame) if d.axis == axis]
 
 
-def _upright(
-    ends: tuple[float, float], x: float, edge: float, words: str, frame: Frame, colour: str = "#333333"
-) -> str:
-    size, (a, b) = frame.letters, ends
-    beyond = x + math.copysign(0.4 * size, x - edge)
-    lines = f"M{svg.place(edge, a)}H{svg.number(beyond)}M{svg.place(edge, b)}H{svg.number(beyond)}"
-    main = f"M{svg.place(x, a)}V{svg.number(-b)}"
-    at = (x - 0.3 * size, (a + b) / 2)
-    turn = f"rotate(-90 {svg.number(at[0])} {svg.number(-at[1])})"
-    label = svg.text(*at, words, size, text_anchor="middle", fill=colour, transform=turn)
-    return _dimension_lines(lines, main, colour, size) + _heads((x, a), (x, b), colour, size) + label
+def _dimensions(job: Job, frame: Frame) -> str:
+    size = frame.letters
+    return "".join(_drawn(dimension, size) for dimension in _listed(job, frame))
+
+
+def _drawn(one: _Dimension, size: float) -> str:
+    """Extension lines, the line between arrows, and words on its upper or left side."""
+    (a, b), at = one.ends, one.at
+    beyond = at + math.copysign(0.4 * size, at - one.edge)
+    middle, colour = one.middle(size), one.colour
+    # Arrows of a short dimension come from outside.
+    out = 0.0 if one.fits(size) else AWAY * size
+    first, last = a - out, b + out
+
+    def place(along: float, across: float) -> Point:
+        return (along, across) if one.axis == 0 else (across, along)
+
+    lines = "".join(f"M{svg.place(*place(end, one.edge))}L{svg.place(*place(end, beyond))}" for end in (a, b))
+    main = f"M{svg.place(*place(first, at))}L{svg.place(*place(last, at))}"
+    look = {"text_anchor": "middle", "fill": colour}
+    if not one.fits(size):  # there may be lines of other dimensions behind
+        look |= {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": svg.number(0.25 * size)}
+    if one.axis == 0:
+        label = svg.text(middle, at + 0.3 * size, one.words, size, **look)
+    else:
+        spot = (at - 0.3 * size, middle)
+        turn = f"rotate(-90 {svg.number(spot[0])} {svg.number(-spot[1])})"
+        label = svg.text(*spot, one.words, size, transform=turn, **look)
+    heads = _heads(place(a, at), place(b, at), colour, size, inwards=out > 0)
+    return _dimension_lines(lines, main, colour, size) + heads + label
 
 
 def _dimension_lines(thin: str, main: str, colour: str, size: float) -> str:
     return svg.element("path", d=thin + main, fill="none", stroke=colour, stroke_width=0.05 * size)
 
 
-def _heads(a: Point, b: Point, colour: str, size: float) -> str:
+def _heads(a: Point, b: Point, colour: str, size: float, *, inwards: bool = False) -> str:
     length = math.hypot(b[0] - a[0], b[1] - a[1]) or 1.0
-    ux, uy = (b[0] - a[0]) / length, (b[1] - a[1]) / length
+    turn = -1 if inwards else 1
+    ux, uy = turn * (b[0] - a[0]) / length, turn * (b[1] - a[1]) / length
     return _head(a, (-ux, -uy), colour, size) + _head(b, (ux, uy), colour, size)
 
 
@@ -345,21 +416,23 @@ def _head(tip: Point, direction: Point, colour: str, size: float) -> str:
 def _origin(frame: Frame) -> str:
     """The quartered circle of a datum at X0 Y0, and the axes."""
     size = frame.letters
-    r, arm = 0.75 * size, 3.4 * size
+    r = 0.75 * size
+    # On a slim plate the axes end before the words of the part's dimensions.
+    right, above = (max(1.2 * r, min(3.4 * size, end - 1.2 * size)) for end in (frame.x1, frame.y1))
     quarter = f"M0,0V{svg.number(-r)}A{svg.number(r)} {svg.number(r)} 0 0 1 {svg.place(r, 0)}Z"
     other = f"M0,0V{svg.number(r)}A{svg.number(r)} {svg.number(r)} 0 0 1 {svg.place(-r, 0)}Z"
-    axes = f"M0,0H{svg.number(arm)}M0,0V{svg.number(-arm)}"
+    axes = f"M0,0H{svg.number(right)}M0,0V{svg.number(-above)}"
     red = "#b00020"
     halo = {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": 0.3 * size, "font_weight": "bold"}
     return "".join(
         [
             svg.element("path", d=axes, stroke=red, stroke_width=0.12 * size),
-            _head((arm + 0.5 * size, 0.0), (1.0, 0.0), red, size),
-            _head((0.0, arm + 0.5 * size), (0.0, 1.0), red, size),
+            _head((right + 0.5 * size, 0.0), (1.0, 0.0), red, size),
+            _head((0.0, above + 0.5 * size), (0.0, 1.0), red, size),
             svg.element("circle", cx=0, cy=0, r=r, fill="#ffffff", stroke=red, stroke_width=0.12 * size),
             svg.element("path", d=quarter + other, fill=red),
-            svg.text(arm + 0.9 * size, -0.35 * size, "X", size, fill=red, **halo),
-            svg.text(0.0, arm + 0.8 * size, "Y", size, fill=red, text_anchor="middle", **halo),
+            svg.text(right + 0.9 * size, -0.35 * size, "X", size, fill=red, **halo),
+            svg.text(0.0, above + 0.8 * size, "Y", size, fill=red, text_anchor="middle", **halo),
         ]
     )
 

@@ -12,6 +12,7 @@ from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.host import Host
+from mechwright.host import host as default_host
 from mechwright.output import Post
 from mechwright.part import Part
 from mechwright.program import Program
@@ -24,12 +25,14 @@ from mechwright_cam.limits import check_machine
 from mechwright_cam.nest import Nest
 from mechwright_cam.nesting import arranged
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.proof import Proof, cut_through, prove, read
+from mechwright_cam.proof import Proof, cut_away, prove, read
 from mechwright_cam.proof.simulation import simulate
+from mechwright_cam.proof.walls import wall_deviation
 from mechwright_cam.reach import cut_outlines
 from mechwright_cam.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.setup_sheet.raster import simulated_view
-from mechwright_cam.setups import lay_out_setups, sides, turned_shape
+from mechwright_cam.setup_sheet.walls import walls_view
+from mechwright_cam.setups import carried, lay_out_setups, sides
 
 SUMMARY = "setup.html"
 """The page of the whole job."""
@@ -160,8 +163,8 @@ def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]
 
 def _after(first: Machined, job: Job, post: Post) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
-    gone = cut_through(first.proven, first.job, dialect_of(post))
-    return replace(job, gone=turned_shape(gone, first.job, job))
+    cut = cut_away(first.proven, first.job, dialect_of(post))
+    return replace(job, gone=carried(cut, first.job, job))
 
 
 def machine(job: Job, post: Post, place: int = 0) -> Machined:
@@ -235,19 +238,24 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     table, text = post.tool_table([tools[number] for number in sorted(tools)])
     if table:
         output.add(table, text)
-    seen = {
-        item.program.name: simulate(read(item.proven, item.job, dialect_of(post)), item.job) for item in made
-    }
+    runs = {item.program.name: read(item.proven, item.job, dialect_of(post)) for item in made}
+    seen = {item.program.name: simulate(runs[item.program.name], item.job) for item in made}
+    walls = {item.program.name: wall_deviation(runs[item.program.name], item.job) for item in made}
     proofs = {
-        item.program.name: {**item.proof.as_dict(), "simulation": seen[item.program.name].as_dict()}
+        item.program.name: {
+            **item.proof.as_dict(),
+            "simulation": seen[item.program.name].as_dict(),
+            "walls": walls[item.program.name].as_dict(),
+        }
         for item in made
     }
     output.add("proof.json", json.dumps(proofs, indent=2) + "\n")
     sheets = [(item.job, item.program, proofs[item.program.name]) for item in made]
     pictures = {item.program.name: simulated_view(seen[item.program.name], item.job) for item in made}
+    deviations = {item.program.name: walls_view(walls[item.program.name], item.job) for item in made}
     named = {"suffix": post.suffix, "tool_table": table, "design": design.path.name}
     for sheet in sheets:
-        page = setup_html([sheet], **named, pictures=pictures, summary=SUMMARY)
+        page = setup_html([sheet], **named, pictures=pictures, deviations=deviations, summary=SUMMARY)
         output.add(sheet[1].name + SHEET, page)
     output.add(SUMMARY, summary_html(sheets, name=design.name, **named))
     return findings
@@ -290,6 +298,9 @@ def verify(
             fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
             raise DesignError(f"{design.path}: {fault}")
         (job,) = chosen
+        if underside:  # on the plate as our own program for the first side leaves it
+            post = _post(design, host or default_host())
+            job = _after(machine(jobs[0], post), job, post)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library))
     tools = tuple(_measured(tool, cam) for tool in library.tools)

@@ -27,8 +27,13 @@ from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons, thinned
 
 PRECISION = 1e-4
 """Chord error of the closing, mm: a hundredth of the leftover that the proof lets pass."""
-ROUGHLY = 3 * ROUGH
-"""How far a first look may be off, mm: by the thinned shape, once more to be safe, and by the chords."""
+CUT_SHORT = 2.25
+"""An arc of an offset that is only one and a half steps long is one chord: its error is so many times that of
+a step."""
+SAFE = (1 + CUT_SHORT) * ROUGH
+"""By how much a thinned shape and the chords of its offset may fall short, mm."""
+ROUGHLY = SAFE + ROUGH
+"""How far a first look may be off, mm: made larger to be safe, and the thinned shape may be larger itself."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +70,7 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
 
     It is nowhere smaller than the exact shape, and nowhere more than ROUGHLY larger.
     """
-    return grow(thinned(keep), radius + 2 * ROUGH, ROUGH)
+    return grow(thinned(keep), radius + SAFE, ROUGH)
 
 
 def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
@@ -133,7 +138,7 @@ def leaves_much_more(
 
 def _much(keep: shapely.Geometry, radius: float, limit: float) -> shapely.Geometry:
     """Where a wall point has certainly more than ``limit`` in front of it; thinned shapes show it."""
-    return grow(roughly_swollen(keep, radius - ROUGHLY), -radius - limit - ROUGH, ROUGH)
+    return grow(roughly_swollen(keep, radius - ROUGHLY), -radius - limit - CUT_SHORT * ROUGH, ROUGH)
 
 
 def _deep(
@@ -166,7 +171,7 @@ def closed_area(swollen: shapely.Geometry, radius: float) -> float:
 
 def roughly_closed_area(keep: shapely.Geometry, radius: float) -> float:
     """Area of what a cutter of ``radius`` leaves around ``keep``, mm², from a first look."""
-    return closed_area(roughly_swollen(keep, radius), radius + 2 * ROUGH)
+    return closed_area(roughly_swollen(keep, radius), radius + SAFE)
 
 
 def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
@@ -199,7 +204,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     There is one for the part, or one for each part of a nest, work coordinates. Each wall is judged with the
     cutter that finishes it, the one :func:`plan` takes.
     """
-    from mechwright_cam.planning.grooves import grooves
+    from mechwright_cam.planning.centre_lines import grooves
     from mechwright_cam.planning.recess import plan_view
     from mechwright_cam.planning.zone import inner_zones, outer_zones, through
 
@@ -224,9 +229,3 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
         left = polygons(outside.difference(opened) if holes else outside)
         cut.append(max(left, key=lambda part: float(part.area)))
     return tuple(cut)
-
-
-def cut_outline(job: Job) -> shapely.Polygon:
-    """The only one of :func:`cut_outlines`, of a job that is no nest."""
-    (outline,) = cut_outlines(job)
-    return outline

@@ -22,14 +22,12 @@ from mechwright.findings import Finding, Severity, errors
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point, turned_segment
 from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Hold, Stock, ToolKind
-from mechwright_cam.job import Job
+from mechwright.tooling import MILLS, CamSettings, Hold, Stock
+from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
 from mechwright_cam.proof.bands import inside_of
 
-LEVEL = 1e-6
-"""Heights nearer than this are one, mm: far below the last decimal of a program."""
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
 FRAME = 3.0
@@ -56,7 +54,8 @@ def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
     rest = [feature for feature in part.features if feature not in above]
     if not rest:
         return part.features, ()
-    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in part.features])}
+    flat = [replace(f, floor_radius=0.0) if isinstance(f, Pocket) else f for f in part.features]
+    below = {over.name for over in _open_from_above([_over(f, part.thickness, "x") for f in flat])}
     for feature in rest:
         if feature.name not in below:
             raise DesignError(
@@ -97,6 +96,11 @@ def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Featu
             path = tuple(turned_segment(segment, about) for segment in feature.path)
             return replace(feature, path=path, side=MIRRORED[feature.side], top=top)
         case Pocket():
+            if feature.floor_radius > 0:
+                raise DesignError(
+                    f"cam.second_side: {feature.name} has a floor_radius and is milled from the underside; "
+                    "fillets are for floors that are cut from above"
+                )
             islands = tuple(turned_over(loop, about) for loop in feature.islands)
             return replace(feature, boundary=turned_over(feature.boundary, about), islands=islands, top=top)
 
@@ -195,12 +199,17 @@ def turned_shape(shape: shapely.Geometry, first: Job, second: Job) -> shapely.Ge
     return shapely.transform(shape, lambda p: (p + first.origin) * sign - second.origin)
 
 
+def carried(cut: Sequence[tuple[shapely.Geometry, float]], first: Job, second: Job) -> tuple[Air, ...]:
+    """What the first setup has cut down to heights z of its own, as the second finds it from below."""
+    return tuple(Air(turned_shape(shape, first, second), -z - first.thickness) for shape, z in cut)
+
+
 def _with_room(job: Job) -> CamSettings:
     """Settings with stock for dowels on two sides, where the design leaves the stock open."""
     settings, side = job.settings, job.settings.second_side
     if settings.stock != Stock():
         return settings
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     margin = widest + FRAME + WALL + side.dowel_diameter + WALL
     return settings.model_copy(update={"stock": Stock(margin=math.ceil(margin))})
 
@@ -217,7 +226,7 @@ def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
         mx = my = wanted.margin or 0.0
     inset = WALL + diameter / 2
     along = (x0 - mx + inset, x1 + mx - inset) if side.flip == "x" else (y0 - my + inset, y1 + my - inset)
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     need = widest + FRAME + WALL + diameter + WALL
     if (mx if side.flip == "x" else my) < need:
         raise DesignError(

@@ -9,30 +9,22 @@ This module imports the CAD kernel (1.6 s).
 import math
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import pairwise
 
 import cadquery as cq
 import numpy as np
-from OCP.BRep import BRep_Builder
-from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeVertex
-from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
-from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
-from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import gp_Trsf
 from OCP.Standard import Standard_Failure
-from OCP.TColgp import TColgp_Array1OfPnt
-from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
-from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
 
+from mechwright.details import Thread
 from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
-from mechwright.geometry.segments import Point
+from mechwright.geometry import Outline
 from mechwright.motion import Motion
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Feature, Part
 from mechwright.sections import blind
+from mechwright_cam.detailed import detailed
+from mechwright_cam.recess_tools import taken
 from mechwright_cam.solid_check import check_plate, check_recessed, check_solid
-
-_UP = gp_Dir(0.0, 0.0, 1.0)
-_DOWN = gp_Dir(0.0, 0.0, -1.0)
+from mechwright_cam.wires import extruded
 
 
 def plate(outline: Outline, thickness: float) -> cq.Solid:
@@ -52,7 +44,7 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
     """
     if not (thickness > 0 and math.isfinite(thickness)):
         raise GeometryError(f"a plate needs a thickness above 0 mm, not {thickness}")
-    solid = _extruded(outline, thickness)
+    solid = extruded(outline, thickness)
     check_plate(solid, outline, thickness)
     return solid
 
@@ -67,6 +59,10 @@ def part_solid(part: Part) -> cq.Solid:
         It cannot be made or is not right; the message names the part.
     """
     try:
+        if part.outline is not None and any(not isinstance(detail, Thread) for detail in part.details):
+            made = detailed(part)
+            check_recessed(made, part)
+            return made
         if part.outline is not None:
             whole = plate(part.outline, part.thickness)
             recesses = blind(part)
@@ -79,8 +75,19 @@ def part_solid(part: Part) -> cq.Solid:
         raise GeometryError(f"part {part.name}: {error}") from error
 
 
-BEYOND = 1.0
-"""A cut from the top face starts this far above it, mm: the kernel is spared a common face."""
+def part_shape(part: Part) -> cq.Shape:
+    """The solid of a part, and for each thread a circle of its nominal diameter on the top face.
+
+    CAD systems show threads so; the hole itself has the core diameter.
+    """
+    threads = [detail for detail in part.details if isinstance(detail, Thread)]
+    if not threads:
+        return part_solid(part)
+    circles = [
+        cq.Edge.makeCircle(thread.diameter / 2, cq.Vector(*thread.centre, part.thickness))
+        for thread in threads
+    ]
+    return cq.Compound.makeCompound([part_solid(part), *circles])
 
 
 def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:
@@ -91,7 +98,7 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
     GeometryError
         The kernel cannot cut them, or what it made is not what the part's sections say.
     """
-    cuts = [_taken(feature, part.thickness) for feature in recesses]
+    cuts = [taken(feature, part) for feature in recesses]
     try:
         made = whole.cut(*cuts).clean()
     except Standard_Failure as error:
@@ -102,30 +109,6 @@ def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Sol
         raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
     check_recessed(pieces[0], part)
     return pieces[0]
-
-
-def _taken(feature: Feature, thickness: float) -> cq.Shape:
-    """The solid that a recess takes out of the plate."""
-    above = BEYOND if feature.top <= 0 else 0.0
-    match feature:
-        case Bore():
-            loops = [Loop((circle(feature.centre, feature.diameter / 2),))]
-        case Profile():
-            loops = [_forwards(feature.loop)]
-        case Pocket():
-            loops = [_forwards(feature.boundary), *(_forwards(loop).reversed() for loop in feature.islands)]
-    solid = _extruded(Outline(loops[0], tuple(loops[1:])), feature.depth + above)
-    if isinstance(feature, Profile) and feature.side == "outside":
-        x0, y0, x1, y1 = feature.loop.bounds
-        reach = 4 * (x1 - x0 + y1 - y0)  # wider than any plate around the step
-        middle = ((x0 + x1) / 2, (y0 + y1) / 2)
-        disc = Outline(Loop((circle(middle, reach),)), (loops[0].reversed(),))
-        solid = _extruded(disc, feature.depth + above)
-    return solid.translate(cq.Vector(0, 0, thickness - feature.top - feature.depth))
-
-
-def _forwards(loop: Loop) -> Loop:
-    return loop if loop.area > 0 else loop.reversed()
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
@@ -152,7 +135,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
                 )
             place = _location(motion, instance.body, sample, instance.z)
             colour = cq.Color(*part.colour_of(instance))
-            whole.add(part_solid(part), name=_free(child, whole), loc=place, color=colour)
+            whole.add(part_shape(part), name=_free(child, whole), loc=place, color=colour)
     return whole
 
 
@@ -172,73 +155,3 @@ def _location(motion: Motion, body: str, sample: int, z: float) -> cq.Location:
     placed = gp_Trsf()
     placed.SetValues(*rows[0], *rows[1], *rows[2])
     return cq.Location(placed)
-
-
-def _extruded(outline: Outline, thickness: float) -> cq.Solid:
-    outer, *inner = (_wire(loop) for loop in outline.loops)
-    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, 0.0), _UP), outer, True)
-    for wire in inner:
-        face.Add(wire)
-    if not face.IsDone():
-        raise GeometryError(f"the outline gives no face ({face.Error().name})")
-    prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0.0, 0.0, thickness))
-    solid = cq.Shape.cast(prism.Shape())
-    if not isinstance(solid, cq.Solid):
-        raise GeometryError(f"the outline extrudes to a {solid.ShapeType()}, not to one solid")
-    return solid
-
-
-def _wire(loop: Loop) -> TopoDS_Wire:
-    segments = loop.segments
-    # A vertex in the middle of the gap (at most the kernel's tolerance) is near enough to both ends.
-    vertices = [
-        _vertex(((one.end[0] + two.start[0]) / 2, (one.end[1] + two.start[1]) / 2))
-        for one, two in zip((segments[-1], *segments[:-1]), segments, strict=True)
-    ]
-    wire, builder = TopoDS_Wire(), BRep_Builder()
-    builder.MakeWire(wire)
-    for segment, (start, end) in zip(segments, pairwise([*vertices, vertices[0]]), strict=True):
-        builder.Add(wire, _edge(segment, start, end))
-    wire.Closed(True)
-    return wire
-
-
-def _vertex(point: Point) -> TopoDS_Vertex:
-    return BRepBuilderAPI_MakeVertex(gp_Pnt(point[0], point[1], 0.0)).Vertex()
-
-
-def _edge(segment: Segment, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
-    match segment:
-        case Line():
-            edge = BRepBuilderAPI_MakeEdge(start, end)
-        case Arc():
-            edge = BRepBuilderAPI_MakeEdge(_circle(segment), start, end, 0.0, abs(segment.sweep))
-        case BSpline():
-            edge = BRepBuilderAPI_MakeEdge(_spline(segment), start, end, 0.0, 1.0)
-        case _:
-            raise GeometryError(
-                f"a segment of type {type(segment).__name__} has no edge; use the three kinds"
-            )
-    if not edge.IsDone():
-        x, y = segment.start
-        raise GeometryError(f"the segment at ({x:.6f}, {y:.6f}) gives no edge ({edge.Error().name})")
-    return edge.Edge()
-
-
-def _circle(arc: Arc) -> Geom_Curve:
-    """A circle whose parameter is the angle run from the arc's start, clockwise if the arc is."""
-    along = gp_Dir(math.cos(arc.start_angle), math.sin(arc.start_angle), 0.0)
-    axes = gp_Ax2(gp_Pnt(arc.centre[0], arc.centre[1], 0.0), _UP if arc.sweep > 0 else _DOWN, along)
-    return Geom_Circle(axes, arc.radius)
-
-
-def _spline(spline: BSpline) -> Geom_Curve:
-    poles = TColgp_Array1OfPnt(1, len(spline.points))
-    for place, (x, y) in enumerate(spline.points, start=1):
-        poles.SetValue(place, gp_Pnt(x, y, 0.0))
-    values, counts = np.unique(spline.knots, return_counts=True)
-    knots, folds = TColStd_Array1OfReal(1, len(values)), TColStd_Array1OfInteger(1, len(values))
-    for place, (value, count) in enumerate(zip(values.tolist(), counts.tolist(), strict=True), start=1):
-        knots.SetValue(place, value)
-        folds.SetValue(place, count)
-    return Geom_BSplineCurve(poles, knots, folds, spline.degree)

@@ -19,7 +19,7 @@ from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.part import Profile
-from mechwright.tooling import ToolKind
+from mechwright.tooling import MILLS
 from mechwright_cam.nest import Nest
 from mechwright_cam.toolpath.offsets import filled
 
@@ -173,7 +173,7 @@ def _slope(job: "Job") -> float:
     angle, limit = job.settings.hold.tab_angle, job.settings.ramp_angle
     if angle > limit:
         for tool in job.tools:
-            if tool.kind is ToolKind.END_MILL and not tool.centre_cutting:
+            if tool.kind in MILLS and not tool.centre_cutting:
                 raise DesignError(
                     f"cam.hold.tab_angle: {tool.name} does not cut at its centre and goes down no slope of "
                     f"{angle:g} degrees; use at most ramp_angle, {limit:g} degrees, or list another mill"
@@ -208,7 +208,7 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
 
 def _outer_end(job: "Job", part: shapely.Polygon, tab: Tab, base: float) -> float:
     """Where a ramped tab ends: in the frame, beyond all that a cutter opens around the part."""
-    widest = max((tool.diameter for tool in job.tools if tool.kind is ToolKind.END_MILL), default=0.0)
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
     plate = shapely.box(*job.stock)
     place, end = (*tab.at, tab.along), tab.ends[1]
     while not isinstance(job.part, Nest):

@@ -1,16 +1,20 @@
 """Details of a plate that its shape does not show: broken edges, threads, engraved marks.
 
-They are cut into the top face when the shape is made. A solid does not show them, as a drawing shows them
-by a note; program and proof do. Depths are measured downwards from the top face.
+They are cut into the top face when the shape is made. Solids show chamfers and engravings as they are, and
+threads as a circle; drawings show lines and a note. Depths are measured downwards from the top face.
 """
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
 from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+
+if TYPE_CHECKING:
+    import shapely
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,15 @@ class Thread:
             raise GeometryError(
                 f"thread {self.name}: the pitch is {self.pitch} mm, not 0 to {self.diameter / 2:g}"
             )
+
+    @property
+    def designation(self) -> str:
+        """Nominal diameter and pitch as ISO 261 writes them.
+
+        >>> Thread("t", (0, 0), 6.0, 1.0, 8.0).designation
+        'M6x1'
+        """
+        return f"M{self.diameter:g}x{self.pitch:g}"
 
     @property
     def core(self) -> float:
@@ -89,3 +102,95 @@ def moved(detail: Detail, x: float, y: float, angle: float = 0.0) -> Detail:
         case Engraving():
             strokes = tuple(tuple(at(point) for point in stroke) for stroke in detail.strokes)
             return Engraving(detail.name, strokes, detail.depth, detail.width)
+
+
+ROUND = 64
+"""Chords of a quarter of an engraved line's end."""
+
+
+def depth_of(detail: Detail) -> float:
+    """How far below the top face a detail reaches, mm."""
+    return detail.width if isinstance(detail, Chamfer) else detail.depth
+
+
+def taken_by(detail: Detail, depth: float, tolerance: float) -> "shapely.Geometry":
+    """What a detail takes at a depth, seen from above, mm; the neighbours of an edge are not asked.
+
+    A groove is engraved by a point: V-shaped, as wide as drawn at the top face. The turns of a thread take
+    nothing here: solids have the core, as drawings do.
+
+    Parameters
+    ----------
+    detail
+        Chamfer, thread or engraving.
+    depth
+        Below the top face, 0 to :func:`depth_of`, mm.
+    tolerance
+        Chord error of the loop, mm.
+
+    Examples
+    --------
+    >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
+    >>> taken_by(Chamfer("rim", square, "outside", 1.0), 0.0, 0.001).area  # 100 - 8 x 8
+    36.0
+    """
+    import shapely
+
+    from mechwright.geometry.parallel import MITRE
+
+    match detail:
+        case Chamfer():
+            region = shapely.Polygon(detail.loop.flatten(tolerance))
+            width = max(detail.width - depth, 0.0)
+            sign = -1 if detail.side == "outside" else 1
+            moved = shapely.buffer(region, sign * width, join_style="mitre", mitre_limit=MITRE)
+            return shapely.symmetric_difference(region, moved)
+        case Engraving():
+            half = detail.width / 2 * max(1 - depth / detail.depth, 0.0)
+            return shapely.buffer(shapely.MultiLineString(list(detail.strokes)), half, quad_segs=ROUND)
+        case Thread():
+            return shapely.Polygon()
+
+
+def chamfer_lines(chamfer: Chamfer) -> tuple[Loop, ...]:
+    """Where a chamfer ends on the top face: one loop, segment by segment, as long as none of them vanishes.
+
+    Where one does, loops of straight lines within the tolerance of polygons.
+
+    Examples
+    --------
+    >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
+    >>> (line,) = chamfer_lines(Chamfer("rim", square, "outside", 1.0))
+    >>> round(line.area, 6)
+    64.0
+    """
+    import shapely
+
+    from mechwright.geometry.parallel import Parallel
+
+    outside = chamfer.side == "outside"
+    left = (chamfer.loop.area > 0) == outside
+    try:
+        return (Parallel(chamfer.loop, 1 if left else -1).at(chamfer.width),)
+    except GeometryError:
+        region = shapely.Polygon(chamfer.loop.flatten())
+        taken = taken_by(chamfer, 0.0, TOLERANCES.flatten)
+        moved = shapely.difference(region, taken) if outside else shapely.union(region, taken)
+        rings = shapely.get_rings(shapely.get_parts(shapely.simplify(moved, TOLERANCES.flatten)))
+        return tuple(Loop.polygon(list(ring.coords)[:-1]) for ring in rings)
+
+
+def detail_note(detail: Detail, thickness: float) -> str:
+    """What a drawing says of a detail, as DXF writes degrees.
+
+    >>> detail_note(Thread("hole", (0, 0), 6.0, 1.0, 8.0), 8.0)
+    'hole: M6x1 through'
+    """
+    match detail:
+        case Chamfer():
+            return f"{detail.name}: {detail.width:g} x 45%%d"
+        case Thread():
+            deep = "through" if detail.depth >= thickness else f"{detail.depth:g} mm deep"
+            return f"{detail.name}: {detail.designation} {deep}"
+        case Engraving():
+            return f"{detail.name}: engraved {detail.depth:g} mm deep, line {detail.width:g} mm"

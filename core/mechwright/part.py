@@ -4,6 +4,7 @@ Heights are measured downwards from the part's top face, so a feature that start
 a 10 mm plate has ``top = 0`` and ``depth = 10``. The solid stands on z = 0 and reaches up to the thickness.
 """
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -75,6 +76,9 @@ class Pocket:
     A boundary that reaches beyond the plate's outline, or along it, is open there: the cutter runs out over
     the edge, and no wall stands. A groove across the rim is drawn a little longer than the plate. The recess
     of one level may lie in that of another: ``top`` is then the other's ``depth``.
+
+    With a ``floor_radius``, mm, a fillet joins floor and walls: h above the floor the recess is narrower all
+    round by r - √(r² - (r - h)²). A ball or a bull nose of this radius makes it.
     """
 
     name: str
@@ -82,6 +86,19 @@ class Pocket:
     islands: tuple[Loop, ...]
     top: float
     depth: float
+    floor_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.floor_radius <= self.depth:
+            raise GeometryError(
+                f"pocket {self.name}: the floor_radius is {self.floor_radius:g} mm, not 0 to its depth of "
+                f"{self.depth:g} mm"
+            )
+
+    def inset(self, height: float) -> float:
+        """How much narrower the recess is on every side at a height above its floor, mm."""
+        short = max(self.floor_radius - max(height, 0.0), 0.0)
+        return self.floor_radius - math.sqrt(self.floor_radius**2 - short**2)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,13 +1,19 @@
 """What stands of a plate at each height: the outline, less the recesses that reach that height.
 
 A recess that reaches beyond the outline is open there, and nothing of it stands in the opening. Solids, mass,
-pictures and interference ask here, so that a part is the same in all of them.
+pictures and interference ask here, so that a part is the same in all of them. Chamfers and
+engravings count in the volume; layers do not show them.
 """
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from mechwright.details import Engraving, depth_of, taken_by
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 
@@ -16,6 +22,12 @@ if TYPE_CHECKING:
 
 FINE = 1e-5
 """Chord error of the polygons that a volume is made of, mm: a millionth of the volume of any part in use."""
+STEPS = 8
+"""Layers of a fillet: in between a wall of 3 mm fillet is 0.6 mm off at most, and never too small."""
+NODES = 16
+"""Places at which a fillet is measured for its volume: exact to far below FINE where its shape is regular."""
+ROUND = 64
+"""Chords per quarter circle around the ends of walls."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +75,7 @@ def blind(part: Part) -> tuple[Feature, ...]:
     return tuple(f for f in part.features if f.top > TOLERANCES.closure or f.top + f.depth < through)
 
 
-def sections(part: Part, tolerance: float = TOLERANCES.flatten) -> tuple[Section, ...]:
+def sections(part: Part, tolerance: float = TOLERANCES.flatten, steps: int = STEPS) -> tuple[Section, ...]:
     """The layers of a plate part from its top face to its underside.
 
     Parameters
@@ -72,6 +84,8 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten) -> tuple[Section
         A plate; a part without outline has no layers.
     tolerance
         Chord error of the polygons, mm.
+    steps
+        Layers of a floor's fillet, each as large as at its bottom; 0 leaves fillets out.
 
     Examples
     --------
@@ -89,8 +103,30 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten) -> tuple[Section
 
     if part.outline is None:
         return ()
+    round_floors = [f for f in blind(part) if isinstance(f, Pocket) and f.floor_radius > 0] if steps else []
+    plain = _layers(part, tolerance, [z for feature in round_floors for z in _heights(feature, steps)])
+    if not round_floors:
+        return plain
+    feet = [(feature, *_foot(part, feature, plain, tolerance)) for feature in round_floors]
+    layers = []
+    for layer in plain:
+        strips = [
+            shapely.intersection(inside, shapely.buffer(lines, feature.inset(height), quad_segs=ROUND))
+            for feature, inside, lines in feet
+            if 0 <= (height := feature.top + feature.depth - layer.bottom) < feature.floor_radius
+        ]
+        shape = shapely.union_all([layer.shape, *strips]) if strips else layer.shape
+        layers.append(Section(layer.top, layer.bottom, shape))
+    return tuple(layers)
+
+
+def _layers(part: Part, tolerance: float, extra: Sequence[float] = ()) -> tuple[Section, ...]:
+    """The layers without fillets; ``extra`` are more depths to divide at."""
+    import shapely
+
+    assert part.outline is not None  # noqa: S101 - asked of plates only
     partial = blind(part)
-    heights = {0.0, part.thickness}
+    heights = {0.0, part.thickness, *extra}
     for feature in partial:
         heights |= {float(feature.top), float(min(feature.top + feature.depth, part.thickness))}
     whole = part.outline.polygon(tolerance)
@@ -109,16 +145,93 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten) -> tuple[Section
     return tuple(layers)
 
 
-def volume(part: Part) -> float:
-    """Volume of a plate part, mm³, recesses taken out; 0 for a part built as a solid.
+def _heights(feature: Pocket, steps: int) -> list[float]:
+    """Depths at which the layers of a fillet begin, mm, at even angles."""
+    floor, radius = feature.top + feature.depth, feature.floor_radius
+    angles = (math.pi / 2 * step / steps for step in range(1, steps + 1))
+    return [floor - radius * (1 - math.cos(angle)) for angle in angles]
 
-    The plate itself is exact, what the recesses take is right to ``FINE``.
+
+def walls(part: Part, feature: Pocket, tolerance: float = TOLERANCES.flatten) -> "shapely.Geometry":
+    """The lines at which walls stand on the floor of a recess, part coordinates, mm."""
+    return _foot(part, feature, _layers(part, tolerance), tolerance)[1]
+
+
+def _foot(
+    part: Part, feature: Pocket, layers: Sequence[Section], tolerance: float
+) -> "tuple[shapely.Geometry, shapely.Geometry]":
+    """The floor of a recess, less what goes deeper, and the lines at which walls stand on it."""
+    import shapely
+
+    assert part.outline is not None  # noqa: S101 - asked of plates only
+    floor = feature.top + feature.depth
+    above = next(layer for layer in layers if abs(layer.bottom - floor) <= TOLERANCES.closure)
+    below = next((layer for layer in layers if abs(layer.top - floor) <= TOLERANCES.closure), above)
+    view = plan_view(feature, tolerance)
+    # A boundary that is the plate's own edge has no wall; both are chords of the same curve.
+    lines = shapely.intersection(shapely.boundary(view), shapely.buffer(above.shape, 2 * tolerance))
+    return shapely.intersection(view, below.shape), lines
+
+
+def volume(part: Part) -> float:
+    """Volume of a plate part, mm³, recesses, chamfers and engravings taken out; 0 for one built as a solid.
+
+    The plate itself is exact, what is taken out of it is right to ``FINE``.
     """
     if part.outline is None:
         return 0.0
     solid = part.outline.area * part.thickness
-    if not blind(part):
+    if not blind(part) and not part.details:
         return solid
     whole = part.outline.polygon(FINE).area
-    layers = sections(part, FINE)
-    return solid - float(sum((whole - layer.shape.area) * (layer.bottom - layer.top) for layer in layers))
+    layers = _layers(part, FINE)
+    taken = sum((whole - layer.shape.area) * (layer.bottom - layer.top) for layer in layers)
+    solid += sum(_fillet_volume(part, f, layers) for f in blind(part)) - float(taken)
+    return solid - _details_volume(part) if part.details else solid
+
+
+def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> float:
+    """Volume of a recess's fillet, mm³: Gauss' quadrature of its sections over the angle."""
+    import numpy as np
+    import shapely
+
+    if not (isinstance(feature, Pocket) and feature.floor_radius > 0):
+        return 0.0
+    inside, lines = _foot(part, feature, layers, FINE)
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    angles, radius = (nodes + 1) * math.pi / 4, feature.floor_radius
+    areas = [
+        shapely.intersection(
+            inside, shapely.buffer(lines, feature.inset(radius * (1 - math.cos(angle))), quad_segs=ROUND)
+        ).area
+        for angle in angles.tolist()
+    ]
+    return float(math.pi / 4 * radius * np.sum(weights * np.sin(angles) * areas))
+
+
+DEPTHS = {False: 2, True: 6}
+"""Depths at which details are looked at, between those where one begins or ends. Two (of Gauss) are exact for
+bands along edges, whose area is a polynomial of degree 2; strokes of an engraving part from each other."""
+BAND = 10 * FINE
+"""Chord error of the polygons along which details are cut, mm: both sides of a band have it."""
+
+
+def _details_volume(part: Part) -> float:
+    """What details take of the layers of a part, mm³."""
+    import shapely
+
+    layers = sections(part, BAND)
+    count = DEPTHS[any(isinstance(detail, Engraving) for detail in part.details)]
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    ends = {depth_of(detail) for detail in part.details}
+    taken = 0.0
+    for layer in layers:
+        inner = {depth for depth in ends if layer.top < depth < layer.bottom}
+        for top, bottom in pairwise(sorted({layer.top, layer.bottom} | inner)):
+            for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
+                depth = top + (bottom - top) * (1 + node) / 2
+                cut = [taken_by(d, depth, BAND) for d in part.details if depth < depth_of(d)]
+                if cut:
+                    area = shapely.intersection(layer.shape, shapely.union_all(cut)).area
+                    taken += float(area) * weight * (bottom - top) / 2
+    return taken

@@ -26,6 +26,9 @@ class Tolerances:
     leftover: float = 0.010
     """Thickest stock left on a wall that a chosen cutter could have reached."""
 
+    noise: float = 1e-9
+    """Depths and counts of passes that differ by less are equal: rounding in sums of lengths up to metres."""
+
     angle_rad: float = 1e-9
     """Two directions closer than this are the same: a metre of lever moves a nanometre."""
 

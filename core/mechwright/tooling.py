@@ -23,6 +23,10 @@ class ToolKind(StrEnum):
     THREAD_MILL = "thread-mill"
 
 
+MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
+"""Cutters that clear and finish with end and side."""
+
+
 class CuttingData(Parameters):
     """How a tool cuts one material."""
 
@@ -102,6 +106,11 @@ class Tool(Parameters):
     def radius(self) -> float:
         """Half the diameter, mm."""
         return self.diameter / 2
+
+    @property
+    def nose(self) -> float:
+        """Radius of the rounded corner between end and side, mm: 0 for a flat end, the radius for a ball."""
+        return self.radius if self.kind is ToolKind.BALL else self.corner_radius
 
 
 class Stock(Parameters):

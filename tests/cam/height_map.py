@@ -20,6 +20,17 @@ class Cutter:
     radius: float
     cone: float = math.inf
     """Height gained per mm of radius from the tip; inf for a flat end."""
+    nose: float = 0.0
+    """Radius of a rounded corner."""
+
+    def end(self, square):
+        """Height of the end above the tip, at squared distances from the axis."""
+        if math.isfinite(self.cone):
+            return np.sqrt(square) * self.cone
+        if self.nose == 0:
+            return np.zeros_like(square)
+        out = np.clip(np.sqrt(square) - self.radius + self.nose, 0.0, self.nose)
+        return self.nose - np.sqrt(self.nose**2 - out**2)
 
 
 @dataclass(frozen=True)
@@ -104,6 +115,8 @@ class Simulation:
     stock: tuple
     thickness: float
     pitch: float = 0.1
+    under: object = None
+    """Function of x and y to the height below which earlier setups have left nothing; None: the underside."""
     met: list = field(default_factory=list)
     complaints: list = field(default_factory=list)
 
@@ -115,7 +128,11 @@ class Simulation:
         inside = ((self.y > y0) & (self.y < y1))[:, None] & ((self.x > x0) & (self.x < x1))[None, :]
         self.bottom = -self.thickness - 50.0
         self.height = np.where(inside, 0.0, self.bottom)
-        self.solid = inside
+        self.lowest = np.full(inside.shape, -self.thickness)
+        if self.under is not None:
+            self.lowest = np.maximum(self.lowest, self.under(*np.meshgrid(self.x, self.y)))
+        self.solid = inside & (self.lowest < -1e-9)
+        self.height = np.where(self.solid, 0.0, self.bottom)
 
     def run(self, moves, cutters):
         for index, move in enumerate(moves):
@@ -142,14 +159,13 @@ class Simulation:
         part = self.height[j0:j1, i0:i1]
         square = (self.x[None, i0:i1] - place[0]) ** 2 + (self.y[j0:j1, None] - place[1]) ** 2
         disc = square <= r * r
-        level = place[2]
-        if math.isfinite(cutter.cone):
-            level = place[2] + np.sqrt(square) * cutter.cone
-        hit = disc & (part > level + 1e-4)
+        level = place[2] + cutter.end(square)
+        lowest = self.lowest[j0:j1, i0:i1]
+        hit = disc & (part > level + 1e-4) & (part > lowest + 1e-4)
         if not hit.any():
             return
-        floor = np.maximum(level, -self.thickness)
-        drop = np.where(hit, np.maximum(part, -self.thickness) - floor, 0.0)
+        floor = np.maximum(level, lowest)
+        drop = np.where(hit, np.maximum(part, lowest) - floor, 0.0)
         volume = float(drop.clip(0).sum()) * self.pitch**2
         flat = math.hypot(direction[0], direction[1])
         angle, depth = 0.0, float(drop.sum() / hit.sum())
@@ -169,7 +185,7 @@ class Simulation:
 
     def stands(self, z):
         """Cells of the plate whose material still stands at height z."""
-        return self.solid & (self.height > z)
+        return self.solid & (self.height > z) & (self.height > self.lowest + 1e-4)
 
     def gouge(self, keep, z):
         """Greatest depth inside ``keep`` of a cell centre that no longer stands at z, mm."""
@@ -191,7 +207,8 @@ def cutters(job):
     found = {}
     for tool in job.tools:
         cone = math.inf
-        if tool.kind != "end-mill":
+        if tool.kind not in ("end-mill", "bull-nose", "ball"):
             cone = 1 / math.tan(math.radians(tool.point_angle) / 2)
-        found[tool.number] = Cutter(tool.radius, cone)
+        nose = tool.radius if tool.kind == "ball" else tool.corner_radius
+        found[tool.number] = Cutter(tool.radius, cone, nose)
     return found

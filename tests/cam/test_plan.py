@@ -8,7 +8,7 @@ from mechwright.part import Bore, Pocket, Profile
 from mechwright.program import Drill, Feed, FeedArc, Pause, Rapid
 from mechwright_cam.job import make_job
 from mechwright_cam.planning import plan
-from mechwright_cam.reach import cut_outline
+from mechwright_cam.reach import cut_outlines
 
 TOOLS = ("spot-6", "drill-5", "mill-10", "mill-6")
 GEARED = lobes(9, 18.0, 4.0, 900, 1.5)
@@ -213,9 +213,9 @@ def test_what_cannot_be_cut_is_one_clear_line(make, error, message):
 def test_cut_outline_keeps_the_corners_that_no_mill_reaches():
     square = Loop.polygon([(-10, -6), (-10, 6), (10, 6), (10, -6)])
     of = job(plate(square), "mill-10", "mill-6")
-    filled = cut_outline(of).area - of.target.area
+    filled = cut_outlines(of)[0].area - of.target.area
     assert filled == pytest.approx((4 - 3.14159265) * 9, rel=1e-3)
-    assert cut_outline(job(plate(bore(12)), *TOOLS)).area == pytest.approx(
+    assert cut_outlines(job(plate(bore(12)), *TOOLS))[0].area == pytest.approx(
         of.part.outline.outer.area - 36 * 3.14159265, abs=0.02
     )
 

@@ -11,7 +11,13 @@ from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
 from test_proof_parts import coordinate, cuts, height, paths_of
 
+from mechwright.geometry import Loop, Outline
+from mechwright.part import Part, Pocket
+from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import interpret
+from mechwright_cam.job import make_job
+from mechwright_cam.library import load_library
+from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import gouge, leftover, near, prove, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
@@ -177,3 +183,23 @@ def test_a_sweep_knows_what_is_beside_a_shape(program: str) -> None:
         assert sweep.stays_inside(wide)
         assert not sweep.stays_inside(shapely.box(*np.add(reach, (0.1, -0.1, 0.1, 0.1))))
     assert MILL.radius in {sweep.radius for sweep in cut}
+
+
+@pytest.mark.parametrize(("width", "reached"), [(4.0, False), (4.004, False), (4.006, True)])
+def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: float, reached: bool) -> None:
+    """A slot of the cutter's own width is listed as out of its reach; one that it fits into has to be cut."""
+    half, long = width / 2, 24.0
+    corners = [(-long, -half), (0, -half), (0, -8), (14, -8), (14, 8), (0, 8), (0, half), (-long, half)]
+    recess = Pocket("pocket", Loop.polygon(corners), (), 0.0, 2.0)
+    plate = Outline(Loop.polygon([(-35, -25), (35, -25), (35, 25), (-35, 25)]))
+    part = Part("plate", plate, 8.0, "aluminium", machined=(recess,))
+    cam = CamSettings.model_validate({"stock": {"margin": 0}, "tools": ["mill-4"]})
+    job = make_job(part, cam, choose_tools(part, cam, load_library()))
+    text = LinuxCncPost().write(plan(job))
+    proof = prove(text, job)
+    assert proof.ok
+    # The corners of the wide end keep r (1 - 1/√2) beside their walls, the slot half its width.
+    corner = 2.0 * (1 - math.sqrt(0.5))
+    assert proof.unreachable_max_mm == pytest.approx(corner if reached else half, abs=0.005)
+    run = interpret(text)
+    assert bool((run.end[run.cutting, 0] < -long + 2.1).any()) == reached

@@ -117,6 +117,14 @@ def test_a_drill_is_as_wide_as_its_point_at_the_top_of_the_band() -> None:
     assert deeper.depth == pytest.approx(1.5 * grown - 2.0, abs=1e-3)
 
 
+def test_a_cut_is_seen_in_each_piece_of_a_part() -> None:
+    keep = shapely.MultiPolygon([shapely.box(-20, 10, 20, 20), shapely.box(-20, -20, 20, -10)])
+    for y in (10 - MILL.radius + 0.05, -10 + MILL.radius - 0.05):
+        found = deepest_cut(paths_of(f"G0 X-30 Y{y}\nG1 Z-1 F100\nX30"), keep, 0.0)
+        assert found is not None
+        assert found.depth == pytest.approx(0.05, abs=1e-6)
+
+
 def test_a_move_straight_down_is_seen() -> None:
     found = deepest_cut(paths_of("G0 X10 Y0\nG1 Z-3 F100"), shapely.box(12, -5, 20, 5), 0.0)
     assert found is not None

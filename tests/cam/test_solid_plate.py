@@ -26,6 +26,7 @@ from mechwright.part import Instance, Part
 from mechwright_cam import solids
 from mechwright_cam.exporters.step_read import top_face
 from mechwright_cam.solid_check import check_plate, check_solid, top_area
+from mechwright_cam.wires import extruded
 
 
 @pytest.mark.parametrize("name", PLATES)
@@ -88,7 +89,7 @@ def test_reversed_end_tangent_is_refused():
     """The kernel calls this solid valid, and divides such into millions of triangles."""
     curve = BSpline.bezier([(0, 0), (13, -1), (27, -1), (40.001, -0.0001), (40, 0)], "flank")
     loop = Loop((curve, Line((40, 0), (40, 30)), Line((40, 30), (0, 30)), Line((0, 30), (0, 0))))
-    assert solids._extruded(Outline(loop), 5.0).isValid()
+    assert extruded(Outline(loop), 5.0).isValid()
     with pytest.raises(GeometryError, match=r"the flank segment near .* turns back on itself"):
         solids.plate(Outline(loop), 5)
 
@@ -113,7 +114,7 @@ def test_gate_holds_the_solid_against_its_outline():
 
 def test_gate_counts_triangles(monkeypatch):
     outline = wavy_plate()
-    solid = solids._extruded(outline, 8.0)
+    solid = extruded(outline, 8.0)
     check_plate(solid, outline, 8.0)
     monkeypatch.setattr("mechwright_cam.solid_check.SURPLUS", 0.01)
     with pytest.raises(GeometryError, match="triangles, limit"):

@@ -1,13 +1,14 @@
 """Work in a second interpreter: what it gives, and that nothing is lost where it fails."""
 
 import os
+import signal
 import sys
 import time
 
 import pytest
 
 from mechwright.cli.beside import Beside, cores
-from mechwright.cli.solids import SolidWork, compared_and_made
+from mechwright.cli.solids import SolidWork, Work, compared_and_made
 from mechwright.design import load
 from mechwright.host import host
 from mechwright.output import Exporter
@@ -39,6 +40,19 @@ def test_what_goes_wrong_there_is_done_here(fault):
     with Beside([]) as second:
         second.ask(eval, fault)
         assert second.result(int) == HERE
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no way to stop a process here")
+def test_a_long_request_and_a_long_answer_do_not_wait_for_each_other():
+    long = b"x" * 3_000_000
+    with Beside([]) as second:
+        # Asking returns though nobody reads: the other end is stopped, as it is by a long import.
+        second._process.send_signal(signal.SIGSTOP)
+        second.ask(bytes.upper, long)
+        second._process.send_signal(signal.SIGCONT)
+        assert second.result(bytes) == long.upper()
+    with Beside([]) as second:  # ended before it has read what it is sent
+        second.ask(bytes.upper, long)
 
 
 def test_an_error_is_told_as_if_there_were_no_second_process():
@@ -111,7 +125,7 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     exporters = [found.exporter(name) for name in ("step", "stl")]
     motion = design.family.solve(design.params, 2)
     with Beside([]) as second:
-        second.ask(compared_and_made, design, exporters, motion, 1)
+        second.ask(compared_and_made, Work(design, exporters, motion, 1))
         findings, files = second.result(tuple)
     with SolidWork(exporters, build=False) as work:
         work.begin(design, motion, 1)

@@ -60,7 +60,14 @@ def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *,
     return head + "".join(pieces[key] + text for key, text in (part.split("}}", 1) for part in rest))
 
 
-def page_of(name: str, family: Family[Any], params: Parameters, *, solids: bool) -> str:
-    """The page of a design whose own check has found no error."""
-    parts = family.parts(params)
+def page_of(
+    name: str,
+    family: Family[Any],
+    params: Parameters,
+    *,
+    solids: bool,
+    parts: Sequence[Part] | None = None,
+) -> str:
+    """The page of a design whose own check has found no error; ``parts`` if they are known already."""
+    parts = family.parts(params) if parts is None else parts
     return motion_html(name, family.title, parts, family.solve(params, SAMPLES), solids=solids)

@@ -1,8 +1,10 @@
 """DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
 
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
-``OPENING`` all others, ``POCKET`` the edges of recesses as far as they lie on the plate, ``CENTRE`` the axes
-of the part and its bores and the centre lines of grooves, ``TEXT`` lines that say what it is.
+``OPENING`` all others, ``POCKET`` edges of recesses as far as they lie on the plate, ``CHAMFER`` where a
+broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal
+circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores and the centre
+lines of grooves, ``TEXT`` lines that say what it is.
 """
 
 import io
@@ -15,6 +17,7 @@ from ezdxf import units
 from ezdxf._options import options
 from ezdxf.filemanagement import new
 
+from mechwright.details import Chamfer, Detail, Engraving, Thread, chamfer_lines, detail_note
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
@@ -35,6 +38,9 @@ LAYERS = {
     "BORE": (5, "CONTINUOUS", 35),
     "OPENING": (4, "CONTINUOUS", 35),
     "POCKET": (3, "CONTINUOUS", 25),
+    "CHAMFER": (2, "CONTINUOUS", 18),
+    "ENGRAVE": (6, "CONTINUOUS", 18),
+    "THREAD": (4, "CONTINUOUS", 18),
     "CENTRE": (1, "CENTER", 18),
     "TEXT": (8, "CONTINUOUS", 18),
 }
@@ -63,16 +69,20 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
     fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
-    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits]
+    said = [detail_note(detail, part.thickness) for detail in part.details]
+    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits, *said]
     axes = [(one.x, one.y) for one in part.placed] if isinstance(part, Nest) else [(0.0, 0.0)]
-    return drawing(outlines_of(part), "\n".join(text), curves, blind(part), axes)
+    return drawing(outlines_of(part), "\n".join(text), curves, blind(part), axes, part.details)
 
 
 def _note(feature: Feature) -> str:
     """What the plan view cannot show of a recess."""
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    round_ = f", floor radius R{radius:g}" if radius > 0 else ""
     if feature.top > 0:
-        return f"{feature.name}: from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
-    return f"{feature.name}: {feature.depth:g} mm deep"
+        down = f"from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
+        return f"{feature.name}: {down}{round_}"
+    return f"{feature.name}: {feature.depth:g} mm deep{round_}"
 
 
 def drawing(
@@ -81,15 +91,19 @@ def drawing(
     curves: Curves = "spline",
     recesses: Sequence[Feature] = (),
     axes: Sequence[Point] = ((0.0, 0.0),),
+    details: Sequence[Detail] = (),
 ) -> bytes:
-    """The drawing of plates and of the recesses in them, with lines of text below."""
+    """The drawing of plates, of the recesses in them and of their details, with lines of text below."""
     import shapely
 
     with _fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         document.linetypes.add("CENTER", _CENTRE_LINE, description="Center ____ _ ____ _")
+        unused = DETAIL_LAYERS - {_LAYER_OF[type(detail)] for detail in details}
         for name, (colour, linetype, weight) in LAYERS.items():
+            if name in unused:
+                continue
             document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
         space = document.modelspace()
         for outline in outlines:
@@ -99,6 +113,8 @@ def drawing(
         plates = shapely.union_all([outline.polygon() for outline in outlines])
         for feature in recesses:
             _recess(space, feature, plates, curves)
+        for detail in details:
+            _detail(space, detail, plates, curves)
         inner = [loop for outline in outlines for loop in outline.inner]
         _centres(space, inner, [f for f in recesses if isinstance(f, Bore)], axes)
         x0, y0, x1, y1 = plates.bounds
@@ -121,25 +137,53 @@ def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", c
             loops = (feature.loop,)
         case Pocket():
             loops = (feature.boundary, *feature.islands)
-    attributes = {"layer": "POCKET"}
     if isinstance(feature, OpenProfile) and feature.side == "on":
         for segment in feature.path:
             _segment(space, segment, {"layer": "CENTRE"}, simple=curves != "spline")
     for loop in loops:
-        edges = stretches(loop, plates)
-        if edges == list(loop.segments):
-            _loop(space, loop, "POCKET", curves)
+        _on_plate(space, loop, plates, "POCKET", curves)
+
+
+def _on_plate(
+    space: "Modelspace", loop: Loop, plates: "shapely.Geometry", layer: str, curves: Curves
+) -> None:
+    """A loop as far as it lies on the plates."""
+    attributes = {"layer": layer}
+    edges = stretches(loop, plates)
+    if edges == list(loop.segments):
+        _loop(space, loop, layer, curves)
+        return
+    for edge in edges:
+        if curves in ("spline", "spline3"):
+            _segment(space, edge, attributes, simple=curves == "spline3")
             continue
-        for edge in edges:
-            if curves in ("spline", "spline3"):
-                _segment(space, edge, attributes, simple=curves == "spline3")
-                continue
-            if curves == "polyline":
-                rows = [(x, y, 0.0) for x, y in edge.flatten(TOLERANCES.outline).tolist()]
-            else:
-                rows = [(corner.x, corner.y, corner.bulge) for corner in vertices(edge, TOLERANCES.arc_fit)]
-                rows.append((*edge.end, 0.0))
-            space.add_lwpolyline(rows, format="xyb", dxfattribs=attributes)
+        if curves == "polyline":
+            rows = [(x, y, 0.0) for x, y in edge.flatten(TOLERANCES.outline).tolist()]
+        else:
+            rows = [(corner.x, corner.y, corner.bulge) for corner in vertices(edge, TOLERANCES.arc_fit)]
+            rows.append((*edge.end, 0.0))
+        space.add_lwpolyline(rows, format="xyb", dxfattribs=attributes)
+
+
+_LAYER_OF: dict[type[Detail], str] = {Chamfer: "CHAMFER", Engraving: "ENGRAVE", Thread: "THREAD"}
+DETAIL_LAYERS = frozenset(_LAYER_OF.values())
+"""Layers of a drawing only where there is something on them."""
+
+THREAD_ARC = (100.0, 10.0)
+"""A thread's circle runs from here on counter-clockwise, degrees: three quarters of a turn (ISO 6410-1)."""
+
+
+def _detail(space: "Modelspace", detail: Detail, plates: "shapely.Geometry", curves: Curves) -> None:
+    layer = _LAYER_OF[type(detail)]
+    match detail:
+        case Chamfer():
+            for loop in chamfer_lines(detail):
+                _on_plate(space, loop, plates, layer, curves)
+        case Engraving():
+            for stroke in detail.strokes:
+                space.add_lwpolyline(stroke, dxfattribs={"layer": layer})
+        case Thread():
+            space.add_arc(detail.centre, detail.diameter / 2, *THREAD_ARC, dxfattribs={"layer": layer})
 
 
 def _loop(space: "Modelspace", loop: Loop, layer: str, curves: Curves) -> None:

@@ -17,6 +17,7 @@ from OCP.STEPCAFControl import STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_StepModelType
 from OCP.StepData import StepData_StepModel
 from OCP.StepRepr import StepRepr_NextAssemblyUsageOccurrence
+from OCP.StepShape import StepShape_GeometricCurveSet
 from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label, TDF_LabelSequence
@@ -25,6 +26,7 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 from OCP.XSControl import XSControl_WorkSession
 
+from mechwright.details import Thread
 from mechwright.errors import GeometryError
 from mechwright.motion import Motion
 from mechwright.part import Part
@@ -45,11 +47,11 @@ def part(part: Part) -> bytes:
     XCAFApp_Application.GetApplication_s().InitDocument(document)
     # A solid straight in the document, where an assembly would put it into another product.
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    label = shapes.AddShape(solids.part_solid(part).wrapped, False)
+    label = shapes.AddShape(solids.part_shape(part).wrapped, False)
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(part.name))
     colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
     colours.SetColor(label, cq.Color(*part.colour).wrapped, XCAFDoc_ColorType.XCAFDoc_ColorGen)
-    return _write(document, part.name)
+    return _write(document, part.name, [part])
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
@@ -60,7 +62,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     whole = solids.assembly(name, parts, motion, sample)
     label, document = toCAF(whole, coloredSTEP=True)
     _name_products(label, [part.name for part in parts for _ in part.instances])
-    return _write(document, name, occurrences=True)
+    return _write(document, name, parts, occurrences=True)
 
 
 def _name_products(label: TDF_Label, names: list[str]) -> None:
@@ -72,7 +74,9 @@ def _name_products(label: TDF_Label, names: list[str]) -> None:
         TDataStd_Name.Set_s(product, TCollection_ExtendedString(name))
 
 
-def _write(document: TDocStd_Document, name: str, *, occurrences: bool = False) -> bytes:
+def _write(
+    document: TDocStd_Document, name: str, parts: Sequence[Part], *, occurrences: bool = False
+) -> bytes:
     text = io.BytesIO()
     # The first writer of a process makes the settings known; before that they cannot be set.
     writer = STEPCAFControl_Writer(XSControl_WorkSession(), False)
@@ -83,6 +87,7 @@ def _write(document: TDocStd_Document, name: str, *, occurrences: bool = False) 
             raise GeometryError(f"the CAD kernel cannot turn {name} into STEP entities")
         model = writer.ChangeWriter().Model()
         _set_header(model, name)
+        _name_threads(model, parts)
         if occurrences:
             _number_occurrences(model)
         status = writer.WriteStream(text)
@@ -100,6 +105,18 @@ def _set_header(model: StepData_StepModel, name: str) -> None:
     header.SetDescriptionValue(1, _text(name))
     header.SetOriginatingSystem(_text("Mechwright"))
     header.SetAuthorisation(_text(""))
+
+
+def _name_threads(model: StepData_StepModel, parts: Sequence[Part]) -> None:
+    """Name the circles that stand for threads; the kernel writes them in the order of the parts."""
+    threads = [detail for part in parts for detail in part.details if isinstance(detail, Thread)]
+    curves = [
+        entity
+        for place in range(1, model.NbEntities() + 1 if threads else 0)
+        if isinstance(entity := model.Value(place), StepShape_GeometricCurveSet)
+    ]
+    for entity, thread in zip(curves, threads, strict=True):
+        entity.SetName(_text(f"{thread.name}: {thread.designation}"))
 
 
 def _number_occurrences(model: StepData_StepModel) -> None:

@@ -193,9 +193,11 @@ def _reach(parts: Sequence[Part]) -> float:
     return float(np.hypot(1, 1) * max(far, default=_USUAL))
 
 
-def interference_findings(family: Family[Any], params: Parameters, *, solids: bool) -> list[Finding]:
-    """What the check says of a design whose own check found no error."""
-    parts = family.parts(params)
+def interference_findings(
+    family: Family[Any], params: Parameters, *, solids: bool, parts: Sequence[Part] | None = None
+) -> list[Finding]:
+    """What the check says of a design whose own check found no error; ``parts`` if they are known already."""
+    parts = family.parts(params) if parts is None else parts
     if sum(len(part.instances) for part in parts) < 2:
         return []
     motion = faithful_motion(family, params, parts)

@@ -10,13 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.motion import Array
+from mechwright_cam.interference.instants import Ints
 from mechwright_cam.interference.nearest import nearest_to_origin
 from mechwright_cam.interference.path import LEVEL, Path
-from mechwright_cam.interference.sweep import Ints
 from mechwright_cam.interference.tree import Tree
 
 _FEW = 300
 """Pairs of nodes that are handed on: more are found quicker with the motion in sight."""
+
+_DIGITS = 9
+"""Decimals of a direction and of a point, mm, that stay: a thousandth of what passes as staying."""
 
 _MANY = 100_000
 """Pairs at which the search for a proof that none may meet is given up."""
@@ -40,13 +43,14 @@ def frames(path: Path) -> tuple[Frame, Frame]:
     there = turn[0] @ along
     wander = np.abs(turn @ along - there).max()
     if wander < LEVEL and np.ptp(step @ there) < LEVEL:
-        direction = (there, along)
+        direction = (there.round(_DIGITS), along.round(_DIGITS))
     point: tuple[Array | None, Array | None] = (None, None)
     right = -np.einsum("nji,nj->i", change, step)
     centre = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
     here = turn[0] @ centre + shift[0]
     if np.linalg.norm(turn @ centre + shift - here, axis=1).max() < LEVEL:
-        point = (here, centre)
+        # Without the noise of the fit, bodies that share a joint share its point.
+        point = (here.round(_DIGITS) + 0.0, centre.round(_DIGITS) + 0.0)
     return Frame(direction[0], point[0]), Frame(direction[1], point[1])
 
 
@@ -58,7 +62,7 @@ def ranges(tree: Tree, frame: Frame) -> Array:
         heights = pieces @ frame.direction
         columns.append((heights.min(axis=1), heights.max(axis=1)))
     if frame.point is not None:
-        columns.append(_reach(pieces - frame.point))
+        columns.append(_distances(tree, frame.point))
         if frame.direction is not None:
             away = pieces - frame.point
             flat = away - (away @ frame.direction)[..., None] * frame.direction
@@ -75,6 +79,15 @@ def ranges(tree: Tree, frame: Frame) -> Array:
         found[size // 2 : size, :, 1] = kids[..., 1].max(axis=1)
         size //= 2
     return found
+
+
+def _distances(tree: Tree, point: Array) -> tuple[Array, Array]:
+    """Least and greatest distance (m,) of the pieces from a point; the bodies of a joint ask for the same."""
+    known = tree.distances
+    key = tuple(point.tolist())
+    if key not in known:
+        known[key] = _reach(tree.points - point)
+    return known[key]
 
 
 def _reach(triangles: Array) -> tuple[Array, Array]:

@@ -11,9 +11,10 @@ import numpy as np
 import shapely
 
 from mechwright.motion import Array
+from mechwright_cam.interference.instants import SAG
 from mechwright_cam.interference.path import Path
 from mechwright_cam.interference.slabs import TOUCH, Circle, Ring, Slab
-from mechwright_cam.interference.sweep import FLOOR, SAG, Found, sweep
+from mechwright_cam.interference.sweep import FLOOR, Found, sweep
 from mechwright_cam.interference.tree import Tree, ring_edges
 
 _HALVINGS = 24

@@ -3,6 +3,7 @@
 They are compared as plates are: exactly, and in a fraction of the time. Imports the CAD kernel.
 """
 
+from functools import lru_cache
 from itertools import pairwise
 
 import cadquery as cq
@@ -29,6 +30,15 @@ _ABOVE = 1e-4
 
 def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
     """The layers of a solid in its body; None if a face of it is neither upright nor level."""
+    slabs = _layers(part)
+    if slabs is None:
+        return None
+    return tuple(Slab(slab.polygon, slab.bottom + instance.z, slab.top + instance.z) for slab in slabs)
+
+
+@lru_cache(maxsize=64)
+def _layers(part: Part) -> tuple[Slab, ...] | None:
+    """The layers of a solid in its own coordinates: the same for all its copies."""
     solid = part_solid(part)
     if not all(_upright_or_level(face) for face in solid.Faces()):
         return None
@@ -45,7 +55,7 @@ def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
         for ring in sorted(rings, key=lambda ring: -ring.area):
             shape = shape.symmetric_difference(ring)  # a loop inside a loop is a hole, or an island in it
         slabs += [
-            Slab(piece, bottom + instance.z, top + instance.z)
+            Slab(piece, bottom, top)
             for piece in shapely.get_parts(shape)
             if isinstance(piece, shapely.Polygon) and piece.area > 0
         ]

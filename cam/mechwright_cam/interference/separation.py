@@ -2,7 +2,8 @@
 
 A moving piece sweeps, within an interval, no more than the convex hull of its corners at the start, in the
 middle and at the end, widened by a bound of how far the corners leave the chords between. If the projections
-on any axis lie further apart than that, the two pieces stay apart for the whole interval.
+on any axis lie further apart than that, the two pieces stay apart for the whole interval. What counts of the
+bound is its share along the axis: a face that slides along another one does not come nearer.
 
 Arrays have the pairs of pieces on their last axis: (corner, coordinate, pair).
 """
@@ -17,7 +18,9 @@ _NONE = 1e-30
 """A squared axis this short is no direction."""
 
 
-def separation(fixed: Array, moving: Array, middle: Array, enough: Array | float) -> Array:
+def separation(
+    fixed: Array, moving: Array, middle: Array, enough: Array | float, sag: Array | None = None
+) -> Array:
     """The best gap (n,), mm, that any axis shows; negative where none separates.
 
     Parameters
@@ -30,31 +33,37 @@ def separation(fixed: Array, moving: Array, middle: Array, enough: Array | float
         (i, d, n) corners of the moving pieces in the middle of the interval, which give the axes.
     enough
         Gap, mm, one or (n,), above which no better one is looked for.
+    sag
+        (i, d, n) mm: how far the corners may leave the chords of their paths; taken off the gap.
     """
     if fixed.shape[1] == 2:
-        return _best(fixed, moving, _plane_axes(fixed, middle))
+        return _best(fixed, moving, _plane_axes(fixed, middle), sag)
     # Most pairs lie before each other's faces; only the others need the many axes between edges.
-    best = _best(fixed, moving, _normals(fixed, middle))
+    best = _best(fixed, moving, _normals(fixed, middle), sag)
     left = np.flatnonzero(best <= enough)
     if left.size:
-        some = fixed[..., left], moving[..., left]
-        best[left] = np.maximum(best[left], _best(*some, _space_axes(some[0], middle[..., left])))
+        some = np.take(fixed, left, axis=-1), np.take(moving, left, axis=-1)
+        bent = None if sag is None else np.take(sag, left, axis=-1)
+        axes = _space_axes(some[0], np.take(middle, left, axis=-1))
+        best[left] = np.maximum(best[left], _best(*some, axes, bent))
     return best
 
 
-def _best(fixed: Array, moving: Array, axes: Iterator[Array]) -> Array:
+def _best(fixed: Array, moving: Array, axes: Iterator[Array], sag: Array | None) -> Array:
     best = np.full(fixed.shape[2], -np.inf)
     for axis in axes:
-        np.maximum(best, gap_along(fixed, moving, axis), out=best)
+        np.maximum(best, gap_along(fixed, moving, axis, sag), out=best)
     return best
 
 
-def gap_along(fixed: Array, moving: Array, axis: Array) -> Array:
+def gap_along(fixed: Array, moving: Array, axis: Array, sag: Array | None = None) -> Array:
     """Gap (n,), mm, of the projections of points (k, d, n) and (j, d, n) on axes (d, n) of any length."""
     square = dot(axis, axis)
     low, high = _reach(fixed, axis)
     least, most = _reach(moving, axis)
     gap = np.maximum(least - high, low - most)
+    if sag is not None:
+        gap -= np.abs(dot(sag, axis)).max(axis=0)
     scaled: Array = np.where(square > _NONE, gap / np.sqrt(np.maximum(square, _NONE)), -np.inf)
     return scaled
 

@@ -13,25 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
+from mechwright_cam.interference.boxes import stay_apart
+from mechwright_cam.interference.instants import SAG, Ints, Poses, second
 from mechwright_cam.interference.path import Path
-from mechwright_cam.interference.separation import dot, gap_along, separation
-from mechwright_cam.interference.tree import Boxes, Tree
-
-SAG = 0.25
-"""Sag of a corner's path under its chords, per second difference: twice that of a parabola (1/8), so that it
-covers what the third derivative adds."""
+from mechwright_cam.interference.separation import dot, separation
+from mechwright_cam.interference.tree import Tree
 
 FLOOR = 1e-4
 """Pieces that move less than this within an interval, mm, are not divided further: what is still undecided
 is a contact of which less than a tenth of a micrometre is in doubt."""
+
+FAST = 8
+"""Travel, in radii of the larger node, from which an interval is halved before nodes are: of a long edge that
+small ones slide along, halves of the interval would tell nothing new."""
 
 BLOCK = 60_000
 """Pairs at a time: bounds the memory to some ten MB."""
 
 _LEVELS = 40
 """Most halvings of an interval; the floor comes first in every real case."""
-
-Ints = NDArray[np.int64]
 
 _ROOT: Ints = np.ones(1, dtype=np.int64)
 
@@ -71,29 +71,6 @@ class _Pairs:
         return _Pairs(self.one[which], self.two[which], self.when[which])
 
 
-@dataclass(frozen=True)
-class _Poses:
-    """Poses at the start, in the middle and at the end of some intervals, which are on the last axis."""
-
-    rotation: Array
-    position: Array
-
-    def move(self, points: Array, when: Ints) -> Array:
-        """Points (d, n) at the three poses: (3, d, n)."""
-        turn, shift = self.rotation[..., when], self.position[..., when]
-        moved: Array = turn[:, :, 0] * points[0]
-        for axis in range(1, len(points)):
-            moved += turn[:, :, axis] * points[axis]
-        moved += shift
-        return moved
-
-    def turn(self, vectors: Array, when: Ints) -> Array:
-        """Directions (d, n) in the middle of the intervals: (d, n)."""
-        rotation = self.rotation[1][..., when]
-        turned: Array = np.einsum("ijn,jn->in", rotation, vectors)
-        return turned
-
-
 def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] = (_ROOT, _ROOT)) -> Found:
     """Find when the boundaries meet.
 
@@ -113,7 +90,7 @@ def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] =
     found: list[Array] = []
     closest: tuple[float, float | None] = (np.inf, None)
     every = _Pairs(np.ones(count, dtype=np.int64), np.ones(count, dtype=np.int64), np.arange(count))
-    near = _spheres_meet(fixed, moving, _poses(path, every.when.astype(float), 1.0), every)
+    near = _spheres_meet(fixed, moving, Poses.of(path, every.when.astype(float), 1.0), every)
     one, two = (np.tile(nodes, int(near.sum())) for nodes in start_with)
     pairs = _Pairs(one, two, np.repeat(every.when[near], len(start_with[0])))
     for level in range(_LEVELS):
@@ -123,7 +100,7 @@ def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] =
         number, when = np.unique(pairs.when, return_inverse=True)
         step = 0.5**level
         start: Array = number * np.float64(step)
-        poses = _poses(path, start, step)
+        poses = Poses.of(path, start, step)
         later: list[_Pairs] = []
         stack = [_Pairs(pairs.one, pairs.two, when)]
         while stack:
@@ -148,14 +125,6 @@ def sweep(fixed: Tree, moving: Tree, path: Path, start_with: tuple[Ints, Ints] =
     return Found(hits, closest[1], closest[0])
 
 
-def _poses(path: Path, start: Array, step: float) -> _Poses:
-    parts = [path.at(start + part * step) for part in (0.0, 0.5, 1.0)]
-    return _Poses(
-        np.stack([np.moveaxis(rotation, 0, -1) for rotation, _ in parts]),
-        np.stack([position.T for _, position in parts]),
-    )
-
-
 def _halved(parts: list[_Pairs], number: Ints) -> _Pairs:
     """Both halves of the intervals of some pairs, by their numbers among all halves."""
     one, two, when = (
@@ -166,33 +135,38 @@ def _halved(parts: list[_Pairs], number: Ints) -> _Pairs:
     return _Pairs(np.tile(one, 2), np.tile(two, 2), np.concatenate((twice, twice + 1)))
 
 
-def _spheres_meet(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> NDArray[np.bool_]:
+def _spheres_meet(fixed: Tree, moving: Tree, poses: Poses, pairs: _Pairs) -> NDArray[np.bool_]:
     """Whether (n,) the spheres of two nodes come together in their interval."""
-    path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
+    path = poses.take(pairs.when).move(np.take(moving.columns, pairs.two, axis=1))
     reach = fixed.radius[pairs.one] + moving.radius[pairs.two]
-    meet: NDArray[np.bool_] = _distance(fixed.centre.T[:, pairs.one], path) <= reach + SAG * _second(path)
-    return meet
+    return _near(np.take(fixed.columns, pairs.one, axis=1), path, reach)
 
 
-def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pairs, _Pairs, _Pairs]:
+def _near(point: Array, path: Array, reach: Array) -> NDArray[np.bool_]:
+    """Whether (n,) paths (3, d, n) come within ``reach`` (n,) of points (d, n)."""
+    near: NDArray[np.bool_] = _distance(point, path) <= reach + SAG * _size(second(path))
+    return near
+
+
+def _cull(fixed: Tree, moving: Tree, poses: Poses, pairs: _Pairs) -> tuple[_Pairs, _Pairs, _Pairs]:
     """Drop pairs of spheres that stay apart; give pairs to look at again, pairs of pieces, pairs to halve."""
-    path = poses.move(moving.centre.T[:, pairs.two], pairs.when)
+    here = poses.take(pairs.when)
+    path = here.move(np.take(moving.columns, pairs.two, axis=1))
     one, two = fixed.radius[pairs.one], moving.radius[pairs.two]
-    near = _distance(fixed.centre.T[:, pairs.one], path) <= one + two + SAG * _second(path)
+    near = _near(np.take(fixed.columns, pairs.one, axis=1), path, one + two)
     if fixed.box is not None and moving.box is not None:
         some = np.flatnonzero(near & ((pairs.one < fixed.leaves) | (pairs.two < moving.leaves)))
-        near[some[_boxes_part(fixed.box, moving.box, poses, pairs.take(some))]] = False
+        boxes = fixed.box.take(pairs.one[some]), moving.box.take(pairs.two[some])
+        near[some[stay_apart(*boxes, here.take(some))]] = False
     pairs, path, one, two = pairs.take(near), path[..., near], one[near], two[near]
     large_one = np.where(pairs.one < fixed.leaves, one, -np.inf)
     large_two = np.where(pairs.two < moving.leaves, two, -np.inf)
-    node = np.maximum(large_one, large_two)
-    leaf = np.isneginf(node)
-    # A node is divided while it is larger than what it moves; then time is.
-    slow = ~leaf & (_travel(path) <= 2 * node)
+    leaf = np.isneginf(np.maximum(large_one, large_two))
+    # Time is divided where a node passes by much more than either is large; else the larger node is.
+    slow = ~leaf & (_travel(path) <= FAST * np.maximum(one, two))
     first = slow & (large_one >= large_two)
-    second = slow & ~first
     kids = pairs.take(first)
-    others = pairs.take(second)
+    others = pairs.take(slow & ~first)
     split = _Pairs(
         np.concatenate((2 * kids.one, 2 * kids.one + 1, others.one, others.one)),
         np.concatenate((kids.two, kids.two, 2 * others.two, 2 * others.two + 1)),
@@ -201,34 +175,18 @@ def _cull(fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs) -> tuple[_Pai
     return split, pairs.take(leaf), pairs.take(~leaf & ~slow)
 
 
-def _boxes_part(fixed: Boxes, moving: Boxes, poses: _Poses, pairs: _Pairs) -> NDArray[np.bool_]:
-    """Whether (n,) boxes stay apart across the surface of either node."""
-    if not len(pairs):
-        return np.zeros(0, dtype=bool)
-    here = fixed.corners[pairs.one].transpose(1, 2, 0)
-    corners = moving.corners[pairs.two].transpose(1, 2, 0)
-    path = np.stack([poses.move(corner, pairs.when) for corner in corners], axis=1)
-    swept = path.reshape(-1, *path.shape[2:])
-    across = poses.turn(moving.normal[pairs.two].T, pairs.when)
-    apart = np.maximum(
-        gap_along(here, swept, fixed.normal[pairs.one].T),
-        gap_along(here, swept, across),
-    )
-    parts: NDArray[np.bool_] = apart > SAG * _second(path).max(axis=0)
-    return parts
-
-
 def _pieces(
-    fixed: Tree, moving: Tree, poses: _Poses, pairs: _Pairs
+    fixed: Tree, moving: Tree, poses: Poses, pairs: _Pairs
 ) -> tuple[_Pairs, _Pairs, tuple[float, int] | None]:
     """Drop pairs of pieces that stay apart; give those to halve, those that meet, and the closest seen."""
     if not len(pairs):
         return pairs, pairs, None
-    here = fixed.points[pairs.one - fixed.leaves].transpose(1, 2, 0)
-    corners = moving.points[pairs.two - moving.leaves].transpose(1, 2, 0)
-    path = np.stack([poses.move(corner, pairs.when) for corner in corners], axis=1)
-    needed = SAG * _second(path).max(axis=0) + moving.ball
-    apart = separation(here, path.reshape(-1, *path.shape[2:]), path[1], needed)
+    here = np.take(fixed.corners, pairs.one - fixed.leaves, axis=2)
+    some = pairs.two - moving.leaves
+    there = poses.take(pairs.when)
+    path = np.stack([there.move(np.take(corner, some, axis=1)) for corner in moving.corners], axis=1)
+    needed = there.wander(moving.reach[some]) + moving.ball
+    apart = separation(here, path.reshape(-1, *path.shape[2:]), path[1], needed, SAG * second(path))
     near = apart <= needed
     seen = int(np.argmin(np.where(near, np.inf, apart)))
     closest = None if near[seen] else (float(apart[seen]) - moving.ball, int(pairs.when[seen]))
@@ -236,11 +194,6 @@ def _pieces(
     meet = separation(here, path[1], path[1], moving.ball) <= moving.ball
     moves = _travel(path).max(axis=0) > FLOOR
     return pairs.take(~meet & moves), pairs.take(meet), closest
-
-
-def _second(path: Array) -> Array:
-    """Size (..., n) of the second difference of three points (3, ..., d, n)."""
-    return _size(path[0] - 2 * path[1] + path[2])
 
 
 def _travel(path: Array) -> Array:

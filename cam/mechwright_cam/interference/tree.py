@@ -10,10 +10,12 @@ node
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from mechwright.motion import Array
+from mechwright_cam.interference.boxes import Boxes
 
 _TURN = 0.1
 """What a difference of normals counts, in sizes of the body: a quarter turn as a seventh of the whole."""
@@ -33,8 +35,8 @@ class Tree:
         (2 p, d) and (2 p,): the spheres of the nodes, mm; what is no node has the radius -inf.
     leaves
         p, the number of the first leaf.
-    box
-        Boxes of the nodes, if there are any.
+    boxed
+        Whether the nodes have boxes as well.
     """
 
     points: Array
@@ -42,7 +44,33 @@ class Tree:
     centre: Array
     radius: Array
     leaves: int
-    box: "Boxes | None" = None
+    boxed: bool = False
+
+    @cached_property
+    def box(self) -> Boxes | None:
+        """Boxes of the nodes, if there are any; made when they are first asked for."""
+        return Boxes.of(_filled(self.points, self.leaves), self.leaves) if self.boxed else None
+
+    @cached_property
+    def columns(self) -> Array:
+        """The centres with the nodes on the last axis: (d, 2 p)."""
+        return np.ascontiguousarray(self.centre.T)
+
+    @cached_property
+    def corners(self) -> Array:
+        """The corners with the pieces on the last axis: (k, d, m)."""
+        return np.ascontiguousarray(self.points.transpose(1, 2, 0))
+
+    @cached_property
+    def reach(self) -> Array:
+        """Distance (m,) of the furthest corner of each piece from the origin, mm."""
+        far: Array = np.linalg.norm(self.points, axis=2).max(axis=1)
+        return far
+
+    @cached_property
+    def distances(self) -> dict[tuple[float, ...], tuple[Array, Array]]:
+        """Least and greatest distances (m,) of the pieces from points that were asked for, by point."""
+        return {}
 
     @classmethod
     def of(cls, points: Array, ball: float = 0.0, *, boxes: bool = False) -> "Tree":
@@ -55,8 +83,7 @@ class Tree:
         leaves = 1 << max(m - 1, 0).bit_length()
         centre = np.zeros((2 * leaves, d))
         radius = np.full(2 * leaves, -np.inf)
-        # The last piece stands for those that are missing, and changes no sphere.
-        filled = np.concatenate((points, np.repeat(points[-1:], leaves - m, axis=0)))
+        filled = _filled(points, leaves)
         corners = np.moveaxis(filled, 0, -1)  # (k, d, leaves)
         low, high = corners.min(axis=0), corners.max(axis=0)
         size = 1
@@ -73,43 +100,12 @@ class Tree:
             low = np.minimum(low[:, ::2], low[:, 1::2])
             high = np.maximum(high[:, ::2], high[:, 1::2])
             size *= 2
-        return cls(points, ball, centre, radius, leaves, Boxes.of(filled, leaves) if boxes else None)
+        return cls(points, ball, centre, radius, leaves, boxes)
 
 
-@dataclass(frozen=True)
-class Boxes:
-    """Boxes of nodes in space, each along its own surface.
-
-    Parameters
-    ----------
-    corners
-        (2 p, 8, 3) mm.
-    normal
-        (2 p, 3): the unit vector across the thinnest side.
-    """
-
-    corners: Array
-    normal: Array
-
-    @classmethod
-    def of(cls, filled: Array, leaves: int) -> "Boxes":
-        """Boxes along the principal axes of the corners of runs of pieces (leaves, k, 3), mm."""
-        corners = np.zeros((2 * leaves, 8, 3))
-        normal = np.zeros((2 * leaves, 3))
-        signs = np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)], dtype=float)
-        size = 1
-        while size <= leaves:
-            first = leaves // size
-            runs = filled.reshape(first, -1, 3)
-            away = runs - runs.mean(axis=1, keepdims=True)
-            _, axes = np.linalg.eigh(np.einsum("nki,nkj->nij", away, away))
-            along = np.einsum("nki,nij->nkj", runs, axes)
-            low, high = along.min(axis=1), along.max(axis=1)
-            local = ((low + high) / 2)[:, None] + signs * ((high - low) / 2)[:, None]
-            corners[first : 2 * first] = np.einsum("nkj,nij->nki", local, axes)
-            normal[first : 2 * first] = axes[:, :, 0]
-            size *= 2
-        return cls(corners, normal)
+def _filled(points: Array, leaves: int) -> Array:
+    """As many pieces as leaves: the last one stands for those that are missing, and changes no sphere."""
+    return np.concatenate((points, np.repeat(points[-1:], leaves - len(points), axis=0)))
 
 
 def ring_edges(points: Array) -> Array:

@@ -32,11 +32,12 @@ from numpy.typing import NDArray
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.toolpath.arcfit import fit
-from mechwright_cam.toolpath.offsets import ROUGH, densified, grow, opened, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, densified, grow, polygons, simplified
 from mechwright_cam.toolpath.path import Path, circle
 
 BENDS = (2.2, 1.5, 1.2)
@@ -46,7 +47,11 @@ HELIX = 1.7
 THINNEST = 0.03
 """Thinnest layer in cutter radii: what asks for thinner ones is left to the contour passes."""
 THINNER = 0.7
-"""A layer that engages too much is thinned by this factor."""
+"""A layer that engages too much is thinned by this factor, or its square, at most."""
+SURE = 0.95
+"""It is thinned at least by this, and by this more than its engagement asks for."""
+THICKER = 1.1
+"""Where it may be thicker, the next one is, by this factor at most: a guess too many is a trial lost."""
 MARGIN = math.radians(2.0)
 """A pass is planned to engage this much less than asked, rad: arcs and flakes on walls add as much."""
 FRONT_ANGLES = np.radians(np.arange(-90.0, 91.0, 2.0))
@@ -82,6 +87,8 @@ class Cavity:
     centre: Point
     helix: float
     """Radius of the helix's path."""
+    begin: Point
+    """Where on it the first pass starts."""
     passes: tuple[Pass, ...]
     cleared: shapely.Geometry
 
@@ -143,15 +150,21 @@ def clear(area: shapely.Geometry, tool: Tool, engagement: float, climb: bool) ->
 
 
 class _Clearing:
-    """The clearing of one connected area."""
+    """The clearing of one connected area.
+
+    What is not cleared yet is kept in pieces, ``rest``: a layer changes one of them, and all that a layer
+    depends on is looked at in a window around the front.
+    """
 
     def __init__(self, area: shapely.Polygon, radius: float, engagement: float, climb: bool) -> None:
         self.area, self.radius, self.engagement, self.climb = area, radius, engagement, climb
         self.bend = BENDS[-1] * radius
-        self.thickness = straight_layer(radius, engagement)
+        self.thickest = self.thickness = straight_layer(radius, engagement)
         self.passes: list[Pass] = []
-        self.cleared: shapely.Geometry = shapely.Polygon()
+        self.rest: list[shapely.Polygon] = []
         self.end: Point | None = None
+        self.walls = shapely.boundary(area)
+        shapely.prepare(self.walls)
 
     def cavity(self) -> Cavity | None:
         centre, widest = entry_place(self.area)
@@ -159,14 +172,25 @@ class _Clearing:
             return None
         hole = min(HELIX * self.radius, widest)
         self.end = (centre[0] + hole - self.radius, centre[1])
-        self.cleared = _disc(centre, hole)
+        self.rest = self._without(self.area, _disc(centre, hole))
         self._spiral(centre, hole, widest)
         for bend in BENDS:
             self.bend = bend * self.radius
             wide = grow(grow(self.area, -self.bend, COARSE), self.bend - COARSE / 2, COARSE)
             if self.bend <= widest + COARSE:
                 self._fronts(shapely.intersection(wide, self.area))
-        return Cavity(centre, hole - self.radius, tuple(self.passes), self.cleared)
+        begin = (centre[0] + hole - self.radius, centre[1])
+        return Cavity(centre, hole - self.radius, begin, tuple(self.passes), self._cleared())
+
+    def _cleared(self) -> shapely.Geometry:
+        return shapely.difference(self.area, shapely.union_all(self.rest))
+
+    def _without(self, piece: shapely.Polygon, gone: shapely.Geometry) -> list[shapely.Polygon]:
+        """What stays of a piece; flakes on the walls are for finishing, and walls keep their few corners."""
+        rest = shapely.difference(piece, gone)
+        body = shapely.buffer(rest, -COARSE, quad_segs=2)
+        rest = shapely.intersection(rest, shapely.buffer(body, 2 * COARSE, quad_segs=2))
+        return polygons(simplified(rest, COARSE / 5))
 
     def _spiral(self, centre: Point, hole: float, widest: float) -> None:
         """Widen the helix's hole to the largest disc there, a layer per turn."""
@@ -174,7 +198,7 @@ class _Clearing:
             return
         points = [np.array([[centre[0] + hole - self.radius, centre[1]]])]
         side, reached = (1 if self.climb else -1), hole
-        while widest - reached > 1e-9:
+        while widest - reached > TOLERANCES.noise:
             layer = min(self._ring_layer(reached), widest - reached)
             t = np.linspace(0, 1, 97)[1:]
             way = reached + layer * t - self.radius
@@ -185,7 +209,7 @@ class _Clearing:
         last = reached - self.radius
         points.append(np.column_stack((centre[0] + last * np.cos(turn), centre[1] + last * np.sin(turn))))
         self._add(np.concatenate(points))
-        self.cleared = _disc(centre, reached)
+        self.rest = self._without(self.area, _disc(centre, reached))
 
     def _ring_layer(self, hole: float) -> float:
         """Layer that engages a cutter in a round hole by the angle asked for: the cosine rule."""
@@ -196,69 +220,94 @@ class _Clearing:
         # Along a spiral the heading leans outwards, by about layer / (2 π d).
         return max(THINNEST * radius, 0.85 * (d + radius - hole))
 
-    def _fronts(self, area: shapely.Geometry) -> None:
+    def _fronts(self, within: shapely.Geometry) -> None:
         """Move all fronts of an area on; each as far as it goes before the next."""
-        waiting = self._stock(area)
+        waiting = self._nearest_last(_apart(within, self._cleared()))
         layers = 0
         while waiting and layers < MOST_LAYERS:
             stock = waiting.pop()
             layers += 1
-            if self._layer(stock):
-                waiting += self._stock(stock)
+            taken = self._layer(stock)
+            if taken is not None:
+                waiting += self._nearest_last(_apart(stock, taken))
 
-    def _stock(self, within: shapely.Geometry) -> list[shapely.Polygon]:
-        """What is not cleared yet, the nearest to the cutter last."""
-        rest = shapely.difference(within, grow(self.cleared, COARSE / 2, COARSE))
-        parts = [part for part in polygons(rest) if part.area > CRUMB * self.radius**2]
+    def _nearest_last(self, parts: list[shapely.Polygon]) -> list[shapely.Polygon]:
+        """The parts worth a pass, that nearest to the cutter last."""
+        worth = [part for part in parts if part.area > CRUMB * self.radius**2]
         here = shapely.Point(self.end)
-        return sorted(parts, key=lambda part: -float(shapely.distance(part, here)))
+        return sorted(worth, key=lambda part: -float(shapely.distance(part, here)))
 
-    def _layer(self, stock: shapely.Polygon) -> bool:
-        """Take one layer off a piece of stock; whether it could be done."""
-        # A little more than the layer before could be: fronts bend alike from one layer to the next.
-        thickness = min(straight_layer(self.radius, self.engagement), self.thickness / THINNER)
-        before = self.cleared.area
-        fat = grow(stock, COARSE, COARSE)
+    def _layer(self, stock: shapely.Polygon) -> shapely.Geometry | None:
+        """Take one layer off a piece of stock; what is cleared around it then, None if it cannot be done."""
+        box = self._window(stock)
+        cleared, stock = self._cleared_in(box), shapely.intersection(stock, box)
+        ahead = _Ahead(cleared, stock, self.radius)
+        thickness = min(self.thickest, self.thickness)
         while thickness >= THINNEST * self.radius:
-            layer = shapely.intersection(grow(self.cleared, thickness, COARSE), fat)
+            layer = shapely.intersection(grow(cleared, thickness, COARSE), ahead.fat)
             if shapely.is_empty(layer):
-                return False
-            # A disc that covers a point of the layer is within two bend radii: no need to look further.
-            here = _window(self.cleared, layer, 2.1 * self.bend)
-            grown = shapely.simplify(shapely.union(here, layer), COARSE / 5)
+                return None
+            grown = simplified(shapely.union(cleared, layer), COARSE / 5)
             wider = grow(grow(grown, -self.bend, COARSE), self.bend, COARSE)
-            wider = shapely.union(shapely.intersection(wider, fat), self.cleared)
-            if wider.area - before < CRUMB * self.radius**2 / 4:
-                self.thickness = straight_layer(self.radius, self.engagement)
-                return False
-            ways = self._ways(wider, stock, layer)
-            if ways and all(self._holds(way) for way in ways):
+            wider = shapely.union(shapely.intersection(wider, ahead.fat), cleared)
+            if wider.area - cleared.area < CRUMB * self.radius**2 / 4:
+                break
+            ways = self._ways(wider, layer, ahead)
+            if not ways:
+                thickness *= THINNER
+                continue
+            found = max(self._engaged(way, cleared) for way in ways)
+            share = (1 - math.cos(self.engagement - MARGIN)) / (1 - math.cos(max(found, MARGIN)))
+            if share >= 1:
                 for way in ways:
                     self._add(way)
-                # Flakes on the walls are for finishing: without them the walls keep their few corners.
-                rest = opened(shapely.difference(self.area, wider), COARSE)
-                self.cleared = shapely.difference(self.area, shapely.simplify(rest, COARSE / 5))
-                self.thickness = thickness
-                return True
-            thickness *= THINNER
-        self.thickness = straight_layer(self.radius, self.engagement)
-        return False
+                self.rest = [
+                    part
+                    for piece in self.rest
+                    for part in (self._without(piece, wider) if shapely.intersects(piece, wider) else [piece])
+                ]
+                # Fronts bend alike from one layer to the next: what this one could have been, that one is.
+                self.thickness = thickness * min(SURE * share, THICKER)
+                return wider
+            thickness *= min(max(SURE * share, THINNER**2), SURE)
+        self.thickness = self.thickest
+        return None
 
-    def _holds(self, way: Array) -> bool:
+    def _window(self, stock: shapely.Polygon) -> shapely.Polygon:
+        """A box around the front of a piece of stock with all that its next layer depends on."""
+        step = self.radius / 4
+        points = shapely.get_coordinates(shapely.segmentize(stock, step))
+        places = shapely.points(points)
+        edge = shapely.union_all([shapely.boundary(p) for p in self.rest if shapely.intersects(p, stock)])
+        shapely.prepare(edge)
+        # The front is where the rest ends and no wall stands.
+        front = shapely.dwithin(edge, places, COARSE) & ~shapely.dwithin(self.walls, places, COARSE)
+        points = points[front] if front.any() else points
+        # A disc that covers a point of the layer is within two bend radii; edges that the window makes lie in
+        # what was clear before, so they are no cuts.
+        margin = step + self.thickest + max(2.1 * self.bend, 4 * self.radius)
+        (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
+        return shapely.box(x0, y0, x1, y1)
+
+    def _cleared_in(self, box: shapely.Polygon) -> shapely.Geometry:
+        """What is cleared within a box, prepared."""
+        rest = shapely.union_all([shapely.intersection(piece, box) for piece in self.rest])
+        cleared = shapely.difference(shapely.intersection(self.area, box), rest)
+        shapely.prepare(cleared)
+        return cleared
+
+    def _engaged(self, way: Array, cleared: shapely.Geometry) -> float:
         dense = densified(way, SAMPLE * self.radius)
-        return bool(engagements(dense, self.cleared, self.radius).max() <= self.engagement - MARGIN)
+        return float(engagements(dense, cleared, self.radius).max())
 
-    def _ways(self, wider: shapely.Geometry, stock: shapely.Polygon, layer: shapely.Geometry) -> list[Array]:
+    def _ways(self, wider: shapely.Geometry, layer: shapely.Geometry, ahead: "_Ahead") -> list[Array]:
         """The centre's ways along the new front of a piece of stock, in cutting direction."""
         radius = self.radius
-        # Edges that the window makes lie in what was clear before, so they are no cuts.
-        centres = grow(_window(wider, layer, 2.5 * radius), COARSE - radius, COARSE)
-        old = grow(_window(self.cleared, layer, 4 * radius), 2 * COARSE - radius, COARSE)
-        near = grow(stock, radius + COARSE, COARSE)
-        shapely.prepare(near)
-        shapely.prepare(old)
+        x0, y0, x1, y1 = layer.bounds
+        far = 2.5 * radius
+        around = shapely.intersection(wider, shapely.box(x0 - far, y0 - far, x1 + far, y1 + far))
         found = []
-        for part in polygons(centres):
+        for part in polygons(grow(around, COARSE - radius, COARSE)):
             for loop in (part.exterior, *part.interiors):
                 ring = densified(shapely.get_coordinates(loop), SAMPLE * radius)
                 # Along the edge of what is cleared, stock on the right for climb.
@@ -269,8 +318,8 @@ class _Clearing:
                 ):
                     ring = ring[::-1]
                 x, y = ring.T
-                cuts = (~shapely.contains_xy(old, x, y) & shapely.contains_xy(near, x, y))[:-1]
-                found += self._runs(ring, cuts)
+                cuts = ~shapely.contains_xy(ahead.old, x, y) & shapely.contains_xy(ahead.near, x, y)
+                found += self._runs(ring, cuts[:-1])
         return found
 
     def _runs(self, ring: Array, cuts: NDArray[np.bool_]) -> list[Array]:
@@ -297,16 +346,33 @@ class _Clearing:
         linked = False
         if self.end is not None:
             way = shapely.LineString([self.end, path.start])
-            free = grow(self.cleared, 3 * COARSE - self.radius, COARSE)
-            linked = bool(way.length == 0 or shapely.covers(free, way))
+            apart = self.radius - 3 * COARSE
+            linked = bool(
+                way.length == 0
+                or (
+                    not shapely.dwithin(self.walls, way, apart)
+                    and not any(shapely.dwithin(piece, way, apart) for piece in self.rest)
+                )
+            )
         self.passes.append(Pass(path, linked))
         self.end = path.end
 
 
-def _window(shape: shapely.Geometry, around: shapely.Geometry, margin: float) -> shapely.Geometry:
-    """The part of a shape in a box around another."""
-    x0, y0, x1, y1 = around.bounds
-    return shapely.intersection(shape, shapely.box(x0 - margin, y0 - margin, x1 + margin, y1 + margin))
+class _Ahead:
+    """What the layers in front of a piece of stock are compared with, whatever their thickness."""
+
+    def __init__(self, cleared: shapely.Geometry, stock: shapely.Geometry, radius: float) -> None:
+        self.fat = grow(stock, COARSE, COARSE)
+        self.old = grow(cleared, 2 * COARSE - radius, COARSE)
+        self.near = grow(stock, radius + COARSE, COARSE)
+        shapely.prepare(self.old)
+        shapely.prepare(self.near)
+
+
+def _apart(stock: shapely.Geometry, cleared: shapely.Geometry) -> list[shapely.Polygon]:
+    """The parts of stock that are not cleared, a little off the front, which so leaves no flakes."""
+    rest = shapely.difference(stock, grow(cleared, COARSE / 2, COARSE))
+    return polygons(simplified(rest, COARSE / 5))
 
 
 def _disc(centre: Point, radius: float) -> shapely.Polygon:
@@ -332,8 +398,7 @@ def write(cavities: list[Cavity], pen: Pen, top: float, bottom: float, step_down
 
 def _enter(pen: Pen, cavity: Cavity, above: float, z: float, climb: bool) -> None:
     """Down along a helix, and once round at the bottom."""
-    x, y = cavity.centre
-    turn = circle(cavity.centre, cavity.helix, (x + cavity.helix, y), climb)
+    turn = circle(cavity.centre, cavity.helix, cavity.begin, climb)
     pen.above(turn.start)
     pen.sink(above)
     pitch = math.tau * cavity.helix * pen.slope * 0.999  # a little less than the steepest, for rounding

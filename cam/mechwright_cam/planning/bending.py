@@ -8,6 +8,7 @@ F l³ / (3 E I) with I = π d_e⁴ / 64 of the equivalent diameter that the flut
 import math
 
 from mechwright.materials import material
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 
 CORE = 0.75
@@ -36,7 +37,7 @@ def deflection(tool: Tool, workpiece: str, depth: float) -> float:
     wide = data.step_over
     chip = data.chip_load * math.sqrt(wide)
     teeth = max(1.0, tool.flutes * math.acos(1 - 2 * wide) / math.tau)
-    passes = max(1, math.ceil(depth / (data.step_down * tool.diameter) - 1e-9))
+    passes = max(1, math.ceil(depth / (data.step_down * tool.diameter) - TOLERANCES.noise))
     force = stuff.force * chip ** (1 - stuff.force_exponent) * (depth / passes) * teeth
     length = depth + NECK * tool.diameter if tool.stick_out is None else tool.stick_out
     fluted = min(tool.flute_length, length)

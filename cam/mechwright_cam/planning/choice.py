@@ -18,30 +18,74 @@ from mechwright_cam.toolpath.path import rounded
 SAME_REACH = TOLERANCES.leftover - BIAS - TOLERANCES.arc_fit - TOLERANCES.flatten
 """A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what is
 left of the permitted leftover when path and outline have used their tolerances."""
+SAME_RADIUS = TOLERANCES.leftover / 2
+"""A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
 
 def long_enough(tool: Tool, depth: float) -> bool:
     """Whether the flutes reach the bottom of a cut of this depth, mm."""
-    return tool.flute_length >= depth - 1e-9
+    return tool.flute_length >= depth - TOLERANCES.noise
 
 
-def usable_mills(job: Job, depth: float) -> list[Tool]:
-    """End mills that cut the job's material to ``depth``, largest first; raises ToolError if none."""
+def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool]:
+    """Mills that cut the job's material to ``depth``, largest first; raises ToolError if none.
+
+    A cut through the plate goes deeper by the corner radius of a bull nose, so that the wall is straight down
+    to the underside. A ball makes no flat floor in good time: it counts only for a floor of its own radius,
+    or where there is nothing else.
+    """
     material = job.part.material
-    knows = [tool for tool in job.end_mills if material in tool.cutting]
+    knows = [tool for tool in job.mills if material in tool.cutting]
     if not knows:
-        what = f"none has cutting data for {material}" if job.end_mills else "there is none"
+        what = f"none has cutting data for {material}" if job.mills else "there is none"
         raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
-    mills = [tool for tool in knows if long_enough(tool, depth)]
+    through = depth >= job.thickness - 1e-9
+    mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]
     if not mills:
         longest = max(knows, key=lambda tool: tool.flute_length)
         raise ToolError(
             f"cam.tools: no end mill for part {job.part.name} cuts {depth:g} mm deep; the longest, "
             f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one"
         )
-    return mills
+    plain = [tool for tool in mills if tool.nose < tool.radius or makes_floor(tool, floor_radius)]
+    return plain or mills
+
+
+def makes_floor(tool: Tool, floor_radius: float) -> bool:
+    """Whether a mill leaves the fillet that a floor is to have."""
+    return floor_radius > 0 and abs(tool.nose - floor_radius) <= SAME_RADIUS
+
+
+def last_mills(
+    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+) -> list[Tool]:
+    """The mills that finish a wall, one after the other: the finest, and before a round one a flat one.
+
+    A flat end mill leaves no fillet on the floor. Where a round one reaches further into corners it comes
+    after it.
+    """
+    flat = [mill for mill in mills if mill.nose == 0]
+    if not flat or len(flat) == len(mills):
+        return [finishing_choice(mills, keep, near)]
+    first, best = finishing_choice(flat, keep, near), finishing_choice(mills, keep, near)
+    return [first] if best.radius >= first.radius else [first, best]
+
+
+def roughers(mills: Sequence[Tool], finest: Tool) -> list[Tool]:
+    """The mills that rough before the finest: the wider ones, and round ones as wide, whose edges last.
+
+    Before a ball every other mill roughs, for a ball takes long to make a floor.
+    """
+    is_ball = finest.nose == finest.radius
+    return [
+        mill
+        for mill in mills
+        if mill.diameter > finest.diameter
+        or (mill is not finest and mill.diameter == finest.diameter and mill.nose > finest.nose)
+        or (is_ball and mill.nose < mill.radius)
+    ]
 
 
 def path_radius(mill: Tool) -> float:

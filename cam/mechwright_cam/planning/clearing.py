@@ -13,12 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import SLACK, Zone
+from mechwright_cam.planning.zone import CUSP, SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
     BIAS,
@@ -53,6 +54,8 @@ BESIDE = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
 """Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
+MANY = 0.5
+"""A round mill that would need more than twice its rings to make a floor roughs with its own step first."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,8 @@ class Roughing:
         Direction.
     only
         The stock worth an effort; all that is left if None.
+    ridges
+        Only the floor of ``only`` is to be cut: what stands there is no higher than the zone's ridges.
     """
 
     def __init__(
@@ -113,19 +118,29 @@ class Roughing:
         step_over: float,
         climb: bool,
         only: shapely.Geometry | None = None,
+        *,
+        ridges: bool = False,
     ) -> None:
         self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
-        self.coarse, self.allowance = coarse, allowance
+        self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
+        self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
+        fine = min(self.step, 2 * TIGHT * self.foot)
+        self.smooth = ridges or fine >= MANY * self.step
+        if self.smooth:
+            self.step = fine
         self.blocked = self._blocked(0)
         self.room = zone.room(tool.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
+        self.wide = self.foot if self.smooth else tool.radius
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
         self.over = zone.over + min(OVERLAP, self.sliver / 2)
-        self.reach = grow(self.free, tool.radius + self.over, ROUGH)
+        # On a floor with ridges nothing may be taken for cut that is not.
+        self.touch = self.foot if ridges else tool.radius
+        self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
         self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
         if not shapely.is_empty(zone.waste):
@@ -151,8 +166,18 @@ class Roughing:
 
     def commit(self) -> None:
         """Take what this cut removes out of what is left."""
-        self.zone.left = shapely.difference(self.zone.left, self.reach)
-        self.zone.over = self.over
+        zone = self.zone
+        if self.ridges:
+            zone.ridges = shapely.difference(zone.ridges, self.reach)
+            return
+        if self.foot < self.tool.radius:
+            taken = shapely.intersection(zone.left, self.reach)
+            if self.smooth:
+                taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
+            zone.ridges = shapely.union(zone.ridges, taken)
+            zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
+        zone.left = shapely.difference(zone.left, self.reach)
+        zone.over = self.over
 
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
@@ -162,7 +187,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.left, self.tool.radius + self.zone.over - CLEAR, ROUGH)
+        near = grow(self.zone.standing, self.tool.radius + self.zone.over - CLEAR, ROUGH)
         shapely.prepare(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -194,13 +219,13 @@ class Roughing:
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
         beside = np.zeros(len(paths), dtype=bool)
-        if self.only is not None and self.tool.centre_cutting:
+        if self.only is not None and not self.ridges and self.tool.centre_cutting:
             thick = grow(self.only, radius - CLEAR, ROUGH)
             beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
-            linked = _inside(free, last.end, path.start, radius)
+            linked = _inside(free, last.end, path.start)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
                 trail = shapely.linestrings(last.points(radius / 3))
@@ -209,25 +234,25 @@ class Roughing:
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
             runs.append(Run(path, clear, linked, thin))
-        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start, radius))
+        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start))
 
     def _pieces(self) -> list[Piece]:
         radius = self.tool.radius
         shapely.prepare(self.room)
         found: list[Piece] = []
         blocked, core = self.blocked, self.core
-        wanted = grow(core, radius, ROUGH)
-        near = grow(wanted, self.sliver + CLEAR, ROUGH)
+        wanted = grow(core, self.touch, ROUGH)
+        near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
         shapely.prepare(near)
         order = 0
         while True:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
-                core = shapely.difference(core, grow(blocked, radius - CLEAR + self.sliver, ROUGH))
+                core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
                 if not polygons(core):
                     return found
                 blocked = self._blocked(order)
-                wanted = grow(core, radius, ROUGH)
+                wanted = grow(core, self.touch, ROUGH)
             shapely.prepare(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
@@ -270,13 +295,16 @@ class Roughing:
 
     def write(self, pen: Pen, step_down: float) -> None:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
-        heights = levels(self.zone.top, self.zone.bottom, step_down)
+        zone = self.zone
+        bottom = zone.bottom_for(self.tool)
+        top = bottom + zone.ridge_height if self.ridges else zone.top
+        heights = levels(top, bottom, step_down)
         for cavity in self.cavities():
             first = cavity.runs[0]
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
-                _spiral(pen, first.path, self.zone.top, heights)
+                _spiral(pen, first.path, top, heights)
             else:
-                _levels(pen, cavity, self.zone.top, heights)
+                _levels(pen, cavity, top, heights)
         pen.retract()
 
 
@@ -314,8 +342,6 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
         above = z
 
 
-def _inside(free: shapely.Geometry, a: Point, b: Point, radius: float) -> bool:
-    """Whether the centre may go straight from a to b, tested at every quarter of the radius."""
-    count = max(1, math.ceil(math.dist(a, b) / (radius / 4)))
-    t = np.arange(count + 1) / count
-    return bool(shapely.contains_xy(free, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])).all())
+def _inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
+    """Whether the centre may go straight from a to b."""
+    return bool(shapely.covers(free, shapely.Point(a) if a == b else shapely.LineString([a, b])))

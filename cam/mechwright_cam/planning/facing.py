@@ -5,8 +5,10 @@ import math
 import numpy as np
 import shapely
 
+from mechwright.cutter import cutter
+from mechwright_cam.planning.clearing import TIGHT
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import Zone
+from mechwright_cam.planning.zone import CUSP, Zone
 from mechwright_cam.toolpath.path import line, polyline, rounded
 
 ROW = 0.7
@@ -27,7 +29,8 @@ def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float, leave: 
     """
     radius = pen.tool.radius
     x0, y0, x1, y1 = zone.must.bounds if zone.must is not None else stock.bounds
-    count = math.ceil((y1 - y0) / (ROW * pen.tool.diameter))
+    wide = min(ROW * pen.tool.diameter, 2 * TIGHT * 2 * float(cutter(pen.tool).radius_at(CUSP)))
+    count = math.ceil((y1 - y0) / wide)
     rows = y0 + (np.arange(count) + 0.5) * (y1 - y0) / count
     left, right = x0 - radius - PAST, x1 + radius + PAST
     points = []

@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
-from mechwright.tooling import CamSettings
+from mechwright.tooling import CamSettings, Tool
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.wedges import into_wedges
@@ -25,8 +25,8 @@ left of BIAS and rounding still keeps them off it."""
 class Finishing:
     """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, settings: CamSettings) -> None:
-        self.zone, self.settings, self.tool = zone, settings, zone.finisher
+    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool) -> None:
+        self.zone, self.settings, self.tool = zone, settings, tool
         radius = self.tool.radius
         self.blocked = grow(zone.keep, radius + BIAS)
         self.room = zone.room(radius, finishing=True)
@@ -34,7 +34,7 @@ class Finishing:
             # Along a tab only as far as the finishing of the wall needs it.
             near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
             self.room = shapely.intersection(self.room, near)
-        self.near = grow(zone.left, radius + zone.over - CLEAR, ROUGH)
+        self.near = grow(zone.standing, radius + zone.over - CLEAR, ROUGH)
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
         self.free = shapely.difference(
@@ -46,8 +46,9 @@ class Finishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all rings."""
         zone = self.zone
-        heights = levels(zone.top, zone.bottom, self.settings.finish_step * self.tool.diameter)
-        heights += [zone.bottom] * self.settings.spring_passes
+        step = self.settings.finish_step * self.tool.diameter
+        heights = levels(zone.top, zone.bottom_for(self.tool), step)
+        heights += heights[-1:] * self.settings.spring_passes
         waiting = self._pieces()
         while waiting:
             piece = waiting.pop(0)
@@ -88,10 +89,13 @@ class Finishing:
     def _is_air(self, points: Array) -> NDArray[np.bool_]:
         return self._is_free(points) & self._is_clear(points)
 
+    def _may_run(self, way: Array) -> bool:
+        return bool(shapely.covers(self.free, shapely.LineString(way)))
+
     def _ring(self, pen: Pen, ring: Array, heights: list[float]) -> None:
         least = self.settings.stock_to_leave
         shapes = lead_shapes(self.tool.radius, least)
-        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear)
+        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear, self._may_run)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
             self._loop(
@@ -110,8 +114,9 @@ class Finishing:
         """A path that starts and ends in the clear, at every height."""
         if not path.cuts:
             return
-        back = np.linspace(path.end, path.start, 20)
-        direct = bool(self._is_free(back).all() and self._is_clear(back).all())
+        # The whole way counts, not points of it: a corner of the wall may stand between any two.
+        back = shapely.LineString([path.end, path.start])
+        direct = bool(shapely.covers(self.free, back) and not shapely.intersects(self.near, back))
         is_open = bool(self._is_clear(np.array([path.start]))[0])
         above = self.zone.top
         for number, z in enumerate(heights):

@@ -5,6 +5,9 @@ what stands in front of these then is the same from top to bottom.
 """
 
 from dataclasses import replace
+from itertools import pairwise
+
+import shapely
 
 from mechwright_cam.job import Job
 from mechwright_cam.planning.zone import Zone
@@ -18,6 +21,30 @@ def floor_allowance(job: Job, top: float, bottom: float) -> float:
     if bottom <= job.floor:
         return 0.0
     return min(job.settings.floor_to_leave, LARGEST_SHARE * (top - bottom))
+
+
+OPENED = 0.05
+"""Share of a recess that has to be open from below before it is cut in two layers for it."""
+THIN = 0.2
+"""A layer that begins or ends so near to an opening, mm, is not divided there."""
+
+
+def over_openings(job: Job, zone: Zone) -> list[Zone]:
+    """A recess in layers from the top down, each without what earlier setups have opened from below."""
+    inside = [
+        air.top
+        for air in job.gone
+        if zone.bottom + THIN < air.top < zone.top - THIN
+        and shapely.intersection(air.shape, zone.left).area > OPENED * zone.left.area
+    ]
+    heights = [zone.top, *sorted(set(inside), reverse=True), zone.bottom]
+    found = []
+    for place, (top, bottom) in enumerate(pairwise(heights)):
+        name = zone.name if place == 0 else f"{zone.name} around the opening"
+        layer = replace(zone, name=name, top=top, bottom=bottom)
+        layer.left = shapely.difference(zone.left, job.air_below(top)) if job.gone else zone.left
+        found.append(layer)
+    return found
 
 
 def layers(zone: Zone, allowance: float) -> tuple[Zone, Zone]:

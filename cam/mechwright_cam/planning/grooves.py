@@ -1,69 +1,99 @@
-"""Grooves as wide as a mill: its centre runs on the groove's centre line, and both walls are cut at once."""
+"""Grooves just as wide as the mill that makes them: along their middle, pass by pass.
+
+There is no room for an allowance, a lead or a second cut: the mill goes down on a ramp along the groove, to
+and fro, or round and round where the groove is closed in itself. Where the groove leaves the part it runs
+straight on, until all of the mill is out.
+"""
+
+import math
 
 import numpy as np
+import shapely
 
-from mechwright.part import OpenProfile
-from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
-from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright.motion import Array
+from mechwright.tooling import CamSettings
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import bottom_of
+from mechwright_cam.planning.zone import SNUG, Zone
 from mechwright_cam.toolpath.arcfit import fit
-from mechwright_cam.toolpath.offsets import FIT, densified
+from mechwright_cam.toolpath.offsets import CHORD, FIT, densified, grow, polygons
 from mechwright_cam.toolpath.path import Path
 
-PLAY = TOLERANCES.leftover - TOLERANCES.gouge
-"""A mill may be so much narrower than its groove, mm: half of it stays on either wall, and the path may be as
-much off as the proof lets it."""
-DENSE = 2.0
-"""Distance of points on straight stretches of a centre line, mm, between which arcs are looked for."""
+PAST = 0.5
+"""The mill runs out of an open end by this more than its radius, mm."""
 
 
-def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
-    """The mill that cuts a groove to its width in one; None if there is none.
-
-    Where clearing is adaptive, a narrower mill with room to turn in loops goes first.
-
-    Raises
-    ------
-    ToolError
-        No mill reaches the groove's bottom.
-    """
-    if feature.side != "on":
-        return None
-    bottom = bottom_of(job, feature.top, feature.depth)
-    mills = usable_mills(job, -bottom)
-    if job.settings.clearing == "adaptive" and mills[-1].diameter <= ROOMY * feature.width:
-        return None
-    return next((mill for mill in mills if -1e-9 <= feature.width - mill.diameter <= PLAY), None)
-
-
-def grooves(job: Job) -> dict[str, Tool]:
-    """The grooves that are cut in one, by name, each with its mill."""
-    every = [feature for feature in job.features if isinstance(feature, OpenProfile)]
-    chosen = {feature.name: groove_mill(job, feature) for feature in every}
-    return {name: mill for name, mill in chosen.items() if mill is not None}
-
-
-def centre_line(feature: OpenProfile) -> Path:
-    """The way of the cutter's centre."""
-    rows = [segment.flatten(TOLERANCES.flatten) for segment in feature.path]
-    points = np.concatenate([rows[0], *(row[1:] for row in rows[1:])])
-    return fit(densified(points, DENSE), FIT)
-
-
-def write_groove(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None:
-    """Write ramped passes of full width along the centre line, to and fro, and the last over the floor."""
-    path = centre_line(feature)
-    top, bottom = -feature.top, bottom_of(job, feature.top, feature.depth)
-    step_down = pen.tool.cutting[job.part.material].step_down * pen.tool.diameter
-    heights = levels(top, bottom + leave, step_down)
-    heights += [bottom] * (job.settings.spring_passes + (leave > 0))
-    pen.above(path.start)
-    pen.sink(top)
-    for z in heights:
-        pen.ramp(path, z)
-        pen.follow(path)
-        path = path.reversed()
+def groove(zone: Zone, settings: CamSettings, pen: Pen, step_down: float) -> None:
+    """Write the passes of one zone."""
+    for path in ways(zone, pen.tool.radius, settings.climb):
+        pen.above(path.start)
+        pen.sink(zone.top)
+        for z in levels(zone.top, zone.bottom, step_down):
+            pen.ramp(path, z)
+            pen.follow(path)
+            path = path if path.closed else path.reversed()
+        for _ in range(settings.spring_passes):
+            pen.follow(path)
+            path = path if path.closed else path.reversed()
     pen.retract()
+
+
+def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:
+    """The middle lines of a groove that a mill of this radius fills."""
+    inside = zone.clear if zone.must is None else zone.must
+    free = shapely.difference(inside, grow(zone.keep, radius - SNUG))
+    found = []
+    for part in polygons(free):
+        ring = shapely.get_coordinates(part.exterior)
+        if bool(shapely.is_ccw(part.exterior)) != climb:
+            ring = ring[::-1]
+        line = ring if part.interiors else _run_out(half(ring, radius), zone.keep, radius)
+        thin = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), CHORD))
+        path = fit(densified(thin, radius / 4), FIT)
+        if path.cuts:
+            found.append(path)
+    return found
+
+
+def _run_out(line: Array, keep: shapely.Geometry, radius: float) -> Array:
+    """The line, longer by the mill's radius at an end where nothing of the part is ahead."""
+    for _ in range(2):
+        back = line[np.hypot(*(line - line[-1]).T) > radius / 8]
+        if len(back):
+            ahead = (line[-1] - back[-1]) / np.hypot(*(line[-1] - back[-1]))
+            end = line[-1] + (radius + PAST) * ahead
+            if shapely.distance(shapely.LineString([line[-1], end]), keep) > radius - 2 * SNUG:
+                line = np.concatenate((line, end[None]))
+        line = line[::-1]
+    return line
+
+
+def half(ring: Array, radius: float) -> Array:
+    """One side (m, 2) of a ring (n + 1, 2) around a sliver much longer than ``radius``, from end to end.
+
+    >>> sliver = np.array([(0, 0), (9, 0), (9, 0.002), (0, 0.002), (0, 0)], dtype=float)
+    >>> half(sliver, 1.0).tolist()
+    [[0.0, 0.0], [9.0, 0.0]]
+    """
+    line = shapely.LineString(ring)
+    count = max(8, math.ceil(line.length / (radius / 8)))
+    at = np.arange(count) * (line.length / count)
+    points = shapely.get_coordinates(shapely.line_interpolate_point(line, at))
+    # At an end the ring comes back beside itself: what is ahead stands next to what lies behind.
+    gap = np.hypot(*(np.roll(points, 2, axis=0) - np.roll(points, -2, axis=0)).T)
+    first = int(np.argmin(gap))
+    away = np.abs((np.arange(count) - first + count // 2) % count - count // 2)
+    last = int(np.argmin(np.where(away > count // 4, gap, np.inf)))
+    ends = sorted(_extreme(ring, points, one) for one in (first, last))
+    side = ring[:-1][ends[0] : ends[1] + 1]
+    clear = np.minimum(np.hypot(*(side - side[0]).T), np.hypot(*(side - side[-1]).T)) > 4 * SNUG
+    clear[[0, -1]] = True
+    kept: Array = side[clear]
+    return kept
+
+
+def _extreme(ring: Array, points: Array, end: int) -> int:
+    """The vertex of a ring that is the very end of a sliver near one of some evenly spread points."""
+    inwards = points[(end + 4) % len(points)]
+    vertices = ring[:-1]
+    near = np.hypot(*(vertices - points[end]).T) <= np.hypot(*(points[1] - points[0]))
+    return int(np.argmax(np.where(near, np.hypot(*(vertices - inwards).T), -1.0)))

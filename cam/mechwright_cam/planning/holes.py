@@ -3,6 +3,9 @@
 import math
 from dataclasses import dataclass
 
+import shapely
+
+from mechwright.cutter import cutter
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.materials import material
@@ -15,7 +18,7 @@ from mechwright_cam.planning.choice import ROOMY, usable_mills
 from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import bottom_of, through
+from mechwright_cam.planning.zone import CUSP, bottom_of, through
 from mechwright_cam.toolpath.path import Path, arc, circle, rounded
 
 DEEP = 3.0
@@ -64,10 +67,27 @@ def starting_drill(job: Job, diameter: float, depth: float) -> Tool | None:
 
 
 def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:
-    """The mill for a hole: the largest with room for chips, else the smallest that fits at all."""
+    """The mill for a hole: the largest with room for chips, else the smallest that fits at all.
+
+    Flat end mills come before round ones.
+    """
+    flat = [mill for mill in mills if mill.nose == 0 and mill.diameter <= SNUG * diameter]
+    mills = flat or mills
     roomy = [mill for mill in mills if mill.diameter <= ROOMY * diameter]
     snug = [mill for mill in mills if mill.diameter <= SNUG * diameter]
     return roomy[0] if roomy else (snug[-1] if snug else None)
+
+
+def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
+    """Depth of a bore's cuts, z in mm: out of the plate with all of a rounded corner."""
+    bottom = bottom_of(job, bore.top, bore.depth)
+    return bottom - mill.nose if bottom == job.floor else bottom
+
+
+def _foot(job: Job, bore: Bore, mill: Tool) -> float:
+    """Radius to which a mill makes the floor of a bore flat, mm; all of it in a hole through the plate."""
+    out = through(job, bore.top + bore.depth)
+    return mill.radius if out else float(cutter(mill).radius_at(CUSP))
 
 
 @dataclass(frozen=True)
@@ -82,9 +102,11 @@ class BorePlan:
 def plan_bore(job: Job, bore: Bore) -> BorePlan:
     """Choose the cutters of a bore; raises ToolError if there is no way to make it."""
     depth = -bottom_of(job, bore.top, bore.depth)
-    mill = boring_mill(usable_mills(job, depth), bore.diameter)
+    out = through(job, bore.top + bore.depth)
+    able = usable_mills(job, depth)
+    mill = boring_mill(able if out else [tool for tool in able if tool.nose < tool.radius], bore.diameter)
     if mill is not None:
-        drill = starting_drill(job, bore.diameter, depth) if through(job, bore.top + bore.depth) else None
+        drill = starting_drill(job, bore.diameter, depth) if out else None
         return BorePlan(bore, drill, mill)
     for drill in usable_drills(job, depth):
         if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
@@ -139,6 +161,12 @@ def _holes(
     return (*moves, Rapid(z=clearance))
 
 
+def open_radius(job: Job, bore: Bore) -> float:
+    """Radius of what earlier setups have cut through at the middle of a bore, mm; 0 if they have not."""
+    air, middle = job.air_below(-bore.top), shapely.Point(bore.centre)
+    return float(air.boundary.distance(middle)) if shapely.contains(air, middle) else 0.0
+
+
 def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     """Write helices out to the finishing allowance; whether there was anything to write."""
     bore, mill = plan.bore, plan.mill
@@ -150,13 +178,18 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
         return False  # the drill has left just the finishing allowance
     # Too narrow for an allowance: the finishing circle is the only one.
     widest = widest if widest >= final / 2 else final
-    step = min(data.step_over, CORELESS) * mill.diameter
-    first = min(widest, CORELESS * mill.radius)
+    foot = _foot(job, bore, mill)
+    step = min(data.step_over * mill.diameter, CORELESS * 2 * foot)
+    first = min(widest, CORELESS * foot)
     if plan.drill is not None:
         first = max(first, min(widest, plan.drill.radius + step - mill.radius))
-    count = math.ceil((widest - first) / step - 1e-9) + 1
+    edge = open_radius(job, bore) - mill.radius
+    if edge > 0:  # outwards from there in even rings
+        edge = min(edge, widest)
+        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - 1e-9), 1)
+    count = math.ceil((widest - first) / step - TOLERANCES.noise) + 1
     radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
-    bottom = bottom_of(job, bore.top, bore.depth)
+    bottom = _bottom(job, bore, mill)
     leave = floor_allowance(job, -bore.top, bottom)
     for radius in radii:
         _helix(job, bore, pen, radius, data.step_down * mill.diameter, bottom + leave)
@@ -194,7 +227,7 @@ def finish_bore(job: Job, plan: BorePlan, pen: Pen) -> None:
     bore, mill = plan.bore, plan.mill
     assert mill is not None  # noqa: S101 - the caller has one
     radius = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
-    bottom = bottom_of(job, bore.top, bore.depth)
+    bottom = _bottom(job, bore, mill)
     ccw = job.settings.climb
     x, y = rounded(bore.centre[0]), rounded(bore.centre[1])
     turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), ccw)

@@ -19,8 +19,8 @@ def clamp_message(job: Job) -> str:
     )
 
 
-def notes(job: Job, drills: Sequence[Tool]) -> tuple[str, ...]:
-    """Part, stock, origin, fits, and what the ``drills`` ask of the table."""
+def notes(job: Job, drills: Sequence[Tool], round_mills: Sequence[Tool] = ()) -> tuple[str, ...]:
+    """Part, stock, origin, fits, and what ``drills`` and round mills that cut through ask of the table."""
     x0, y0, x1, y1 = job.stock
     nest = job.part if isinstance(job.part, Nest) else None
     where = {
@@ -52,4 +52,7 @@ def notes(job: Job, drills: Sequence[Tool]) -> tuple[str, ...]:
     if drills:
         below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
         lines.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")
+    if round_mills:
+        below = max(mill.nose for mill in round_mills) + job.settings.breakthrough
+        lines.append(f"round mills go {below:.2f} mm below the stock: leave room under the cuts")
     return tuple(lines)

@@ -6,6 +6,7 @@ from typing import cast
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.program import Feed, FeedArc, Move, Rapid
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.over_tabs import lifted_height, over_tabs
 from mechwright_cam.planning.rates import Rates
@@ -16,6 +17,8 @@ APPROACH = 1.0
 """Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
 AIR = 2.0
 """Feed through cleared ground in feeds of the cut."""
+EASIER = 1e-3
+"""Ramps are longer than the steepest by this share, and so many mm: rounding of z must make none steeper."""
 TINY = 0.5
 """A way shorter than this many diameters is too short to ramp along: the cutter plunges."""
 
@@ -179,8 +182,7 @@ class Pen:
                 )
             self.sink(z, self.rates.plunge)
             return
-        # The steepest place of a rounded ramp: one digit of z over the whole drop is lost on the slope.
-        run = drop / self.slope * (1 + 1e-3) + 1e-3
+        run = drop / self.slope * (1 + EASIER) + EASIER
         start = self.level
         if path.closed:
             laps = math.ceil(run / path.length)
@@ -202,5 +204,5 @@ def levels(top: float, bottom: float, step: float) -> list[float]:
     >>> levels(0.0, -10.0, 4.0)
     [-3.3333, -6.6667, -10.0]
     """
-    count = max(1, math.ceil((top - bottom) / step - 1e-9))
+    count = max(1, math.ceil((top - bottom) / step - TOLERANCES.noise))
     return [rounded(top + (bottom - top) * number / count) for number in range(1, count + 1)]

@@ -11,15 +11,18 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.part import Bore, OpenProfile
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import entry_place
+from mechwright_cam.planning.centre_lines import grooves, write_groove
+from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.congruent import Copies
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.facing import face, is_face
 from mechwright_cam.planning.finishing import Finishing
-from mechwright_cam.planning.floors import floor_allowance, layers
-from mechwright_cam.planning.grooves import grooves, write_groove
+from mechwright_cam.planning.floors import floor_allowance, layers, over_openings
+from mechwright_cam.planning.grooves import groove
 from mechwright_cam.planning.holes import (
     BorePlan,
     drill_moves,
@@ -75,6 +78,7 @@ class _Planner:
         self.clearance = clearance_height(job)
         self.slope = math.tan(math.radians(job.settings.ramp_angle))
         self.steps: list[Step] = []
+        self.copies = Copies()
 
     def program(self) -> Program:
         job = self.job
@@ -101,7 +105,7 @@ class _Planner:
             job.settings.work_offset,
             self.clearance,
             _merged(sections),
-            notes(self.job, drills),
+            notes(self.job, drills, self._through_with_round_ends()),
         )
 
     def _step(self, name: str, tool: Tool, moves: tuple[Move, ...], after: frozenset[int]) -> frozenset[int]:
@@ -111,14 +115,23 @@ class _Planner:
         self.steps.append(Step(name, tool, spindle, moves, after))
         return frozenset({len(self.steps) - 1})
 
+    def _through_with_round_ends(self) -> list[Tool]:
+        """The round mills that go below the usual breakthrough."""
+        lowest = self.job.floor - TOLERANCES.closure
+        return [step.tool for step in self.steps if step.tool.nose > 0 and _lowest(step.moves) < lowest]
+
     def _moves(
         self,
         tool: Tool,
         write: Callable[[Pen], object],
         engagement: float = math.pi / 2,
+        depth: float = math.inf,
         over: tuple[Tab, ...] = (),
     ) -> tuple[Move, ...]:
-        speed = rates(tool, self.job.part.material, self.job.settings.machine, engagement)
+        """The moves that ``write`` makes; a cut is ``depth`` mm deep where that makes chips thinner."""
+        settings = self.job.settings
+        depth = depth if settings.chip_thinning else math.inf
+        speed = rates(tool, self.job.part.material, settings.machine, engagement, depth)
         pen = Pen(tool, speed, self.clearance, self.slope, over)
         write(pen)
         return tuple(pen.moves)
@@ -160,10 +173,10 @@ class _Planner:
                     hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
                     zone.left = shapely.difference(zone.left, hole)
                 leave = floor_allowance(job, zone.top, zone.bottom)
-                if leave > 0:
+                if leave > 0 and not zone.snug:
                     self._recess(zone, after, leave)
                 else:
-                    self._wall([zone], after, zone.mills)
+                    self._wall(over_openings(job, zone), after, zone.mills)
             after = frozenset(range(len(self.steps)))
         self._details(after, outside=False)
         return frozenset(range(len(self.steps)))
@@ -232,14 +245,14 @@ class _Planner:
         for zone in zones:
             for written in self._cleared(zone, mills):
                 after = self._step(*written, after)
-        for mill in [m for m in mills if m.diameter > finest.diameter]:
+        for mill in roughers(mills, finest):
             zones[0].rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
             if max(zip(zones, cuts, strict=True), key=lambda pair: pair[0].height)[1].share >= WORTH_A_TOOL:
                 for written in together(self._rough, cuts):
                     after = self._step(*written, after)
-        for layer in together(partial(self._finished, mill=finest), zones):
+        for layer in together(self._finished, zones):
             # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
             for written in layer:
                 after = self._step(*written, after)
@@ -247,20 +260,33 @@ class _Planner:
     def _recess(self, zone: Zone, after: frozenset[int], leave: float) -> None:
         """Rough a recess to just above its floor, finish the floor, then the wall from top to bottom."""
         finest, allowance = zone.finisher, self.job.settings.stock_to_leave
-        rough, floor = layers(zone, leave)
-        cuts = self._cleared(rough, zone.mills)
+        upper, floor = layers(zone, leave)
+        roughs, (floor,) = over_openings(self.job, upper), over_openings(self.job, floor)
+        cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills)]
         cleared = [mill for _, mill, _ in cuts]
-        for mill in [m for m in zone.mills if m.diameter > finest.diameter]:
-            cut = self._roughing(rough, mill, allowance)
-            if cut.share >= WORTH_A_TOOL:
-                cuts.append(self._rough(cut))
+        for mill in roughers(zone.mills, finest):
+            found = [self._roughing(rough, mill, allowance) for rough in roughs]
+            if found[0].share >= WORTH_A_TOOL:
+                cuts += [self._rough(cut) for cut in found]
                 # Where bounded engagement left corners standing, a wide cutter would run into them.
                 cuts += [] if cleared else [self._floored(floor, mill)]
-        cuts += [self._rough(self._roughing(rough, finest, allowance)), *self._rough_heavy(rough, finest)]
-        cuts += [self._floored(floor, mill) for mill in [*(m for m in cleared if m is not finest), finest]]
+        for mill in zone.last_mills:
+            for rough in roughs:
+                cuts += [self._rough(self._roughing(rough, mill, allowance)), *self._rough_heavy(rough, mill)]
+        # What round mills left at the foot of the wall is cut in one go, down to the floor.
+        if not shapely.is_empty(roughs[-1].ridges):
+            floor.ridges = shapely.union(floor.ridges, roughs[-1].ridges)
+            floor.ridge_height = roughs[-1].ridge_height + leave
+        early = [mill for mill in cleared if mill.name not in {last.name for last in zone.last_mills}]
+        cuts += [self._floored(floor, mill) for mill in [*early, *zone.last_mills]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
-        zone.left, zone.over = shapely.union(rough.left, floor.left), max(rough.over, floor.over)
-        for written in [*cuts, self._finish(zone)]:
+        for mill in zone.last_mills:
+            cuts += self._ridges(floor, mill)
+        every = [*roughs, floor]
+        zone.left = shapely.union_all([layer.left for layer in every])
+        zone.over = max(layer.over for layer in every)
+        zone.ridges = floor.ridges
+        for written in [*cuts, *(self._finish(zone, mill) for mill in zone.last_mills)]:
             after = self._step(*written, after)
 
     def _floored(self, floor: Zone, mill: Tool) -> Cut:
@@ -269,7 +295,8 @@ class _Planner:
         # Ring for ring where it has roughed: nothing stands beside the places at which it is sunk.
         cut = self._roughing(floor, mill, self.job.settings.stock_to_leave)
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
-        moves = self._moves(mill, partial(cut.write, step_down=step_down))
+        deep = _pass(floor, mill, step_down)
+        moves = self._moves(mill, partial(cut.write, step_down=step_down), depth=deep)
         cut.commit()
         floor.begun = True
         return f"{floor.name}: {what}", mill, moves
@@ -284,13 +311,15 @@ class _Planner:
 
     def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
         data = mill.cutting[self.job.part.material]
+        allowance = zone.allowance_for(mill, allowance)
         return Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb)
 
     def _rough(self, cut: Roughing) -> Cut:
         zone, mill = cut.zone, cut.tool
         what = "rough the rest" if zone.begun else "rough"
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
-        moves = self._moves(mill, partial(cut.write, step_down=step_down), over=zone.slopes)
+        deep = _pass(zone, mill, step_down)
+        moves = self._moves(mill, partial(cut.write, step_down=step_down), depth=deep, over=zone.slopes)
         cut.commit()
         if not zone.begun:
             zone.forget_waste(mill, self.job.settings.stock_to_leave)
@@ -300,46 +329,82 @@ class _Planner:
     def _cleared(self, zone: Zone, mills: list[Tool]) -> list[Cut]:
         """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
         settings = self.job.settings
-        if settings.clearing != "adaptive" or zone.kind == "outside":
+        if settings.clearing != "adaptive" or zone.kind == "outside" or zone.snug:
             return []
         mill = self._clearing_mill(zone, mills)
         from mechwright_cam.planning import adaptive
 
-        area = shapely.difference(zone.clear, zone.rough_keep(max(settings.stock_to_leave, COARSE_FROM)))
+        allowance = zone.allowance_for(mill, max(settings.stock_to_leave, COARSE_FROM))
+        area = shapely.difference(zone.clear, zone.rough_keep(allowance))
         limit = math.radians(settings.engagement)
         wanted = [part for part in polygons(area) if shapely.intersects(part, zone.left)]
         area = shapely.union_all(wanted)
         before = zone.left.area
-        cavities = adaptive.clear(area, mill, limit, settings.climb)
+        cavities = self.copies.clear(zone.feature, area, mill, limit, settings.climb)
         reached = shapely.union_all([cavity.cleared for cavity in cavities])
         if before - shapely.difference(zone.left, reached).area < WORTH_A_TOOL * before:
             return []
         depth = min(settings.adaptive_depth * mill.diameter, mill.flute_length)
         moves = self._moves(
             mill,
-            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom, depth, settings.climb),
+            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom_for(mill), depth, settings.climb),
             limit if settings.chip_thinning else math.pi / 2,
+            _pass(zone, mill, depth),
         )
+        zone.leave_ridges(mill, reached)
         zone.left = shapely.difference(zone.left, reached)
         zone.begun = True
         return [(f"{zone.name}: clear", mill, moves)]
 
-    def _finished(self, zone: Zone, mill: Tool) -> list[Cut]:
-        """The last cuts of one layer."""
-        cuts = [
-            self._rough(self._roughing(zone, mill, self.job.settings.stock_to_leave)),
-            *self._rough_heavy(zone, mill),
-        ]
-        return [*cuts, self._finish(zone)]
+    def _finished(self, zone: Zone) -> list[Cut]:
+        """The last cuts of one layer, with a flat end mill before a finer round one."""
+        if zone.snug:
+            return [self._groove(zone, zone.finisher)]
+        cuts: list[Cut] = []
+        for mill in zone.last_mills:
+            cuts.append(self._rough(self._roughing(zone, mill, self.job.settings.stock_to_leave)))
+            cuts += [*self._rough_heavy(zone, mill), *self._ridges(zone, mill), self._finish(zone, mill)]
+        return cuts
 
-    def _finish(self, zone: Zone) -> Cut:
-        moves = self._moves(zone.finisher, Finishing(zone, self.job.settings).write, over=zone.slopes)
+    def _finish(self, zone: Zone, mill: Tool) -> Cut:
+        settings = self.job.settings
+        deep = _pass(zone, mill, settings.finish_step * mill.diameter)
+        moves = self._moves(mill, Finishing(zone, settings, mill).write, depth=deep, over=zone.slopes)
         if not moves:
             raise ToolError(
-                f"cam.tools: {zone.finisher.name} finds no way along {zone.name} of {self.job.part.name}; "
+                f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; "
                 "list a smaller end mill"
             )
-        return f"{zone.name}: finish", zone.finisher, moves
+        return f"{zone.name}: finish", mill, moves
+
+    def _groove(self, zone: Zone, mill: Tool) -> Cut:
+        """All of a groove that the mill fills."""
+        settings = self.job.settings
+        step = mill.cutting[self.job.part.material].step_down * mill.diameter
+        moves = self._moves(
+            mill, lambda pen: groove(zone, settings, pen, step), depth=_pass(zone, mill, step)
+        )
+        if not moves:
+            raise ToolError(
+                f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; draw it as "
+                f"wide as the mill, {mill.diameter:g} mm, or wider"
+            )
+        return f"{zone.name}: groove", mill, moves
+
+    def _ridges(self, zone: Zone, mill: Tool) -> list[Cut]:
+        """Make the floor flat where round mills have left fillets or cusps on it."""
+        if shapely.is_empty(zone.ridges):
+            return []
+        data = mill.cutting[self.job.part.material]
+        allowance = zone.allowance_for(mill, self.job.settings.stock_to_leave)
+        cut = Roughing(
+            zone, mill, allowance, data.step_over, self.job.settings.climb, only=zone.ridges, ridges=True
+        )
+        step_down = data.step_down * mill.diameter
+        deep = _pass(zone, mill, min(step_down, zone.ridge_height))
+        moves = self._moves(mill, lambda pen: cut.write(pen, step_down), depth=deep)
+        cut.commit()
+        return [(f"{zone.name}: level the floor", mill, moves)]
 
     def _rough_heavy(self, zone: Zone, mill: Tool, what: str = "rough the narrow places") -> list[Cut]:
         """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
@@ -395,6 +460,18 @@ class _Planner:
             )
             for run in order(steps)
         ]
+
+
+def _pass(zone: Zone, mill: Tool, step: float) -> float:
+    """Depth of the even passes that are no deeper than ``step``, mm."""
+    height = zone.top - zone.bottom_for(mill)
+    return height / max(1, math.ceil(height / step - 1e-9))
+
+
+def _lowest(moves: tuple[Move, ...]) -> float:
+    """Lowest z of some moves, mm."""
+    heights = (getattr(move, "z", None) for move in moves)
+    return min((z for z in heights if z is not None), default=math.inf)
 
 
 def _named(detail: Detail) -> str:

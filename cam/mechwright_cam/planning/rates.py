@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from mechwright.cutter import approach
 from mechwright.errors import ToolError
 from mechwright.tooling import CuttingData, Machine, Tool
 
@@ -10,6 +11,9 @@ RAMP_SHARE = 0.5
 """Feed on ramps and helices: the cutter works with its end as well as with its side."""
 PLUNGE_SHARE = 0.3
 """Feed straight down for a centre-cutting end mill: common practice for solid carbide."""
+
+MOST_THINNING = 3.0
+"""Feed is raised no further for thin chips: with more, the cusps along the path show."""
 
 
 @dataclass(frozen=True)
@@ -41,16 +45,24 @@ def cutting_data(tool: Tool, material: str) -> CuttingData:
         ) from None
 
 
-def rates(tool: Tool, material: str, machine: Machine, engagement: float = math.pi / 2) -> Rates:
+def rates(
+    tool: Tool,
+    material: str,
+    machine: Machine,
+    engagement: float = math.pi / 2,
+    depth: float = math.inf,
+) -> Rates:
     """Speeds within the machine's limits: n = 1000 v / (π d), feed = n z f_z (common workshop formulas).
 
     With an ``engagement``, rad, below a right angle no chip gets thicker than f_z sin(engagement): the feed
-    is raised so that it is the planned chip load all the same.
+    is raised so that it is the planned chip load all the same. So it is where a cut is less deep than the
+    corner of a round mill: there h = f_z sin(κ), κ the greatest angle of the edge.
     """
     data = cutting_data(tool, material)
     wanted = 1000 * data.cutting_speed / (math.pi * tool.diameter)
     spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
-    thinning = 1 / math.sin(min(engagement, math.pi / 2))
+    thin = math.sin(min(engagement, math.pi / 2)) * float(approach(tool, depth))
+    thinning = 1 / max(thin, 1 / MOST_THINNING)
     plain = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load, machine.max_feed)))
     feed = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load * thinning, machine.max_feed)))
     return Rates(

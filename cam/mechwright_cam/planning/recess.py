@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import shapely
 
+from mechwright.errors import DesignError
 from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
@@ -68,12 +69,16 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     edge = grow(inside, -SKIN, ROUGH)
     shapely.prepare(edge)
     near = [other for other in others if shapely.dwithin(shape, other, SKIN)]
+    if isinstance(feature, Pocket) and feature.floor_radius > 0:
+        _check_alone(job, feature, shape)
     if shapely.contains_properly(edge, shape) and not near:
         return Recess(shape, opening_keep(shape, 2 * run_out), shape, False)
     x0, y0, x1, y1 = shape.bounds
     far = 4 * run_out
     window = shapely.box(x0 - far, y0 - far, x1 + far, y1 + far)
     must = shapely.union_all(polygons(shapely.intersection(shape, inside)))
+    if shapely.is_empty(shapely.buffer(must, -TOLERANCES.leftover / 2, quad_segs=2)):
+        must = shapely.Polygon()  # so thin everywhere that it may stay as well
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.target, window), shapely.union_all([must, gone]))
     keep = shapely.difference(keep, _skin(keep))
@@ -82,6 +87,33 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
     around = shapely.union_all([part for part in free if shapely.intersects(part, must)])
     return Recess(must, keep, around, True)
+
+
+def _check_alone(job: Job, feature: Pocket, shape: shapely.Geometry) -> None:
+    """Refuse a fillet on a floor that is none, or that does not end at walls of its own."""
+    floor = feature.top + feature.depth
+    if floor >= job.thickness - LEVEL:
+        raise DesignError(
+            f"part {job.part.name}: {feature.name} has a floor_radius of {feature.floor_radius:g} mm, but "
+            "goes through to the underside; a fillet needs a floor"
+        )
+    for other in job.features:
+        beside = other is feature or (isinstance(other, Profile) and other.side == "outside")
+        apart = other.top >= floor - LEVEL or other.top + other.depth <= feature.top + LEVEL
+        if not beside and not apart and shapely.dwithin(shape, plan_view(other), SKIN):
+            if _within(other, feature, shape):
+                continue
+            raise DesignError(
+                f"part {job.part.name}: {feature.name} has a floor_radius and opens into {other.name}; the "
+                "fillet would end there. Draw them apart, or as one, or without the fillet"
+            )
+
+
+def _within(other: Feature, feature: Pocket, shape: shapely.Geometry) -> bool:
+    """Whether another feature goes on below the floor, away from the fillet: a bore through it, say."""
+    floor = grow(shape, -feature.floor_radius, ROUGH)
+    deeper = other.top + other.depth > feature.top + feature.depth + LEVEL
+    return deeper and bool(shapely.contains(floor, plan_view(other)))
 
 
 def reached_share(shapes: Recess, radius: float) -> float:

@@ -12,12 +12,13 @@ from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
 from mechwright.part import Part
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Tool
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.bending import MOST, deflection
+from mechwright_cam.planning.centre_lines import grooves
+from mechwright_cam.planning.choice import SAME_RADIUS, long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.grooves import grooves
 from mechwright_cam.planning.holes import plan_bore
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.selection import choose_tools
@@ -25,8 +26,6 @@ from mechwright_cam.planning.zone import Zone, bores, check_clamp, inner_zones, 
 from mechwright_cam.reach import remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow
 
-MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
-"""Cutters whose chip load goes with their diameter."""
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
 
@@ -61,17 +60,44 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     for detail in job.details:
         _try(found, partial(plan_detail, job, detail))
     if not found:
-        found += _corners(job, zones)
+        found += _corners(job, zones) + _unused(job, zones)
     return job, found + _travel(job) + _remarks(job)
+
+
+def _unused(job: Job, zones: list[Zone]) -> list[Finding]:
+    """The listed mills that nothing in the part is for."""
+    boring = [plan_bore(job, bore).mill for bore in bores(job)]
+    milling: list[list[Tool]] = [[*roughers(zone.mills, zone.finisher), *zone.last_mills] for zone in zones]
+    used = {mill.name for mill in boring if mill is not None}
+    used |= {mill.name for mills in milling for mill in mills}
+    return [
+        Finding(
+            "cam.tool-unused",
+            Severity.WARNING,
+            "cam.tools",
+            f"{mill.name} has nothing to do in {job.part.name}: {_why_idle(job, mill)}",
+            remedy="take it out of cam.tools",
+        )
+        for mill in job.mills
+        if mill.name not in used and job.part.material in mill.cutting
+    ]
+
+
+def _why_idle(job: Job, mill: Tool) -> str:
+    if mill.nose == mill.radius:
+        return f"no floor has a fillet of {mill.nose:g} mm, and flat floors are for the others"
+    if not long_enough(mill, job.thickness):
+        return f"its flutes are too short for what others cut, {mill.flute_length:g} mm"
+    return "the others reach as far"
 
 
 def _travel(job: Job) -> list[Finding]:
     """Whether the machine is large enough: the least that the finest end mill travels around the part."""
     machine = job.settings.machine
-    if not job.end_mills:
+    if not job.mills:
         return []
     x0, y0, x1, y1 = job.target.bounds
-    around = job.end_mills[-1].diameter
+    around = job.mills[-1].diameter
     axes = (("x", x1 - x0 + around, machine.travel_x), ("y", y1 - y0 + around, machine.travel_y))
     return [
         Finding(
@@ -112,7 +138,8 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
         if zone.at_tabs:
             continue
         found += _partly(job, zone)
-        depth = remainder(zone.wall, zone.finisher.radius, zone.must)
+        found += _fillet(job, zone)
+        depth = remainder(zone.wall, zone.reach_radius, zone.must)
         if depth > TOLERANCES.leftover:
             found.append(
                 Finding(
@@ -127,6 +154,25 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
                 )
             )
     return found
+
+
+def _fillet(job: Job, zone: Zone) -> list[Finding]:
+    """The fillet that a round mill leaves at the foot of a wall where none is drawn."""
+    last = zone.last_mills[0]
+    if zone.through or last.nose <= zone.floor_radius + SAME_RADIUS:
+        return []
+    return [
+        Finding(
+            "cam.unreachable",
+            Severity.NOTE,
+            "cam.tools",
+            f"{last.name} leaves a fillet of {last.nose:g} mm at the foot of {zone.name} of {job.part.name}",
+            last.nose,
+            zone.floor_radius,
+            "mm",
+            "list a flat end mill as well",
+        )
+    ]
 
 
 def _remarks(job: Job) -> list[Finding]:
@@ -162,14 +208,15 @@ def _remarks(job: Job) -> list[Finding]:
                     "take a smaller tool",
                 )
             )
-        if tool.kind is ToolKind.END_MILL and -job.floor > SLENDER * tool.diameter:
+        deep = tool.nose - job.floor
+        if tool.kind in MILLS and deep > SLENDER * tool.diameter:
             found.append(
                 Finding(
                     "cam.slender",
                     Severity.NOTE,
                     "cam.tools",
-                    f"{tool.name} cuts {-job.floor:g} mm deep, {-job.floor / tool.diameter:.1f} diameters",
-                    -job.floor / tool.diameter,
+                    f"{tool.name} cuts {deep:g} mm deep, {deep / tool.diameter:.1f} diameters",
+                    deep / tool.diameter,
                     SLENDER,
                     "",
                 )
@@ -188,7 +235,7 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
     if zone.kind == "outside":
         return []
     must = zone.clear if zone.must is None else zone.must
-    radius = zone.finisher.radius
+    radius = zone.reach_radius
     reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
     share = float(shapely.intersection(reach, must).area / must.area)
     if share >= MOSTLY:
@@ -209,7 +256,8 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
 
 def _bending(job: Job, tool: Tool) -> list[Finding]:
     """Whether a slender mill bends too much; the deepest cut counts."""
-    bent = deflection(tool, job.part.material, -job.floor)
+    deep = tool.nose - job.floor
+    bent = deflection(tool, job.part.material, deep)
     if bent <= MOST:
         return []
     return [
@@ -217,7 +265,7 @@ def _bending(job: Job, tool: Tool) -> list[Finding]:
             "cam.deflection",
             Severity.WARNING,
             "cam.tools",
-            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {-job.floor:g} mm deep in {job.part.name}",
+            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}",
             bent,
             MOST,
             "mm",

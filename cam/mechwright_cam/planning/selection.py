@@ -2,6 +2,7 @@
 
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 import shapely
@@ -12,6 +13,7 @@ from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, outlines_of
+from mechwright_cam.planning.centre_lines import groove_mill
 from mechwright_cam.planning.choice import (
     ROOMY,
     SAME_REACH,
@@ -22,19 +24,19 @@ from mechwright_cam.planning.choice import (
     usable_mills,
 )
 from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.grooves import groove_mill
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
 from mechwright_cam.planning.zone import (
     bores,
     bottom_of,
+    floor_mills,
     roughing_mills,
     through,
 )
 from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
-from mechwright_cam.toolpath.offsets import ROUGH, grow
+from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons
 
 Fits = Callable[[Tool], bool]
 """Whether a mill may be used."""
@@ -61,8 +63,9 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
 
     The choice: the largest roughing mill that is sensible for the size of the part and leaves a frame in the
     stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
-    one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Only
-    mills long enough for the cut and with cutting data for the material count.
+    one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Mills
+    are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
+    with cutting data for the material count.
 
     Raises
     ------
@@ -76,8 +79,9 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    every = Job(part, settings, library.tools, (0.0, 0.0), plate_box(part, settings, AMPLE))
-    mills = _mills(every)
+    flat = tuple(tool for tool in library.tools if tool.nose == 0)
+    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
+    mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
@@ -133,10 +137,28 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     shapes = recess(every, feature, able[0].diameter, bottom)
     if shapely.is_empty(shapes.must):
         return []
+    if isinstance(feature, Pocket) and feature.floor_radius > 0:
+        # The wall is for a round mill; a flat one clears what is further away, if there is room.
+        inner = polygons(grow(shapes.must, -feature.floor_radius, ROUGH))
+        width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
+        return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
     able = roomy_mills(able, shapes.must)
     return [
         _finest_needed(able, shapes.keep, every.settings.corner_mill, shapes.must if shapes.open else None)
     ]
+
+
+def _floor_mills(every: Job) -> list[Tool]:
+    """The round mills for floors with a fillet."""
+    found = []
+    for feature in every.features:
+        if isinstance(feature, Pocket) and feature.floor_radius > 0:
+            bottom = bottom_of(every, feature.top, feature.depth)
+            mills = usable_mills(every, -bottom, feature.floor_radius)
+            shapes = recess(every, feature, mills[0].diameter, bottom)
+            if not shapely.is_empty(shapes.must):
+                found += floor_mills(every, feature, mills, shapes)[0]
+    return found
 
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:

@@ -13,20 +13,28 @@ room
 """
 
 import math
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from typing import Literal
 
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import finishing_choice, roomy_mills, usable_mills
-from mechwright_cam.planning.recess import reached_share, recess
+from mechwright_cam.planning.choice import (
+    finishing_choice,
+    last_mills,
+    makes_floor,
+    roomy_mills,
+    usable_mills,
+)
+from mechwright_cam.planning.recess import Recess, reached_share, recess
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.reach import roughly_swollen
 from mechwright_cam.tabs import Tab
@@ -46,8 +54,18 @@ from mechwright_cam.vice import CLAMP_GAP, RUN_OUT, beside
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
 
+NOISE = 1e-6
+"""Share of a last decimal that is the noise of floating point."""
+
 TAB_SLACK = 4 * ROUGH
 """Roughing keeps off tabs by all that its thinned path may be off, mm."""
+
+CUSP = TOLERANCES.leftover / 2
+"""Height of what may stand between the cuts of a round mill on a floor, mm: half of what may stay."""
+
+SNUG = TOLERANCES.gouge - TOLERANCES.arc_fit - 3 * TOLERANCES.flatten
+"""A groove may be so much narrower on each side than the mill that makes it, mm: what the path and the
+outline leave of the permitted gouge."""
 
 HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
@@ -70,6 +88,8 @@ class Zone:
     kind: Literal["outside", "inside", "pocket"]
     through: bool
     """Whether nothing of the plate stays below."""
+    feature: Pocket | Profile | None = None
+    """What it is in the drawing, inside."""
     must: shapely.Geometry | None = None
     """The feature itself, where ``clear`` runs out beyond its open stretches."""
     channel: shapely.Geometry | None = None
@@ -78,6 +98,14 @@ class Zone:
     """What of the tabs stands between these heights."""
     slopes: tuple[Tab, ...] = ()
     """Ramped tabs between these heights: the cutter goes over them."""
+    below: bool = False
+    """Whether the cut ends below the underside of the plate."""
+    before: Tool | None = None
+    """A flat end mill that finishes before the finisher, which is a finer round one."""
+    floor_radius: float = 0.0
+    """Fillet that is to stay between floor and wall, mm."""
+    snug: bool = False
+    """Whether the finisher is just as wide as the groove, and makes it in one go."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
     """Stock of ``left`` that need not go."""
     left: shapely.Geometry = field(init=False)
@@ -85,6 +113,10 @@ class Zone:
     """By how much more than the cutters reached may be missing in ``left``, mm."""
     begun: bool = field(default=False, init=False)
     """Whether an end mill has been in it."""
+    ridges: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
+    """Where round mills have cleared all but the floor: fillets at its edge, cusps between their cuts."""
+    ridge_height: float = field(default=0.0, init=False)
+    """Height of the ridges above the floor, mm."""
     _rough: dict[tuple[float, float], shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -116,6 +148,41 @@ class Zone:
     def height(self) -> float:
         """Height of the layer, mm."""
         return self.top - self.bottom
+
+    def bottom_for(self, mill: Tool) -> float:
+        """How deep a mill goes, z in mm: out of the plate with all of its rounded corner."""
+        return self.bottom - mill.nose if self.below else self.bottom
+
+    def allowance_for(self, mill: Tool, allowance: float) -> float:
+        """What a mill leaves on the wall, mm, so that a fillet stays at its foot.
+
+        A corner of radius c at a distance a from the wall touches a fillet of radius f if a + c = f.
+        """
+        return max(allowance, self.floor_radius - mill.nose)
+
+    @property
+    def standing(self) -> shapely.Geometry:
+        """Where a cutter that goes down to the floor meets stock."""
+        return self.left if shapely.is_empty(self.ridges) else shapely.union(self.left, self.ridges)
+
+    @property
+    def last_mills(self) -> tuple[Tool, ...]:
+        """The mills that finish, one after the other."""
+        return (self.finisher,) if self.before is None else (self.before, self.finisher)
+
+    @property
+    def reach_radius(self) -> float:
+        """Radius of the finisher as far as it reaches into corners, mm."""
+        return self.finisher.radius - (SNUG if self.snug else 0.0)
+
+    def leave_ridges(self, mill: Tool, cleared: shapely.Geometry) -> None:
+        """Note what a round mill leaves on the floor of a region that it has cleared closely."""
+        if mill.nose > 0 and not self.through:
+            foot = float(cutter(mill).radius_at(CUSP))
+            self.ridges = shapely.union(
+                self.ridges, shapely.difference(cleared, grow(cleared, foot - mill.radius, ROUGH))
+            )
+            self.ridge_height = max(self.ridge_height, min(mill.nose, self.height))
 
     def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
@@ -163,7 +230,7 @@ def _grown(wall: shapely.Geometry, radius: float) -> shapely.Geometry:
 
 def through(job: Job, depth: float) -> bool:
     """Whether a feature of this depth goes through the plate."""
-    return depth >= job.thickness - 1e-9
+    return depth >= job.thickness - TOLERANCES.noise
 
 
 def bottom_of(job: Job, top: float, depth: float) -> float:
@@ -173,6 +240,12 @@ def bottom_of(job: Job, top: float, depth: float) -> float:
 
 LEAST_SHARE = 0.02
 """A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
+
+
+ENTERED = 0.5
+"""Below this share of a groove a mill has only come in at its open ends."""
+FILLED = 0.9
+"""A mill makes a groove of its own width if it reaches this share of it."""
 
 
 def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
@@ -186,18 +259,24 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
         ):
             continue
         bottom = bottom_of(job, feature.top, feature.depth)
-        mills = usable_mills(job, -bottom)
+        radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+        mills = usable_mills(job, -bottom, radius)
         shapes = recess(job, feature, mills[0].diameter, bottom)
         if shapely.is_empty(shapes.must):
             raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
-        if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
-            raise ToolError(
-                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the smallest "
-                f"that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
-            )
-        mills = roomy_mills(mills, shapes.must)
-        near = shapes.must if shapes.open else None
-        finisher = finishing_choice(mills, shapes.keep, near)
+        snug = False
+        if radius > 0:
+            last, snug = floor_mills(job, feature, mills, shapes)
+            mills = last if snug else roomy_mills(mills, shapes.must)
+        else:
+            if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
+                raise ToolError(
+                    f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
+                    f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+                )
+            mills = roomy_mills(mills, shapes.must)
+            last = last_mills(mills, shapes.keep, shapes.must if shapes.open else None)
+        finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutter needs
             run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
             shapes = recess(job, feature, run_out, bottom)
@@ -211,12 +290,45 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             finisher,
             "pocket" if isinstance(feature, Pocket) else "inside",
             bottom == job.floor,
+            feature,
             shapes.must if shapes.open else None,
+            below=bottom == job.floor,
+            before=last[0] if len(last) > 1 else None,
+            floor_radius=radius,
+            snug=snug,
         )
         if shapes.open:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
         zones.append(zone)
     return zones
+
+
+def floor_mills(
+    job: Job, feature: Pocket | Profile, mills: Sequence[Tool], shapes: Recess
+) -> tuple[list[Tool], bool]:
+    """The mill that makes a floor with a fillet, and whether it is just as wide as the recess.
+
+    Raises ToolError if none has the radius, or none gets in.
+    """
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    able = [mill for mill in mills if makes_floor(mill, radius)]
+    if not able:
+        raise ToolError(
+            f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
+            f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
+        )
+    if reached_share(shapes, able[-1].radius + BIAS) < ENTERED:
+        fit = [mill for mill in able if reached_share(shapes, mill.radius - SNUG) >= FILLED]
+        if fit:
+            return fit[:1], True
+    fit = [mill for mill in able if reached_share(shapes, mill.radius + BIAS) >= LEAST_SHARE]
+    if not fit:
+        raise ToolError(
+            f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
+            "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
+        )
+    fit = roomy_mills(fit, shapes.must)
+    return [finishing_choice(fit, shapes.keep, shapes.must if shapes.open else None)], False
 
 
 def outer_zones(job: Job) -> list[Zone]:
@@ -240,7 +352,8 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         mills = roughing_mills(job, usable_mills(job, -job.floor), part)
         mills = outside_mills(mills, part, job.settings.stock_to_leave)
         clear, channel = _channel(job, part, mills[0])
-        finisher = finishing_choice(mills, part)
+        last = last_mills(mills, part)
+        finisher = last[-1]
 
         layer = partial(
             Zone,
@@ -250,6 +363,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             kind="outside",
             through=True,
             channel=channel,
+            before=last[0] if len(last) > 1 else None,
         )
         zones: list[Zone] = []
         if shapely.is_empty(clear):
@@ -258,18 +372,20 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
         if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
-            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - 1e-6) / 10**DECIMALS
+            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
             if own[0].ramped:
                 name = f"{feature.name} over the tabs"
-                zones.append(layer(name, clear=clear, top=height, bottom=job.floor, slopes=tuple(own)))
+                zones.append(
+                    layer(name, clear=clear, top=height, bottom=job.floor, slopes=tuple(own), below=True)
+                )
             else:
                 tabs = shapely.union_all([tab.shape for tab in own])
                 name = f"{feature.name} below the tabs"
                 below = clear.difference(tabs)
-                zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs))
+                zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
         else:
-            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor))
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
         walls.append(zones)
     return walls
 

@@ -4,7 +4,8 @@ Nothing here uses what planned or posted the program: an error there must not hi
 small helpers such as the closing of a polygon exist in both places.
 """
 
-from mechwright_cam.proof.prove import cut_through, prove, read
+from mechwright_cam.proof.carried import cut_away
+from mechwright_cam.proof.prove import prove, read
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 
-__all__ = ["Check", "OperationTime", "Proof", "Spot", "cut_through", "prove", "read"]
+__all__ = ["Check", "OperationTime", "Proof", "Spot", "cut_away", "prove", "read"]

@@ -65,20 +65,27 @@ def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
         heights |= {-feature.top, -min(feature.top + feature.depth, job.thickness)}
     ordered = sorted((h for h in heights if -job.thickness - NEAR <= h <= NEAR), reverse=True)
     layers = []
+    known: dict[tuple[Feature, ...], Shape] = {}
     for top, bottom in pairwise(ordered):
         if top - bottom < NEAR:
             continue
         depth = -(top + bottom) / 2
-        keep: Shape = job.target
-        for feature in partial:
-            if feature.top < depth < feature.top + feature.depth:
-                shape = inside_of(feature)
-                if isinstance(feature, Profile) and feature.side == "outside":
-                    keep = shapely.intersection(keep, shape)
-                else:
-                    keep = shapely.difference(keep, shape)
-        layers.append(Band(top, bottom, keep))
+        here = tuple(feature for feature in partial if feature.top < depth < feature.top + feature.depth)
+        if here not in known:
+            known[here] = _section(job.target, here)
+        layers.append(Band(top, bottom, known[here]))
     return layers
+
+
+def _section(whole: Shape, features: tuple[Feature, ...]) -> Shape:
+    keep = whole
+    for feature in features:
+        shape = inside_of(feature)
+        if isinstance(feature, Profile) and feature.side == "outside":
+            keep = shapely.intersection(keep, shape)
+        else:
+            keep = shapely.difference(keep, shape)
+    return keep
 
 
 def stock_shape(job: Job) -> shapely.Polygon:

@@ -1,9 +1,9 @@
 """Cuts into what must stay.
 
-A flat end mill whose tip is at z fills every height above z within its radius. Within a band of constant
-cross-section the depth of a cut is therefore the radius less the plan-view distance from the path below the
-band's top to the cross-section; there is no height map and no grid. Into a floor the depth is how far the tip
-goes below it, so the smaller of the two counts. A drill is as wide as its point is at the band's top.
+A cutter whose tip is at z is nowhere thinner above than below. Within a band of constant cross-section the
+depth of a cut is therefore its radius at the band's top less the plan-view distance from the path below it to
+the cross-section; there is no height map and no grid. Into a floor the depth is how far the cutter's end
+goes below it at that distance, so the smaller of the two counts.
 """
 
 from dataclasses import dataclass
@@ -47,7 +47,9 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     inside = edge.inside(lines)
     if inside.size:
         gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
-    depth = np.minimum(radius - gap, top - pieces.low)
+    shape = paths.cutters(pieces.step)
+    end = np.where(shape.nose > 0, shape.height_at(np.maximum(gap, 0.0)), 0.0)
+    depth = np.minimum(radius - gap, top - pieces.low - end)
     if depth.max() <= 0:
         return None
     alike = np.flatnonzero(depth >= depth.max() - NEAR)
@@ -85,7 +87,7 @@ def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     run, step = paths.run, pieces.step
     table = np.column_stack(
         (
-            paths.radius[step],
+            run.tool[step],
             paths.start[step, :2],
             paths.end[step, :2],
             np.nan_to_num(run.centre[step]),

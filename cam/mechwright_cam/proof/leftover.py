@@ -1,10 +1,12 @@
 """Stock that stays where none should be.
 
 The cutters of the program sweep, at the bottom of each band, the discs around the part of their path that
-reaches it; higher up they sweep at least that. What the smallest of them could reach is everything outside
-the closing of the finished part by its radius. The stock on a wall is, at samples of the reachable wall, the
-distance to the nearest path less that cutter's radius. Where it is nothing a disc touches the wall, and the
-band of one diameter along the wall is clear; so walls need no areas. Floors do, and get them.
+reaches it; higher up they sweep at least that. Above a floor the bottom is taken as high as stock may be
+left: so the cusps between the cuts of a ball count as they should. What the cutters could reach is everything
+outside the closing of the finished part by the radius of the smallest, or less with round ones
+(``reachable``). The stock on a wall is, at samples of the reachable wall, the distance to the nearest path
+less that cutter's radius. Where it is nothing a disc touches the wall, and the band of one diameter along the
+wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
 """
@@ -19,11 +21,13 @@ import shapely
 from mechwright.motion import Array
 from mechwright.part import OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
+from mechwright.tooling import MILLS
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import ROUND, Boundary, Shape, closing, grow, swept
+from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow, swept
+from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 
@@ -32,7 +36,12 @@ VISIBLE = 0.001
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
 PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
-"""A cutter reaches what it enters with this much air on either side, mm: paths and outlines are no better."""
+"""A cutter reaches what it enters with this much air on either side, mm.
+
+Paths and outlines are no better: on arcs of ``arc_fit`` a cutter in a slot of its own width would cut both
+walls. Without it a slot up to 5 µm wider than the cutter would count as left over, and no path may go there;
+with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
+"""
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
 may be off."""
@@ -69,62 +78,87 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     """Measure the stock that the program leaves around the part."""
     paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
-    mills = [t for n, t in paths.tools.items() if n in used and t.kind is ToolKind.END_MILL]
+    mills = [t for n, t in paths.tools.items() if n in used and t.kind in MILLS]
     if not mills:
         return Remains(0.0, None, ())
+    reach, round_floors = Reach(mills, PLAY), fillets(job)
     smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
     worst, at = 0.0, None
-    closings: dict[int, Shape] = {}
+    slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
+    extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
+    every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
+    # With round cutters or floors every height is another question, else one cross-section asks but once.
+    alike = not (reach.noses or round_floors)
+    free = Surroundings(
+        [(band.top, _entered(band.keep, smallest, job, band)) for band in every], round_floors
+    )
+    rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
     unseen: dict[int, Shape | None] = {}
-    for band in reversed(bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs))):
+    for place, band in reversed(list(enumerate(every))):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
-        groups = sweeps.at(height, band.bottom)
+        level = band.bottom + (0.0 if underside else TOLERANCES.leftover)
+        groups = sweeps.at(height, level)
         key = id(band.keep)
-        if key not in closings:
-            entered = shapely.difference(band.keep, _grooves_of(smallest, job, band))
-            closings[key] = closing(entered, smallest)
-            lowest[key] = band, groups
-        tabs = [tab.shape for tab in job.tabs if tab.top + TAB_SLACK >= band.top - NEAR]
-        reached = closings[key]
+        tips = [one.bottom for one in every[place:]]
+        reached = rests[key] if alike and key in rests else reach.rest(free, place, level, tips)
+        if key not in lowest:
+            rests[key], lowest[key] = reached, (band, groups)
+        beside = [_tabs_at(job, one, slack) for one in every]
         aside = None
-        if tabs:
-            held = shapely.union_all([band.keep, *tabs])
-            entered = shapely.difference(held, _grooves_of(smallest, job, band))
-            reached = closing(entered, smallest)
+        if beside[place]:
+            held = [
+                (b.top, _entered(shapely.union_all([b.keep, *t]), smallest, job, b))
+                for b, t in zip(every, beside, strict=True)
+            ]
+            reached = reach.rest(Surroundings(held, round_floors), place, level, tips)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
-            aside = shapely.union_all([grow(tab, widest, COARSE) for tab in tabs])
+            aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
         # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
-        thick, place = 0.0, None
-        if key not in unseen or unseen[key] is not None:
-            thick, place = _on_walls(reached, unseen.get(key), aside, job, groups, smallest)
+        narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
+        thick, where = 0.0, None
+        if not alike or key not in unseen or unseen[key] is not None:
+            within = unseen.get(key) if alike else None
+            thick, where = _on_walls(reached, within, aside, job, groups, narrow)
         unseen[key] = aside
-        for depth, where in ((min(thick, 2 * smallest), place), _on_floors(reached, band, job, groups)):
-            if where is not None and depth > worst:
-                worst, at = depth, (*where, band.bottom)
-    beyond = [
-        spot for key, (band, groups) in lowest.items() for spot in _beyond(closings[key], band, job, groups)
-    ]
+        floors = _on_floors(reached, band, job, groups)
+        for depth, spot in ((min(thick, 2 * smallest), where), floors):
+            if spot is not None and depth > worst:
+                worst, at = depth, (*spot, band.bottom)
+    beyond = []
+    for key, (band, groups) in lowest.items():
+        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in round_floors]
+        keep = shapely.union_all([band.keep, *solid]) if solid else band.keep
+        beyond += _beyond(rests[key], Band(band.top, band.bottom, keep), job, groups)
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
 
 
-def _grooves_of(reach: float, job: Job, band: Band) -> Shape:
-    """The grooves in a band made for a cutter that reaches so far, mm, so much wider that it enters them.
+def _entered(keep: Shape, reach: float, job: Job, band: Band) -> Shape:
+    """What stays in a band, with the grooves wider that are made for a cutter that reaches so far, mm.
 
     A cutter with the play of others would find no way into a groove of its own width. The stock on the
     groove's walls is measured from walls that lie as much further out, and all the more is asked of it.
     """
-    shapes = [shapely.Polygon()]
     for feature in job.features:
         inside = feature.top < -(band.top + band.bottom) / 2 < feature.top + feature.depth
         if isinstance(feature, OpenProfile) and feature.side == "on" and inside:
             lack = reach - feature.width / 2
             if -ENTERED < lack <= PLAY + NEAR:
-                shapes.append(grow(floor_of(feature, job), lack + ENTERED))
-    wider: Shape = shapely.union_all(shapes)
-    return wider
+                keep = shapely.difference(keep, grow(floor_of(feature, job), lack + ENTERED))
+    return keep
+
+
+def _above_floors(job: Job, reach: Reach) -> list[float]:
+    """Heights from which on round mills are as wide as they get above the floors."""
+    floors = {feature.top + feature.depth for feature in job.features}
+    return [nose - floor for nose in reach.noses for floor in floors if floor < job.thickness - NEAR]
+
+
+def _tabs_at(job: Job, band: Band, slack: float) -> list[Shape]:
+    """The tabs that a band touches."""
+    return [tab.shape for tab in job.tabs if tab.top + slack >= band.top - NEAR]
 
 
 def _on_walls(
@@ -219,6 +253,8 @@ def _on_floors(
     slack = TOLERANCES.leftover
     gone = shapely.union_all([swept(g.chains, g.radius + slack / 2, COARSE) for g in groups])
     region = shapely.intersection(shapely.union_all(floors), stock_shape(job))
+    if job.gone:  # where earlier setups have been there is no floor
+        region = shapely.difference(region, grow(job.air_below(band.bottom), slack, COARSE))
     rest = shapely.difference(shapely.difference(region, gone), grow(reached, slack, COARSE))
     if rest.is_empty:
         return 0.0, None
@@ -281,4 +317,4 @@ def _deepest_points(parts: Any, edge: Boundary) -> tuple[Array, Array]:
 
 def _round_ended(group: Sweep, job: Job) -> bool:
     """Whether the sweep is a drill's: only those get into corners of the closing (a hole of their size)."""
-    return all(abs(group.radius - mill.radius) > NEAR for mill in job.end_mills)
+    return all(abs(group.radius - mill.radius) > NEAR for mill in job.mills)

@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
-from mechwright.tooling import Tool, ToolKind
+from mechwright.tooling import MILLS, Tool, ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.bands import stock_shape
@@ -160,7 +160,7 @@ def entries(scene: Scene) -> Check:
     straight = np.hypot(*(paths.end[steps, :2] - paths.start[steps, :2]).T)
     flat = np.where(run.kind[steps] == Kind.ARC, np.abs(run.sweep[steps]) * run.radius[steps], straight)
     angle = np.degrees(np.arctan2(drop, flat))
-    plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind is not ToolKind.END_MILL}
+    plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
     # A ramp may end lower than its angle allows by the last decimal: both its ends are rounded in the text.

@@ -17,6 +17,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from mechwright.cutter import Cutter, cutter
 from mechwright.motion import Array
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.interpreter import Kind, Run
@@ -28,9 +29,6 @@ FAR_ABOVE = 1000.0
 """Stands for the machine's upper end, mm: above any clamp or clearance."""
 NEAR = 1e-6
 """Coordinates closer than this are the same, mm: far below the last decimal of any program."""
-
-POINTED = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER})
-"""Tools that are thinner at the tip than above."""
 
 Geometries = NDArray[Any]
 
@@ -82,15 +80,6 @@ class Paths:
         """(n,) radius of the tool in the spindle, mm; NaN for an unknown one."""
         return self._of_tool(lambda tool: tool.radius)
 
-    @cached_property
-    def cone(self) -> Array:
-        """(n,) growth of the radius with height above the tip; inf for a mill: round ones count as flat."""
-        return self._of_tool(
-            lambda tool: (
-                np.tan(np.radians(min(tool.point_angle, 179.9) / 2)) if tool.kind in POINTED else np.inf
-            )
-        )
-
     def of_kinds(self, kinds: set[ToolKind]) -> "Paths":
         """The same, with the steps of some kinds of tool only."""
         numbers = [number for number, tool in self.tools.items() if tool.kind in kinds]
@@ -99,9 +88,10 @@ class Paths:
         return some
 
     @cached_property
-    def tip(self) -> Array:
-        """(n,) radius of the flat at the tip of a pointed tool, mm."""
-        return self._of_tool(lambda tool: tool.tip_diameter / 2)
+    def cutter(self) -> Cutter:
+        """The outlines (n,) of the tools in the spindle."""
+        names = ("radius", "nose", "tip", "slope")
+        return Cutter(*(self._of_tool(lambda tool, name=name: getattr(cutter(tool), name)) for name in names))
 
     def _of_tool(self, value: Any) -> Array:
         numbers = self.run.tool
@@ -110,12 +100,14 @@ class Paths:
             out[numbers == number] = value(tool)
         return out
 
+    def cutters(self, steps: Ints) -> Cutter:
+        """The outlines (m,) of the tools of some steps."""
+        every = self.cutter
+        return Cutter(every.radius[steps], every.nose[steps], every.tip[steps], every.slope[steps])
+
     def radius_at(self, pieces: Pieces, height: float) -> Array:
-        """(m,) largest radius at ``height`` over each piece, mm: a drill's point is thinner near its tip."""
-        above = np.maximum(height - pieces.low, 0.0)
-        cone = self.cone[pieces.step]
-        grown = np.where(np.isinf(cone), np.inf, np.where(np.isinf(cone), 0.0, cone) * above)
-        return np.minimum(self.radius[pieces.step], self.tip[pieces.step] + grown)
+        """(m,) largest radius at ``height`` over each piece, mm, taken at its lowest place."""
+        return self.cutters(pieces.step).radius_at(height - pieces.low)
 
     def below(self, height: float, *, steps: Ints | None = None) -> Pieces:
         """The pieces that run at or below ``height``."""

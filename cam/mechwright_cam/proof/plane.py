@@ -94,7 +94,7 @@ class Boundary:
 
     @cached_property
     def _edges(self) -> NDArray[Any]:
-        rings = shapely.get_rings(self.shape)
+        rings = shapely.get_rings(shapely.get_parts(self.shape))
         points, owner = shapely.get_coordinates(rings, return_index=True)
         same = owner[:-1] == owner[1:]
         edges: NDArray[Any] = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))

@@ -15,11 +15,12 @@ from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, 
 from mechwright_cam.job import Job
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
-from mechwright_cam.proof.plane import Shape, grow, swept
+from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.ramped import deepest_in_tab
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
@@ -28,14 +29,12 @@ from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import ROUNDING, Sweeps
 from mechwright_cam.timing import step_times
 
-SWEPT = 0.01
-"""Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""
-
-
 FEW = 64
 """So many of the deepest moves are asked first whether they cut a feature."""
 BESIDE = 0.5
 """The cut around an outside is looked for so near to it, mm: half of the least frame between two channels."""
+ROUGHLY = 0.01
+"""Accuracy of that, mm."""
 
 
 def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
@@ -99,7 +98,12 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
 def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     """The deepest cut into the part, and into a tab."""
     paths, job = scene.paths, scene.job
-    gouge = _deepest(details.deepest(paths, job, bands(job, details.heights(job))))
+    gouge = _deepest(
+        [
+            *details.deepest(paths, job, bands(job, details.heights(job))),
+            *(fillet.deepest(paths) for fillet in fillets(job)),
+        ]
+    )
     upright = [tab for tab in job.tabs if not tab.ramped]
     in_tab = [
         deepest_cut(paths, shapely.union_all([t.shape for t in upright if t.top == top]), top)
@@ -130,15 +134,6 @@ def read(text: str | Mapping[str, str], job: Job, dialect: Dialect) -> Run:
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
-
-
-def cut_through(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Shape:
-    """What a program cuts away from top to bottom, for the setup that follows: nothing that it leaves."""
-    paths = Paths(read(text, job, dialect), {tool.number: tool for tool in job.tools})
-    cut = Sweeps(paths).through(job.thickness)
-    gone = shapely.union_all([swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut])
-    rest: Shape = shapely.buffer(gone, -SWEPT, quad_segs=4)
-    return rest
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
@@ -183,7 +178,7 @@ def _depth_check(scene: Scene) -> Check:
         shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             # At its own wall: further away, in a nest, are the cuts around its neighbours.
-            around = shapely.intersection(grow(shape, BESIDE, SWEPT), stock_shape(job))
+            around = shapely.intersection(grow(shape, BESIDE, ROUGHLY), stock_shape(job))
             shape = shapely.difference(around, shape)
         if shape.is_empty or shape.area <= NEAR:
             continue

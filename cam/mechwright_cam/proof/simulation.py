@@ -19,12 +19,14 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from mechwright.cutter import approach, cutter
 from mechwright.motion import Array
 from mechwright.tooling import Tool
 from mechwright_cam.interpreter import Kind, Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
 
 CELLS = 1_000_000
@@ -44,7 +46,8 @@ class Work:
     feed_per_tooth
         Greatest feed per tooth in material, mm.
     chip
-        Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most.
+        Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most;
+        less where only the rounded corner of a cutter is in the cut.
     engagement
         Greatest engagement in a window, degrees.
     removal
@@ -97,12 +100,16 @@ def simulate(run: Run, job: Job) -> Simulation:
     cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS))
     shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
     heights = np.zeros(shape, dtype=np.float32)
-    if not job.gone.is_empty:
-        heights[_inside(job.gone, job, shape, cell)] = -job.thickness
+    floors = np.full(shape, -job.thickness, dtype=np.float32)
+    for air in sorted(job.gone, key=lambda air: air.top):
+        floors[_inside(air.shape, job, shape, cell)] = air.top
+    through = floors >= -NEAR
+    heights[through] = -job.thickness
     steps = paths.steps[run.cutting[paths.steps]]
     volume, depth = np.zeros(len(run)), np.zeros(len(run))
     for number, mine in _runs_of_one_tool(run, steps):
-        _cut(paths, job, tools[number], mine, heights, cell, volume, depth)
+        _cut(paths, job, tools[number], mine, heights, floors, cell, volume, depth)
+    heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
     length = np.nan_to_num(run.length)
     idle = steps[volume[steps] <= cell**2 * NEAR]
     works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in _used(run, steps)]
@@ -130,6 +137,7 @@ def _cut(
     tool: Tool,
     steps: Ints,
     heights: NDArray[np.float32],
+    floors: NDArray[np.float32],
     cell: float,
     volume: Array,
     depth: Array,
@@ -138,13 +146,12 @@ def _cut(
     places, z, owner = _samples(paths, steps, 2 * math.sqrt(2 * tool.radius * cell))
     low = z < -NEAR
     places, z, owner = places[low], z[low], owner[low]
-    disc = _disc(tool, float(paths.cone[steps[0]]), cell)
+    disc = _disc(tool, cell)
     half = disc.shape[0] // 2
     x0, y0, _, _ = job.stock
     columns = np.floor((places[:, 0] - x0) / cell).astype(np.int64)
     rows = np.floor((places[:, 1] - y0) / cell).astype(np.int64)
     ny, nx = heights.shape
-    floor = np.float32(-job.thickness)
     # A loop, sample by sample: each cut depends on what the one before has left.
     for row, column, height, step in zip(
         rows.tolist(), columns.tolist(), z.tolist(), owner.tolist(), strict=True
@@ -161,7 +168,7 @@ def _cut(
         tip = disc[a - row + half : b - row + half, c - column + half : d - column + half] + np.float32(
             height
         )
-        np.maximum(tip, floor, out=tip)
+        np.maximum(tip, floors[a:b, c:d], out=tip)
         taken = stock - tip
         np.maximum(taken, 0, out=taken)
         most = float(taken.max())
@@ -191,13 +198,11 @@ def _samples(paths: Paths, steps: Ints, spacing: float) -> tuple[Array, Array, I
     return places, z, owner
 
 
-def _disc(tool: Tool, cone: float, cell: float) -> NDArray[np.float32]:
+def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     """Height of the tool's end above its tip, cell by cell; far up where the tool is not."""
     half = math.ceil(tool.radius / cell)
     at = np.arange(-half, half + 1) * cell
-    away = np.hypot(*np.meshgrid(at, at))
-    up = np.zeros_like(away) if math.isinf(cone) else away / cone
-    disc: NDArray[np.float32] = np.where(away <= tool.radius, up, np.inf).astype(np.float32)
+    disc: NDArray[np.float32] = cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
     return disc
 
 
@@ -231,7 +236,7 @@ def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Wor
     angle = np.arccos(np.clip(1 - width / tool.radius, -1.0, 1.0))
     rpm = np.array([state.rpm for state in run.states])[run.state[steps[0]]]
     tooth = feed / max(float(rpm) * tool.flutes, NEAR)
-    chip = tooth * np.sin(np.minimum(angle, np.pi / 2))
+    chip = tooth * np.sin(np.minimum(angle, np.pi / 2)) * approach(tool, deep)
     removal = taken / path * feed / 1000
     removal[~long], chip[~long], angle[~long] = 0.0, 0.0, 0.0
     worst = int(np.argmax(removal))
@@ -269,4 +274,8 @@ def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.floa
     for band in bands(job):  # nothing is told of a floor beside a wall above it
         near = shapely.buffer(shapely.boundary(band.keep), 1.5 * cell, quad_segs=2)
         wanted[_inside(near, job, seen.shape, cell)] = np.nan
+    for fillet in fillets(job):
+        rows, columns = np.nonzero(_inside(fillet.foot, job, seen.shape, cell))
+        x, y = job.stock[0] + (columns + 0.5) * cell, job.stock[1] + (rows + 0.5) * cell
+        wanted[rows, columns] += fillet.rise(shapely.distance(fillet.walls, shapely.points(x, y)))
     return seen - wanted

@@ -26,7 +26,8 @@ class Stock:
 
     def __init__(self, paths: Paths, job: Job) -> None:
         self.paths = paths
-        self.plate = shapely.difference(stock_shape(job), job.gone)
+        self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
+        self.air = [air for air in job.gone if air.top < -NEAR]
         cutting = np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))
         low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
         self.cuts: Ints = paths.steps[cutting & (low < 0)]
@@ -75,6 +76,10 @@ class Stock:
         if body.is_empty:
             return False
         rest = shapely.difference(body, self._gone(step, z, body))
+        for air in self.air:  # over a recess of the other side it is enough to have cut down to that
+            if air.top > z + NEAR and shapely.intersects(rest, air.shape):
+                opened = shapely.intersection(air.shape, self._gone(step, air.top, body))
+                rest = shapely.difference(rest, opened)
         return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
 
     def _gone(self, step: int, z: float, body: Shape) -> Shape:

@@ -18,6 +18,9 @@ ROUNDING = 1e-4
 SWEEP_CHORD = 0.0005
 """Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
 
+PARTS = ("step", "first", "last", "low")
+"""The arrays of Pieces."""
+
 
 @dataclass(frozen=True)
 class Sweep:
@@ -73,18 +76,18 @@ class Sweeps:
         self.paths = paths
         self._known: dict[tuple[float, float], list[Sweep]] = {}
 
-    def at(self, height: float, bottom: float) -> list[Sweep]:
-        """What is cut at ``bottom`` by feed moves that go down to ``height``, smallest radius first."""
-        if (height, bottom) not in self._known:
-            self._known[height, bottom] = self._cut(height, bottom)
-        return self._known[height, bottom]
+    def at(self, height: float, level: float) -> list[Sweep]:
+        """What is cut at ``level`` by feed moves that go down to ``height``, smallest radius first."""
+        if (height, level) not in self._known:
+            self._known[height, level] = self._cut(height, level)
+        return self._known[height, level]
 
-    def _cut(self, height: float, bottom: float) -> list[Sweep]:
+    def _cut(self, height: float, level: float) -> list[Sweep]:
         paths = self.paths
         cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-        pieces = distinct(paths, paths.below(height, steps=cutting))
+        pieces = distinct(paths, _settled(paths, paths.below(height, steps=cutting), level))
         pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
-        radius = np.round(paths.radius_at(pieces, bottom), 6)
+        radius = np.round(paths.radius_at(pieces, level), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
         ]
@@ -92,3 +95,16 @@ class Sweeps:
     def through(self, thickness: float) -> list[Sweep]:
         """What is cut at the underside of a plate."""
         return self.at(-thickness + ROUNDING, -thickness)
+
+
+def _settled(paths: Paths, pieces: Pieces, level: float) -> Pieces:
+    """Pieces of known width at ``level``: a round cutter on a ramp counts where it is as wide as it gets."""
+    nose = paths.cutter.nose[pieces.step]
+    drop = np.abs(paths.start[pieces.step, 2] - paths.end[pieces.step, 2])
+    ramps = (nose > 0) & (drop > 0) & (np.nan_to_num(paths.run.length[pieces.step]) > drop + NEAR)
+    if not ramps.any():
+        return pieces
+    parts = [pieces.only(~ramps)]
+    for one in np.unique(nose[ramps]).tolist():
+        parts.append(paths.below(level - one, steps=pieces.step[ramps & (nose == one)]))
+    return Pieces(*(np.concatenate([getattr(part, name) for part in parts]) for name in PARTS))

@@ -13,6 +13,9 @@ from mechwright_cam.job import Job
 from mechwright_cam.picture import tool_colours
 from mechwright_cam.trace import Stroke, Traced
 
+MARKED = 3
+"""So many places of each kind are marked on the walls."""
+
 HOLDER_GAP = 3.0
 """Air between the holder and the highest thing below it, mm: chips pack in less."""
 
@@ -188,6 +191,19 @@ def _turning_points(stroke: Stroke) -> list[Point]:
 def load_rows(proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     """What the simulation says of each tool."""
     return list((proof.get("simulation") or {}).get("tools") or ())
+
+
+KINDS = {"left": "stock left", "cut": "cut into the part", "corners": "corner"}
+"""What the worst places on walls are, in words."""
+
+
+def place_rows(proof: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The worst places on walls, numbered as the picture of the walls marks them."""
+    walls = proof.get("walls") or {}
+    rows = [
+        {**row, "what": words} for kind, words in KINDS.items() for row in (walls.get(kind) or ())[:MARKED]
+    ]
+    return [{**row, "number": number} for number, row in enumerate(rows, start=1)]
 
 
 def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:

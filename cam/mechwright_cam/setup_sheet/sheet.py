@@ -25,6 +25,7 @@ def setup_html(
     tool_table: str = "",
     design: str = "",
     pictures: Mapping[str, str] | None = None,
+    deviations: Mapping[str, str] | None = None,
     summary: str = "",
 ) -> str:
     """The setup sheets of some programs.
@@ -43,6 +44,8 @@ def setup_html(
         The design file it all comes from.
     pictures
         Program name to the picture of its simulated stock, an ``<svg>`` element of our own.
+    deviations
+        Program name to the picture of the deviation along its walls, the same.
     summary
         The page of the whole job, which a sheet then leads to.
 
@@ -57,6 +60,8 @@ def setup_html(
     for job, program, proof in programs:
         sheet = _sheet(job, program, proof or {}, program.name + suffix)
         sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
+        sheet["deviation"] = Markup((deviations or {}).get(program.name, ""))  # noqa: S704 - ours as well
+        sheet["places"] = facts.place_rows(proof or {})
         body = template.render(**sheet, tool_table=tool_table, design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]

@@ -30,10 +30,15 @@ ROUGH = 0.005
 """Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
 
 
+LEAST_CORNERS = 4
+"""Of a quarter circle: fewer make corners that fitting takes for those of the drawing."""
+
+
 def corners(radius: float, tolerance: float) -> int:
     """Corners per quarter circle whose chords stay within ``tolerance``."""
-    step = 2 * math.acos(max(0.0, 1 - min(tolerance / max(radius, 1e-9), 1.0)))
-    return max(4, math.ceil(math.pi / 2 / max(step, 1e-3)))
+    if radius <= tolerance:
+        return LEAST_CORNERS
+    return max(LEAST_CORNERS, math.ceil(math.pi / 4 / math.acos(1 - tolerance / radius)))
 
 
 def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> shapely.Geometry:

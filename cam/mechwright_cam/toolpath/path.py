@@ -117,11 +117,6 @@ class Path:
             here = (cut.x, cut.y)
         return self, Path(self.end, ())
 
-    def entered_at(self, at: float) -> "Path":
-        """A closed path that starts and ends at ``at`` mm of the way."""
-        before, after = self.split(at)
-        return after + before if after.cuts else self
-
     def points(self, step: float) -> Array:
         """Points (n, 2) along the way, both ends included, at most ``step`` mm apart."""
         rows: list[Array] = [np.array([self.start])]

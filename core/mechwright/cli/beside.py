@@ -13,7 +13,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from typing import TypeVar, cast
+from typing import IO, TypeVar, cast
 
 R = TypeVar("R")
 
@@ -50,10 +50,12 @@ class Beside:
         if self._process is None or self._process.stdin is None:
             return
         try:
-            self._process.stdin.write(pickle.dumps(self._call))
-            self._process.stdin.flush()
+            request = pickle.dumps(self._call)
         except Exception:  # noqa: BLE001,RUF100 - what cannot be copied says so in many ways
             self.close()
+            return
+        # A pipe holds some ten kB, and the other end reads it when its imports are done.
+        threading.Thread(target=_send, args=(self._process.stdin, request), daemon=True).start()
 
     def result(self, kind: type[R]) -> R:
         """What the function gives, of the type ``kind``; raises what it raises."""
@@ -86,6 +88,13 @@ class Beside:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _send(pipe: IO[bytes], request: bytes) -> None:
+    """Write a request; one that cannot be sent is never answered, and then done here."""
+    with contextlib.suppress(OSError, ValueError):  # the other end is gone, or the pipe closed meanwhile
+        pipe.write(request)
+        pipe.flush()
 
 
 def cores() -> int:

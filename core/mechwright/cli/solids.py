@@ -2,6 +2,8 @@
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from mechwright.cli.beside import Beside, cores
@@ -12,57 +14,80 @@ from mechwright.output import Exporter
 
 if TYPE_CHECKING:
     from mechwright.motion import Motion
-
-    Work = tuple[Design, Sequence[Exporter], Motion, int]
+    from mechwright.part import Part
 
 Made = tuple[list[Finding], dict[str, bytes]]
 """What collides, and the files, name to content."""
 
 
-def collisions(design: Design, *, solids: bool) -> list[Finding]:
+@dataclass(frozen=True)
+class Work:
+    """What is to be done: a design whose own check has found no error, and where its assembly stands.
+
+    ``known`` are the parts, if they have been made: it takes no work to make them again, but in a second
+    process, to which only plates can be sent.
+    """
+
+    design: Design
+    exporters: Sequence[Exporter]
+    motion: "Motion"
+    sample: int
+    known: "Sequence[Part] | None" = None
+
+    @cached_property
+    def parts(self) -> "Sequence[Part]":
+        """The parts of the design."""
+        return self.design.family.parts(self.design.params) if self.known is None else self.known
+
+    def collisions(self) -> list[Finding]:
+        """Which bodies stand in each other while the mechanism moves. Imports the CAD kernel."""
+        return collisions(self.design, solids=True, parts=self.parts)
+
+    def solid_files(self) -> dict[str, bytes]:
+        """Every part, and the assembly, in every format: file name to content.
+
+        Raises
+        ------
+        GeometryError
+            A part cannot be made or is not right.
+        OutputError
+            Two files would have one name.
+        """
+        made = Output()
+        placed = any(part.instances for part in self.parts)
+        for exporter in self.exporters:
+            for part in self.parts:
+                made.add(part.name + exporter.suffix, exporter.part(part))
+            name = self.design.name
+            assembly = exporter.assembly(name, self.parts, self.motion, self.sample) if placed else None
+            if assembly is not None:
+                made.add("assembly" + exporter.suffix, assembly)
+        return made.files
+
+    def build_files(self) -> dict[str, bytes]:
+        """The same, and the page on which the mechanism moves, with its solids."""
+        return self.solid_files() | motion_page(self.design, solids=True, parts=self.parts)
+
+
+def collisions(design: Design, *, solids: bool, parts: "Sequence[Part] | None" = None) -> list[Finding]:
     """Which bodies stand in each other while the mechanism moves; ``solids`` imports the CAD kernel."""
     from mechwright_cam.interference import interference_findings
 
-    return interference_findings(design.family, design.params, solids=solids)
+    return interference_findings(design.family, design.params, solids=solids, parts=parts)
 
 
-def solid_files(
-    design: Design, exporters: Sequence[Exporter], motion: "Motion", sample: int
-) -> dict[str, bytes]:
-    """Every part, and the assembly at one sample of the motion, in every format: file name to content.
-
-    Raises
-    ------
-    GeometryError
-        A part cannot be made or is not right.
-    OutputError
-        Two files would have one name.
-    """
-    made = Output()
-    parts = design.family.parts(design.params)
-    placed = any(part.instances for part in parts)
-    for exporter in exporters:
-        for part in parts:
-            made.add(part.name + exporter.suffix, exporter.part(part))
-        assembly = exporter.assembly(design.name, parts, motion, sample) if placed else None
-        if assembly is not None:
-            made.add("assembly" + exporter.suffix, assembly)
-    return made.files
-
-
-def motion_page(design: Design, *, solids: bool) -> dict[str, bytes]:
+def motion_page(design: Design, *, solids: bool, parts: "Sequence[Part] | None" = None) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
     from mechwright_cam.animation import MOTION, page_of
 
-    return {MOTION: page_of(design.name, design.family, design.params, solids=solids).encode()}
+    page = page_of(design.name, design.family, design.params, solids=solids, parts=parts)
+    return {MOTION: page.encode()}
 
 
-def compared_and_made(design: Design, exporters: Sequence[Exporter], motion: "Motion", sample: int) -> Made:
+def compared_and_made(work: Work) -> Made:
     """Whether bodies collide; and the files of a build, if none do."""
-    met = collisions(design, solids=True)
-    if errors(met):
-        return met, {}
-    return met, solid_files(design, exporters, motion, sample) | motion_page(design, solids=True)
+    met = work.collisions()
+    return met, {} if errors(met) else work.build_files()
 
 
 class SolidWork:
@@ -92,27 +117,28 @@ class SolidWork:
 
     def begin(self, design: Design, motion: "Motion", sample: int) -> None:
         """Say what is to be done: a design whose own check has found no error, and where it stands."""
-        self._work = design, self._exporters, motion, sample
+        self._work = Work(design, self._exporters, motion, sample)
         if self._second is not None:
-            self._second.ask(compared_and_made, *self._work)
+            parts = self._work.parts
+            plates = all(part.build is None for part in parts)
+            self._second.ask(compared_and_made, replace(self._work, known=parts if plates else None))
 
     def collisions(self) -> list[Finding]:
         """Which bodies collide, and what else there is to say of that."""
-        return collisions(self._begun[0], solids=True) if self._second is None else self._result()[0]
+        return self._begun.collisions() if self._second is None else self._result()[0]
 
     def files(self) -> dict[str, bytes]:
         """File name to content."""
         if self._second is not None:
             return self._result()[1]
-        page = motion_page(self._begun[0], solids=True) if self._build else {}
-        return solid_files(*self._begun) | page
+        return self._begun.build_files() if self._build else self._begun.solid_files()
 
     @property
-    def _begun(self) -> "Work":
+    def _begun(self) -> Work:
         assert self._work is not None  # noqa: S101 - :meth:`begin` comes first
         return self._work
 
-    def _result(self) -> "Made":
+    def _result(self) -> Made:
         if self._made is None:
             assert self._second is not None  # noqa: S101 - both callers have asked
             self._made = cast(Made, self._second.result(tuple))

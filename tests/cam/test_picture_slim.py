@@ -1,0 +1,68 @@
+"""Dimensions in the picture of a setup do not run into each other, however slim the plate is."""
+
+import itertools
+import re
+
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright.geometry import Loop, Outline
+from mechwright.part import Part, Profile
+from mechwright.tooling import CamSettings
+from mechwright_cam.job import Job, make_job
+from mechwright_cam.library import load_library
+from mechwright_cam.picture import plan_view
+
+TOOL = (load_library().get("mill-6"),)
+TEXT = re.compile(
+    r'<text x="([-\d.]+)" y="([-\d.]+)" font-size="([-\d.]+)"([^>]*)>((?:stock|part) [\d.]+|[\d.]+)</text>'
+)
+
+
+def slim(width: float, height: float, origin: str) -> Job:
+    x, y = width / 2, height / 2
+    loop = Loop.polygon([(-x, -y), (x, -y), (x, y), (-x, y)])
+    part = Part("link", Outline(loop), 4, "steel", machined=(Profile("outside", loop, "outside", 0, 4),))
+    return make_job(part, CamSettings.model_validate({"origin": origin, "hold": {"tabs": 2}}), TOOL)
+
+
+def words(picture: str) -> list[tuple[str, shapely.Polygon]]:
+    """The dimensions' words and the rectangles that they take, 0.55 of their height a letter."""
+    found = []
+    for x, y, size, rest, text in TEXT.findall(picture):
+        left, base, high = float(x), float(y), float(size)
+        half = 0.275 * high * len(text)
+        box = shapely.box(left - half, base - 0.75 * high, left + half, base)
+        if "rotate(-90" in rest:
+            box = shapely.affinity.rotate(box, -90, origin=(left, base))
+        found.append((text, box))
+    return found
+
+
+@settings(max_examples=40)
+@given(
+    width=st.floats(5, 300), height=st.floats(5, 300), origin=st.sampled_from(["axis", "corner", "centre"])
+)
+def test_no_words_cover_each_other(width: float, height: float, origin: str) -> None:
+    picture = plan_view(slim(width, height, origin))
+    boxes = words(picture)
+    assert len(boxes) == (4 if origin == "corner" else 6)
+    for (one, first), (other, second) in itertools.combinations(boxes, 2):
+        assert first.intersection(second).area < 1e-6, (one, other)
+    x, y, wide, high = map(float, re.search(r'viewBox="([^"]*)"', picture)[1].split())
+    frame = shapely.box(x, y, x + wide, y + high)
+    for text, box in boxes:
+        assert frame.contains(box), text
+
+
+@pytest.mark.parametrize(("width", "height"), [(200, 6), (6, 200)])
+def test_words_of_a_short_dimension_stand_beside_it(width: float, height: float) -> None:
+    job = slim(width, height, "axis")
+    box = dict(words(plan_view(job)))[f"part {min(width, height):.2f}"]
+    plate = shapely.transform(job.target, lambda p: p * (1, -1))
+    x0, y0, x1, y1 = plate.bounds
+    along = (x0, x1) if width < height else (y0, y1)
+    taken = (box.bounds[0], box.bounds[2]) if width < height else (box.bounds[1], box.bounds[3])
+    assert taken[0] > along[1] or taken[1] < along[0]
