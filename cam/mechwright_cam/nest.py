@@ -13,7 +13,7 @@ import shapely
 from mechwright.details import moved
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,8 @@ def moved_feature(feature: Feature, x: float, y: float, angle: float = 0.0) -> F
         case Profile():
             sites = tuple((at(site), width) for site, width in feature.tab_sites)
             return replace(feature, loop=feature.loop.moved(x, y, angle), tab_sites=sites)
+        case OpenProfile():
+            return feature.moved(x, y, angle)
         case Pocket():
             islands = tuple(loop.moved(x, y, angle) for loop in feature.islands)
             return replace(feature, boundary=feature.boundary.moved(x, y, angle), islands=islands)

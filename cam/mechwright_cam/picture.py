@@ -13,8 +13,9 @@ from mechwright.program import Program
 from mechwright.sections import sections
 from mechwright.tooling import Tool
 from mechwright_cam import svg
-from mechwright_cam.job import Job, Tab
+from mechwright_cam.job import Job
 from mechwright_cam.nest import Nest, outlines_of
+from mechwright_cam.tabs import Tab
 from mechwright_cam.trace import Stroke, Traced, trace
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#56b4e9", "#5d5d5d")
@@ -54,6 +55,10 @@ class Frame:
 def tool_colours(program: Program) -> dict[int, str]:
     """T number to the colour of its paths."""
     return {tool.number: COLOURS[i % len(COLOURS)] for i, tool in enumerate(program.tools)}
+
+
+JAW = 1.2
+"""So much of a vice's jaws is drawn, in heights of letters: up to the first dimension."""
 
 
 def plan_view(
@@ -182,14 +187,28 @@ def _holding(job: Job, frame: Frame) -> str:
     parts = []
     for place, tab in enumerate(job.tabs, start=1):
         shape = svg.path(list(tab.shape.exterior.coords)[:-1], close=True)
-        parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.75))
+        level = svg.path(list(tab.level.exterior.coords)[:-1], close=True)
+        if tab.ramped:
+            parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.35))
+        parts.append(svg.element("path", d=level, fill="#e6a100", fill_opacity=0.75))
         parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
+    for jaw in job.jaws:
+        x0, y0, x1, y1 = shapely.intersection(jaw.shape, _around(job, JAW * frame.letters)).bounds
+        look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}
+        parts.append(svg.element("rect", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, **look))
+        parts.append(_tag((x0 + x1) / 2, (y0 + y1) / 2, "jaw", frame))
     if job.clamp is not None:
         x, y = job.clamp.centre
         circle = {"cx": x, "cy": -y, "r": job.clamp.diameter / 2}
         parts.append(svg.element("circle", **circle, fill="#e6a100", fill_opacity=0.45, stroke="#8a6100"))
         parts.append(_tag(x, y - job.clamp.diameter / 2 + frame.letters, "clamp", frame))
     return "".join(parts)
+
+
+def _around(job: Job, width: float) -> shapely.Polygon:
+    """The stock and so much around it."""
+    x0, y0, x1, y1 = job.stock
+    return shapely.box(x0 - width, y0 - width, x1 + width, y1 + width)
 
 
 def _outer_end(job: Job, tab: Tab) -> Point:

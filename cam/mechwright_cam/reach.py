@@ -204,16 +204,20 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     There is one for the part, or one for each part of a nest, work coordinates. Each wall is judged with the
     cutter that finishes it, the one :func:`plan` takes.
     """
-    from mechwright_cam.planning.zone import inner_zones, outer_zones
+    from mechwright_cam.planning.centre_lines import grooves
+    from mechwright_cam.planning.recess import plan_view
+    from mechwright_cam.planning.zone import inner_zones, outer_zones, through
 
     plates = polygons(job.target)
-    walls = [closing(zone.wall, job.reach(zone.finisher)) for zone in outer_zones(job) if zone.tabs is None]
+    walls = [closing(zone.wall, job.reach(zone.finisher)) for zone in outer_zones(job) if not zone.at_tabs]
     holes = [
         shapely.Point(bore.centre).buffer(bore.diameter / 2, quad_segs=256)
         for bore in job.features
         if isinstance(bore, Bore) and bore.top + bore.depth >= job.thickness
     ]
-    for zone in inner_zones(job):
+    in_one = grooves(job)
+    holes += [plan_view(f) for f in job.features if f.name in in_one and through(job, f.top + f.depth)]
+    for zone in inner_zones(job, skip=in_one):
         if zone.bottom == job.floor:
             radius = job.reach(zone.finisher)
             holes.append(grow(grow(zone.clear, -radius, PRECISION), radius, PRECISION))

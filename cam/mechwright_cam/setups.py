@@ -20,8 +20,8 @@ import shapely
 from mechwright.errors import DesignError
 from mechwright.findings import Finding, Severity, errors
 from mechwright.geometry import Loop, Outline
-from mechwright.geometry.mirror import turned_over, turned_point
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.geometry.mirror import turned_over, turned_point, turned_segment
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import MILLS, CamSettings, Hold, Stock
 from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
@@ -36,6 +36,10 @@ UNDERSIDE = "-underside"
 """What a part's name ends in for its second setup."""
 WALL = 3.0
 """Stock around a dowel hole, mm: it must not break out under the dowel."""
+
+
+MIRRORED: dict[str, Literal["left", "right", "on"]] = {"left": "right", "right": "left", "on": "on"}
+"""Side of a path to its side when the plate has been turned over."""
 
 
 def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
@@ -88,6 +92,9 @@ def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Featu
         case Profile():
             sites = tuple((turned_point(site, about), width) for site, width in feature.tab_sites)
             return replace(feature, loop=turned_over(feature.loop, about), top=top, tab_sites=sites)
+        case OpenProfile():
+            path = tuple(turned_segment(segment, about) for segment in feature.path)
+            return replace(feature, path=path, side=MIRRORED[feature.side], top=top)
         case Pocket():
             if feature.floor_radius > 0:
                 raise DesignError(
@@ -141,7 +148,7 @@ def _second(
         raise DesignError(
             f"cam.second_side.work_offset: {side.work_offset} is the first side's; the second needs its own"
         )
-    if first.clamp is not None:
+    if first.clamp is not None or first.jaws:
         raise DesignError(
             f"cam.hold.method: part {part.name} has features on its underside and would be loose by then; "
             'use method = "tabs"'

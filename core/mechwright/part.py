@@ -7,7 +7,7 @@ a 10 mm plate has ``top = 0`` and ``depth = 10``. The solid stands on z = 0 and 
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
@@ -15,7 +15,7 @@ from mechwright.details import Detail
 from mechwright.errors import DesignError, GeometryError
 from mechwright.fits import Fit
 from mechwright.geometry import Arc, Loop, Outline
-from mechwright.geometry.segments import Point
+from mechwright.geometry.segments import Point, Segment
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -99,6 +99,52 @@ class Pocket:
         """How much narrower the recess is on every side at a height above its floor, mm."""
         short = max(self.floor_radius - max(height, 0.0), 0.0)
         return self.floor_radius - math.sqrt(self.floor_radius**2 - short**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenProfile(Pocket):
+    """A recess along an open path: a groove ``"on"`` it, or a step on its ``"left"`` or ``"right"``.
+
+    What it takes follows from ``path`` and ``width``. A groove is the strip whose centre line is the path,
+    with half circles at its ends, as a cutter of that width leaves it. A step is the strip between the path,
+    where its wall stands, and the same moved sideways by the width; inside the plate it ends square.
+    As for every recess, the strip is open where it reaches beyond the plate's outline, so the path of a step
+    along an edge starts and ends outside.
+
+    Raises
+    ------
+    GeometryError
+        The path does not hang together, closes, or bends too sharply for the width.
+
+    Examples
+    --------
+    >>> from mechwright.geometry import Line
+    >>> path = (Line((0.0, 0.0), (20.0, 0.0)),)
+    >>> groove = OpenProfile("groove", 0.0, 2.0, path=path, side="on", width=4.0)
+    >>> round(groove.boundary.area, 3)
+    92.566
+    """
+
+    boundary: Loop = field(init=False)
+    islands: tuple[Loop, ...] = field(init=False, default=())
+    path: tuple[Segment, ...]
+    side: Literal["left", "right", "on"]
+    width: float
+
+    def __post_init__(self) -> None:
+        from mechwright.geometry.strip import strip
+
+        half = self.width / 2
+        left, right = {"on": (half, half), "left": (self.width, 0.0), "right": (0.0, self.width)}[self.side]
+        try:
+            boundary = strip(self.path, left, right, "round" if self.side == "on" else "square")
+        except GeometryError as error:
+            raise GeometryError(f"{self.name}: {error}") from error
+        object.__setattr__(self, "boundary", boundary)
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "OpenProfile":
+        """The feature turned about the origin, rad, then shifted, mm."""
+        return replace(self, path=tuple(segment.moved(x, y, angle) for segment in self.path))
 
 
 Feature = Profile | Bore | Pocket

@@ -132,6 +132,9 @@ class Stock(Parameters):
     )
     length: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in X.")
     width: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in Y.")
+    finished: tuple[Literal["left", "right", "front", "rear"], ...] = Field(
+        (), description="Edges where the stock ends exactly at the part and is not milled."
+    )
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
@@ -163,17 +166,27 @@ class Nesting(Parameters):
 class Hold(Parameters):
     """How the part is held while its outside is cut."""
 
-    method: Literal["tabs", "bore"] = Field(
-        "tabs", description="Tabs to the frame, or a clamp through the bore."
+    method: Literal["tabs", "bore", "vice"] = Field(
+        "tabs", description="Tabs to the frame, a clamp through the bore, or a vice on finished edges."
     )
     tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
     tab_width: Millimetres | None = Field(
         None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
     )
     tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
+    tab_shape: Literal["rectangular", "ramped"] = Field(
+        "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
+    )
+    tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."
+    )
+    grip: Millimetres | None = Field(
+        None, ge=1, le=200, description="Height of the edges in the vice; by default half of the thickness."
+    )
+    jaw_width: Millimetres | None = Field(
+        None, gt=0, le=1000, description="Width of the vice's jaws; by default as wide as there is room."
     )
 
 

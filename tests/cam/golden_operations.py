@@ -4,6 +4,7 @@ writes ``tests/golden/operations/OPERATION/CONTROL.nc`` anew, or those of the op
 Every text has been read line by line as a machinist would before it was kept; read it again when it changes.
 """
 
+import math
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,10 +15,10 @@ from planning_parts import LIBRARY, rounded_box
 
 from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.findings import errors
-from mechwright.geometry import Loop, Outline, circle
+from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.host import host
 from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.pipeline import Machined, _after, machine
 from mechwright_cam.setups import lay_out_setups
@@ -94,37 +95,43 @@ CASES: dict[str, Case] = {
     "pocket-contour": Case(
         (Pocket("recess", rounded_box(28, 20, 5), (), 0, 2),),
         ("mill-8",),
-        ("recess: rough", "recess: finish"),
+        ("recess: rough", "recess: finish the floor", "recess: finish"),
         settings=FLUSH,
     ),
     "pocket-island": Case(
         (Pocket("recess", rounded_box(34, 24, 5), (Loop((circle((0, 0), 4.0),)),), 0, 1),),
         ("mill-6",),
-        ("recess: rough", "recess: finish"),
+        ("recess: rough", "recess: finish the floor", "recess: finish"),
         settings=FLUSH,
     ),
     "pocket-adaptive": Case(
         (Pocket("recess", Loop((circle((0, 0), 9.0),)), (), 0, 3),),
         ("mill-8",),
-        ("recess: clear", "recess: rough the rest", "recess: finish"),
+        ("recess: clear", "recess: rough the rest", "recess: finish the floor", "recess: finish"),
         settings={**FLUSH, "clearing": "adaptive", "engagement": 90},
     ),
     "slot": Case(
         (Pocket("slot", rounded_box(30, 8.0, 4.0), (), 0, 2),),
         ("mill-6",),
-        ("slot: rough", "slot: finish"),
+        ("slot: rough", "slot: finish the floor", "slot: finish"),
         settings=FLUSH,
     ),
     "groove": Case(
         (Pocket("groove", box(-30, -5, 30, 5), (), 0, 2),),
         ("mill-6",),
-        ("groove: rough", "groove: finish"),
+        ("groove: rough", "groove: finish the floor", "groove: finish"),
         settings=FLUSH,
     ),
     "rest": Case(
         (Pocket("recess", rounded_box(26, 18, 2.5), (), 0, 2),),
         ("mill-12", "mill-4"),
-        ("recess: rough", "recess: rough the rest", "recess: finish"),
+        (
+            "recess: rough",
+            "recess: finish the floor",
+            "recess: rough the rest",
+            "recess: finish the rest of the floor",
+            "recess: finish",
+        ),
         settings=FLUSH,
     ),
     "spot": Case(
@@ -188,14 +195,50 @@ CASES: dict[str, Case] = {
     "ramp": Case(
         (Pocket("keyway", rounded_box(24, 6.0, 3.0), (), 0, 1.5),),
         ("mill-5",),
-        ("keyway: rough", "keyway: finish"),
+        ("keyway: rough", "keyway: finish the floor", "keyway: finish"),
         settings={**FLUSH, "ramp_angle": 2},
     ),
     "helix": Case(
         (Pocket("seat", Loop((circle((0, 0), 8.0),)), (), 0, 2),),
         ("mill-8",),
-        ("seat: rough", "seat: finish"),
+        ("seat: rough", "seat: finish the floor", "seat: finish"),
         settings={**FLUSH, "ramp_angle": 5},
+    ),
+    "tabs-ramped": Case(
+        (Profile("outside", PLATE, "outside", 0, 4),),
+        ("mill-6",),
+        (
+            "outside: rough",
+            "outside: finish",
+            "outside over the tabs: rough",
+            "outside over the tabs: finish",
+        ),
+        settings={"hold": {"tabs": 2, "tab_shape": "ramped"}},
+    ),
+    "open-ends": Case(
+        (Profile("outside", PLATE, "outside", 0, 4),),
+        ("mill-3",),
+        ("outside: rough", "outside: finish"),
+        settings={
+            "stock": {"finished": ["front", "rear"], "margin": 3},
+            "hold": {"method": "vice", "grip": 2},
+            "spring_passes": 0,
+        },
+    ),
+    "groove-on-a-line": Case(
+        (
+            OpenProfile(
+                "groove",
+                0,
+                2,
+                path=(Line((-30, -5), (0, -5)), Arc((0, 5), 10, -math.pi / 2, 1.2)),
+                side="on",
+                width=6,
+            ),
+        ),
+        ("mill-6",),
+        ("groove: slot",),
+        settings=FLUSH,
     ),
     "tabs": Case(
         (Profile("outside", PLATE, "outside", 0, 3),),
@@ -236,7 +279,7 @@ CASES: dict[str, Case] = {
     "conventional": Case(
         (Pocket("recess", rounded_box(24, 16, 5), (), 0, 2),),
         ("mill-8",),
-        ("recess: rough", "recess: finish"),
+        ("recess: rough", "recess: finish the floor", "recess: finish"),
         settings={**FLUSH, "climb": False, "spring_passes": 0, "stock_to_leave": 0.5},
     ),
     "second-side": Case(

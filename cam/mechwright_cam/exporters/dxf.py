@@ -3,7 +3,8 @@
 Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
 ``OPENING`` all others, ``POCKET`` edges of recesses as far as they lie on the plate, ``CHAMFER`` where a
 broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal
-circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores, ``TEXT`` lines that say what it is.
+circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores and the centre
+lines of grooves, ``TEXT`` lines that say what it is.
 """
 
 import io
@@ -21,7 +22,7 @@ from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
 from mechwright.geometry.segments import Point
 from mechwright.geometry.trim import stretches
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.exporters.curves import cubic, vertices
@@ -136,6 +137,9 @@ def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", c
             loops = (feature.loop,)
         case Pocket():
             loops = (feature.boundary, *feature.islands)
+    if isinstance(feature, OpenProfile) and feature.side == "on":
+        for segment in feature.path:
+            _segment(space, segment, {"layer": "CENTRE"}, simple=curves != "spline")
     for loop in loops:
         _on_plate(space, loop, plates, "POCKET", curves)
 

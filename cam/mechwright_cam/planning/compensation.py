@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.errors import ToolError
+from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tooling import Tool
@@ -42,9 +42,22 @@ HALVINGS = 12
 
 
 def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
-    """Refuse what D cannot move, with ToolError: a groove that the mill fills, walls of round-ended mills."""
+    """Refuse what D cannot move.
+
+    Raises
+    ------
+    ToolError
+        A groove that the mill fills, or walls of a round-ended mill.
+    DesignError
+        Ramped tabs: their slopes are planned for the way of the cutter's centre, which D moves.
+    """
     if job.settings.compensation == "computer":
         return
+    if zone.slopes:
+        raise DesignError(
+            f"cam.hold.tab_shape: ramped tabs of part {job.part.name} are not cut with compensation = "
+            f'"{job.settings.compensation}"; use "rectangular" tabs, or compensation = "computer"'
+        )
     why = "fills it" if zone.snug else "has a round end" if mill.nose > 0 else ""
     if why:
         raise ToolError(

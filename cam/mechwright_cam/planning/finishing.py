@@ -13,7 +13,7 @@ from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.wedges import into_wedges
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.toolpath.arcfit import fit
-from mechwright_cam.toolpath.leads import best_start, lead_shapes, with_leads
+from mechwright_cam.toolpath.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
 from mechwright_cam.toolpath.path import Path
 
@@ -35,8 +35,10 @@ class Finishing:
             near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
             self.room = shapely.intersection(self.room, near)
         self.near = grow(zone.standing, radius + zone.over - CLEAR, ROUGH)
+        # Where all of the plate goes, there is nothing but air beyond it.
+        beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
         self.free = shapely.difference(
-            grow(self.room, CLEAR, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))
+            grow(self.room, CLEAR + beyond, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))
         )
         for shape in (self.room, self.near, self.free):
             shapely.prepare(shape)
@@ -53,7 +55,7 @@ class Finishing:
             if piece.closed:
                 self._ring(pen, piece.points, heights)
             else:
-                self._stretch(pen, fit(piece.points, FIT), heights)
+                self._stretch(pen, self._led(piece.points), heights)
             here = pen.place
             waiting.sort(key=lambda other: float(np.hypot(*(other.points[0] - here))))
         pen.retract()
@@ -73,6 +75,19 @@ class Finishing:
     def _is_free(self, points: Array) -> NDArray[np.bool_]:
         free: NDArray[np.bool_] = shapely.contains_xy(self.free, points[:, 0], points[:, 1])
         return free
+
+    def _led(self, points: Array) -> Path:
+        """An open stretch; in the open it is entered from the air and left into it on arcs."""
+        path = fit(points, FIT)
+        if not self.zone.in_the_open or not path.cuts:
+            return path
+        first, last = points[1] - points[0], points[-1] - points[-2]
+        headings = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
+        shapes = lead_shapes(self.tool.radius, self.settings.stock_to_leave)
+        return led(path, headings, shapes, self.settings.climb, self._is_air)
+
+    def _is_air(self, points: Array) -> NDArray[np.bool_]:
+        return self._is_free(points) & self._is_clear(points)
 
     def _may_run(self, way: Array) -> bool:
         return bool(shapely.covers(self.free, shapely.LineString(way)))

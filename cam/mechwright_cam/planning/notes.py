@@ -40,6 +40,15 @@ def notes(job: Job, drills: Sequence[Tool], round_mills: Sequence[Tool] = ()) ->
         for f in job.features
         if isinstance(f, Bore) and f.fit
     ]
+    if job.jaws:
+        low, _, high, _ = job.jaws[0].face.bounds
+        axis = "X"
+        if low == high:
+            axis, (_, low, _, high) = "Y", job.jaws[0].face.bounds
+        lines.append(
+            f"vice: {job.jaws[0].edge} and {job.jaws[1].edge} edges, jaws {axis}{low:.2f} to "
+            f"{axis}{high:.2f}, top Z{job.jaws[0].top:g}"
+        )
     if drills:
         below = max(point_length(drill) for drill in drills) + job.settings.breakthrough
         lines.append(f"drills go {below:.2f} mm below the stock: leave room under the holes")

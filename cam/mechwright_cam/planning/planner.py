@@ -9,11 +9,12 @@ import shapely
 from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore
+from mechwright.part import Bore, OpenProfile
 from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
+from mechwright_cam.planning.centre_lines import grooves, write_groove
 from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
@@ -39,6 +40,7 @@ from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
 from mechwright_cam.planning.zone import HEAVY, Zone, check_clamp, inner_zones, outer_walls
+from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
 
@@ -128,12 +130,13 @@ class _Planner:
         write: Callable[[Pen], object],
         engagement: float = math.pi / 2,
         depth: float = math.inf,
+        over: tuple[Tab, ...] = (),
     ) -> tuple[Move, ...]:
         """The moves that ``write`` makes; a cut is ``depth`` mm deep where that makes chips thinner."""
         settings = self.job.settings
         depth = depth if settings.chip_thinning else math.inf
         speed = rates(tool, self.job.part.material, settings.machine, engagement, depth)
-        pen = Pen(tool, speed, self.clearance, self.slope)
+        pen = Pen(tool, speed, self.clearance, self.slope, over)
         write(pen)
         return tuple(pen.moves)
 
@@ -145,7 +148,7 @@ class _Planner:
     def _inner(self) -> frozenset[int]:
         job = self.job
         bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
-        zones = inner_zones(job)
+        zones = inner_zones(job, skip=grooves(job))
         entries = {
             zone.name: self._entry(zone)
             for zone in zones
@@ -158,10 +161,11 @@ class _Planner:
         drilled = self._drilled(holes)
         after = drilled
         # What starts on the floor of a recess waits until all recesses above are cut.
-        for top in sorted({*(zone.top for zone in zones), *(-plan.bore.top for plan in bores)}, reverse=True):
+        for top in sorted({-feature.top for feature in job.features}, reverse=True):
             for plan in bores:
                 if -plan.bore.top == top:
                     self._bore(plan, after)
+            self._slots(top, after)
             for zone in zones:
                 if zone.top != top:
                     continue
@@ -186,6 +190,15 @@ class _Planner:
         depth = mill.cutting[self.job.part.material].step_down * mill.diameter
         leave = floor_allowance(self.job, zone.top, zone.bottom)
         self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth, leave))
+
+    def _slots(self, top: float, after: frozenset[int]) -> None:
+        """Grooves as wide as a mill that begin at this height."""
+        mills = grooves(self.job)
+        for feature in self.job.features:
+            if isinstance(feature, OpenProfile) and feature.name in mills and -feature.top == top:
+                leave = floor_allowance(self.job, top, -feature.top - feature.depth)
+                write = partial(write_groove, self.job, feature, leave=leave)
+                self._milled(f"{feature.name}: slot", mills[feature.name], after, write)
 
     def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
         place, radius = entry_place(zone.clear)
@@ -312,7 +325,8 @@ class _Planner:
         zone, mill = cut.zone, cut.tool
         what = "rough the rest" if zone.begun else "rough"
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
-        moves = self._moves(mill, lambda pen: cut.write(pen, step_down), depth=_pass(zone, mill, step_down))
+        deep = _pass(zone, mill, step_down)
+        moves = self._moves(mill, partial(cut.write, step_down=step_down), depth=deep, over=zone.slopes)
         cut.commit()
         if not zone.begun:
             zone.forget_waste(mill, self.job.settings.stock_to_leave)
@@ -365,7 +379,7 @@ class _Planner:
         deep = _pass(zone, mill, settings.finish_step * mill.diameter)
         plain = settings.compensation == "computer"
         finishing = Finishing(zone, settings, mill) if plain else CompensatedFinishing(zone, self.job, mill)
-        moves = self._moves(mill, finishing.write, depth=deep)
+        moves = self._moves(mill, finishing.write, depth=deep, over=zone.slopes)
         if not moves:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; "
@@ -417,7 +431,8 @@ class _Planner:
             cut = Roughing(zone, mill, allowance, data.step_over, self.job.settings.climb, only=thick)
             if allowance > 0 and cut.taken < NEARLY * thick.area:
                 continue  # the exact one has to go there anyway
-            moves = self._moves(mill, partial(cut.write, step_down=data.step_down * mill.diameter))
+            write = partial(cut.write, step_down=data.step_down * mill.diameter)
+            moves = self._moves(mill, write, over=zone.slopes)
             cuts.append((f"{zone.name}: {what}", mill, moves))
             near = grow(cut.core, cut.sliver + mill.radius)
             zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, near))

@@ -16,6 +16,7 @@ from mechwright.tooling import MILLS, CamSettings, Tool
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.bending import MOST, deflection
+from mechwright_cam.planning.centre_lines import grooves
 from mechwright_cam.planning.choice import SAME_RADIUS, long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import plan_bore
@@ -53,7 +54,7 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     zones: list[Zone] = []
     for bore in bores(job):
         _try(found, partial(plan_bore, job, bore))
-    _try(found, lambda: zones.extend(inner_zones(job)))
+    _try(found, lambda: zones.extend(inner_zones(job, skip=grooves(job))))
     _try(found, lambda: zones.extend(outer_zones(job)))
     _try(found, partial(check_clamp, job))
     for detail in job.details:
@@ -134,7 +135,7 @@ def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
     """The remainder on every wall."""
     found = []
     for zone in zones:
-        if zone.tabs is not None:
+        if zone.at_tabs:
             continue
         found += _partly(job, zone)
         found += _fillet(job, zone)

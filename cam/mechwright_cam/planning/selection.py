@@ -9,11 +9,12 @@ from functools import partial
 import shapely
 
 from mechwright.errors import DesignError, GeometryError
-from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, outlines_of
+from mechwright_cam.planning.centre_lines import groove_mill
 from mechwright_cam.planning.choice import (
     ROOMY,
     SAME_REACH,
@@ -35,6 +36,7 @@ from mechwright_cam.planning.zone import (
     roughing_mills,
     through,
 )
+from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
 from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons
 
@@ -47,6 +49,8 @@ HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 PAYS = 1.5
 """An intermediate roughing mill is at least this many times as wide as the finishing one."""
+AMPLE = 1000.0
+"""Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
 HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
 BRISK = 0.25
@@ -78,24 +82,12 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
-    every = Job(part, settings, flat, (0.0, 0.0), _stock(part, settings))
+    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
-
-
-def _stock(part: Part, settings: CamSettings) -> tuple[float, float, float, float]:
-    """The plate if its size is given, else one that is large enough for any channel."""
-    assert part.outline is not None  # noqa: S101 - choose_tools refuses the others
-    x0, y0, x1, y1 = part.outline.bounds
-    wanted = settings.stock
-    if wanted.length is not None and wanted.width is not None:
-        mx, my = (wanted.length - (x1 - x0)) / 2, (wanted.width - (y1 - y0)) / 2
-    else:
-        mx = my = 1000.0 if wanted.margin is None else wanted.margin
-    return x0 - mx, y0 - my, x1 + mx, y1 + my
 
 
 def _mills(every: Job) -> list[Tool]:
@@ -138,6 +130,10 @@ def _fits(mills: Sequence[Tool], shape: shapely.Polygon, allowance: float, mill:
 
 def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
     """The mill for an opening or a recess; none if the feature takes nothing, which planning will say."""
+    if isinstance(feature, OpenProfile):
+        mill = groove_mill(every, feature)
+        if mill is not None:
+            return [mill]
     bottom = bottom_of(every, feature.top, feature.depth)
     able = usable_mills(every, -bottom)
     shapes = recess(every, feature, able[0].diameter, bottom)

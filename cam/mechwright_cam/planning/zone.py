@@ -13,7 +13,7 @@ room
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from typing import Literal
@@ -37,6 +37,7 @@ from mechwright_cam.planning.choice import (
 from mechwright_cam.planning.recess import Recess, reached_share, recess
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.reach import roughly_swollen
+from mechwright_cam.tabs import Tab
 from mechwright_cam.toolpath.offsets import (
     BIAS,
     CHORD,
@@ -48,6 +49,7 @@ from mechwright_cam.toolpath.offsets import (
     thinned,
 )
 from mechwright_cam.toolpath.path import DECIMALS
+from mechwright_cam.vice import CLAMP_GAP, RUN_OUT, beside
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""
@@ -94,6 +96,8 @@ class Zone:
     """Outside: everything up to the far wall of the channel; None where the whole stock goes."""
     tabs: shapely.Geometry | None = None
     """What of the tabs stands between these heights."""
+    slopes: tuple[Tab, ...] = ()
+    """Ramped tabs between these heights: the cutter goes over them."""
     below: bool = False
     """Whether the cut ends below the underside of the plate."""
     before: Tool | None = None
@@ -129,6 +133,16 @@ class Zone:
             beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
             band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
             self.waste = shapely.difference(beside, band)
+
+    @property
+    def in_the_open(self) -> bool:
+        """Whether all of the plate around the part goes, so that the cutter may run out anywhere."""
+        return self.kind == "outside" and self.channel is None
+
+    @property
+    def at_tabs(self) -> bool:
+        """Whether it is the layer of the tabs, below another one of the same wall."""
+        return self.tabs is not None or bool(self.slopes)
 
     @property
     def height(self) -> float:
@@ -174,7 +188,7 @@ class Zone:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
         if self.kind == "outside":
             if self.channel is None:
-                return grow(self.clear, radius, ROUGH)
+                return grow(self.clear, radius + (RUN_OUT if finishing else 0.0), ROUGH)
             return grow(self.channel, slack - radius, ROUGH)
         if self.must is not None and finishing:
             # Past the end of a wall and around its corner, but not on along the outside.
@@ -234,10 +248,12 @@ FILLED = 0.9
 """A mill makes a groove of its own width if it reaches this share of it."""
 
 
-def inner_zones(job: Job) -> list[Zone]:
-    """Openings that are not round, and pockets."""
+def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
+    """Openings that are not round, and pockets, but for those of some names."""
     zones = []
     for feature in job.features:
+        if feature.name in skip:
+            continue
         if not isinstance(feature, Pocket) and not (
             isinstance(feature, Profile) and feature.side == "inside"
         ):
@@ -350,16 +366,24 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             before=last[0] if len(last) > 1 else None,
         )
         zones: list[Zone] = []
+        if shapely.is_empty(clear):
+            continue  # all of its edges are those of the stock
         top = -feature.top
         own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
         if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
             height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
-            tabs = shapely.union_all([tab.shape for tab in own])
             zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
-            name = f"{feature.name} below the tabs"
-            below = clear.difference(tabs)
-            zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
+            if own[0].ramped:
+                name = f"{feature.name} over the tabs"
+                zones.append(
+                    layer(name, clear=clear, top=height, bottom=job.floor, slopes=tuple(own), below=True)
+                )
+            else:
+                tabs = shapely.union_all([tab.shape for tab in own])
+                name = f"{feature.name} below the tabs"
+                below = clear.difference(tabs)
+                zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
         else:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
         walls.append(zones)
@@ -433,15 +457,13 @@ def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geome
     thin = thinned(part)  # the finishing of the wall does not depend on it
     if not _has_frame(job, part, width):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
+        if job.settings.stock.finished:
+            return beside(shapely.box(*job.stock), part), None
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
     near = roughly_swollen(part, width - mill.radius)
     channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
     return channel.difference(thin), channel
-
-
-CLAMP_GAP = 1.0
-"""Least distance of the cutter from the clamp, mm."""
 
 
 def check_clamp(job: Job) -> None:

@@ -5,7 +5,7 @@ import shapely
 
 from mechwright.part import Profile
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import inside_of, stock_shape
+from mechwright_cam.proof.bands import bands, inside_of, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
@@ -21,6 +21,8 @@ def holding(sweeps: Sweeps, job: Job) -> tuple[Check, list[str]]:
     """Whether the tabs join the part to a frame, and remarks on pieces that come loose in openings."""
     cut = sweeps.through(job.thickness)
     loose = _loose(cut, job)
+    if job.jaws:
+        return _gripped(job), loose
     if not job.tabs:
         return Check("holding", True, "the part is held by a clamp or from below"), loose
     if not _rim_is_whole(cut, job):
@@ -32,6 +34,28 @@ def holding(sweeps: Sweeps, job: Job) -> tuple[Check, list[str]]:
             )
             return Check("holding", False, message), loose
     return Check("holding", True, "the tabs join the part to the frame"), loose
+
+
+TOUCHES = 0.002
+"""The part touches a jaw where it is so near to its face, mm: the chords of its outline, and rounding."""
+BEARS = 0.95
+"""Share of a jaw's face that the part has to touch, at every height of the jaw."""
+
+
+def _gripped(job: Job) -> Check:
+    """Whether the finished part touches both jaws of the vice all over, from the underside to their tops."""
+    for jaw in job.jaws:
+        for band in bands(job, (jaw.top,)):
+            if band.top > jaw.top + NEAR:
+                continue
+            touched = shapely.intersection(jaw.face, grow(band.keep, TOUCHES, TOUCHES / 4))
+            if touched.length < BEARS * jaw.face.length:
+                message = (
+                    f"the {jaw.edge} jaw of the vice is {jaw.face.length:.1f} mm wide, and the part touches "
+                    f"{touched.length:.1f} mm of it at Z{band.bottom:.2f}; grip it lower, or elsewhere"
+                )
+                return Check("holding", False, message)
+    return Check("holding", True, "the part stays between the jaws of the vice")
 
 
 def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:

@@ -20,7 +20,7 @@ import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.part import Profile
+from mechwright.part import OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.job import Job
@@ -28,7 +28,7 @@ from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
+from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow, swept
 from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
@@ -44,6 +44,9 @@ Paths and outlines are no better: on arcs of ``arc_fit`` a cutter in a slot of i
 walls. Without it a slot up to 5 µm wider than the cutter would count as left over, and no path may go there;
 with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
 """
+ENTERED = 2 * (TOLERANCES.flatten + ROUND)
+"""A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
+may be off."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -88,7 +91,9 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
     # With round cutters or floors every height is another question, else one cross-section asks but once.
     alike = not (reach.noses or round_floors)
-    free = Surroundings([(band.top, band.keep) for band in every], round_floors)
+    free = Surroundings(
+        [(band.top, _entered(band.keep, smallest, job, band)) for band in every], round_floors
+    )
     rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
     unseen: dict[int, Shape | None] = {}
@@ -105,7 +110,10 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         beside = [_tabs_at(job, one, slack) for one in every]
         aside = None
         if beside[place]:
-            held = [(b.top, shapely.union_all([b.keep, *t])) for b, t in zip(every, beside, strict=True)]
+            held = [
+                (b.top, _entered(shapely.union_all([b.keep, *t]), smallest, job, b))
+                for b, t in zip(every, beside, strict=True)
+            ]
             reached = reach.rest(Surroundings(held, round_floors), place, level, tips)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
@@ -127,6 +135,21 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         beyond += _beyond(rests[key], Band(band.top, band.bottom, keep), job, groups)
     beyond.sort(key=lambda spot: -spot[3])
     return Remains(worst, at, tuple(beyond))
+
+
+def _entered(keep: Shape, reach: float, job: Job, band: Band) -> Shape:
+    """What stays in a band, with the grooves wider that are made for a cutter that reaches so far, mm.
+
+    A cutter with the play of others would find no way into a groove of its own width. The stock on the
+    groove's walls is measured from walls that lie as much further out, and all the more is asked of it.
+    """
+    for feature in job.features:
+        inside = feature.top < -(band.top + band.bottom) / 2 < feature.top + feature.depth
+        if isinstance(feature, OpenProfile) and feature.side == "on" and inside:
+            lack = reach - feature.width / 2
+            if -ENTERED < lack <= PLAY + NEAR:
+                keep = shapely.difference(keep, grow(floor_of(feature, job), lack + ENTERED))
+    return keep
 
 
 def _above_floors(job: Job, reach: Reach) -> list[float]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright.tooling import MILLS, Tool, ToolKind
@@ -167,6 +168,7 @@ def entries(scene: Scene) -> Check:
     steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(limit)) + digit
     threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     # A thread mill goes down a finished hole, as steeply as its pitch asks.
+    allowed |= _down_a_tab(scene, steps, drop, flat) & np.isin(run.tool[steps], list(plunges))
     suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
@@ -194,10 +196,31 @@ def entries(scene: Scene) -> Check:
     )
 
 
+TAB_RISE = 0.005
+"""A path down a ramped tab may be so much steeper than the tab's side over its whole length, mm: the gouge
+limit, as the tab itself may be off by that."""
+
+
+def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[np.bool_]:
+    """(n,) whether a move goes down the side of a ramped tab: no further than the tab is high."""
+    found = np.zeros(steps.size, dtype=bool)
+    job, paths = scene.job, scene.paths
+    for tab in job.tabs:
+        if not tab.ramped:
+            continue
+        gentle = (drop > 0) & (drop <= flat * tab.slope + TAB_RISE) & (drop <= tab.top - job.floor + TAB_RISE)
+        index = np.flatnonzero(gentle & (paths.start[steps, 2] <= tab.top + TAB_RISE) & ~found)
+        if index.size:
+            lines = paths.lines(paths.below(np.inf, steps=steps[index]))
+            reach = paths.radius[steps[index]] + (job.settings.breakthrough + TAB_RISE) / tab.slope
+            found[index] = shapely.dwithin(tab.shape, lines, reach)
+    return found
+
+
 def holder(scene: Scene) -> Check:
     """Shank and holder stay out of the stock and of finished walls, where the tool library knows them."""
     paths, run = scene.paths, scene.run
-    for body in _bodies(scene):
+    for body in bodies(scene):
         low = np.minimum(paths.start[:, 2], paths.end[:, 2]) + body.lift
         steps = paths.steps[(run.tool[paths.steps] == body.tool.number) & (low[paths.steps] < -NEAR)]
         # The deepest first: if they pass where material may still be, the others nearly always do.
@@ -217,7 +240,7 @@ def holder(scene: Scene) -> Check:
 
 
 @dataclass(frozen=True)
-class _Body:
+class Body:
     """What is above a tool's flutes: a cylinder from ``lift`` above the tip."""
 
     tool: Tool
@@ -226,59 +249,12 @@ class _Body:
     radius: float
 
 
-def _bodies(scene: Scene) -> list[_Body]:
+def bodies(scene: Scene) -> list[Body]:
+    """Shanks and holders, as far as the tool library knows them."""
     bodies = []
     for tool in scene.tools.values():
         if tool.shank_diameter is not None and tool.shank_diameter > tool.diameter:
-            bodies.append(_Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
+            bodies.append(Body(tool, "shank", tool.flute_length, tool.shank_diameter / 2))
         if tool.stick_out is not None:
-            bodies.append(_Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
+            bodies.append(Body(tool, "holder", tool.stick_out, tool.holder_diameter / 2))
     return bodies
-
-
-def clamp(scene: Scene) -> Check:
-    """Cutter, shank and holder stay clear of the clamp, from the stop on at which the operator sets it."""
-    run, held, paths = scene.run, scene.job.clamp, scene.paths
-    if held is None:
-        return Check("clamp", True, "there is no clamp in the way")
-    # A stop right after a T word is for that tool, where tools are changed by hand.
-    stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
-    # Without a stop it can only have been there from the start.
-    pieces = paths.below(held.top - NEAR, steps=paths.steps[paths.steps > (stops[0] if stops.size else -1)])
-    # No path leads further than its length.
-    away = np.hypot(*(paths.start[pieces.step, :2] - held.centre).T) - np.nan_to_num(run.length[pieces.step])
-    pieces = pieces.only(away < held.diameter / 2 + paths.radius[pieces.step])
-    if len(pieces):
-        gap = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
-        room = gap - paths.radius[pieces.step] - held.diameter / 2
-        worst = int(np.argmin(room))
-        if room[worst] < 0:
-            return scene.bad(
-                "clamp",
-                int(pieces.step[worst]),
-                f"the cutter goes {-room[worst]:.2f} mm into the clamp (diameter {held.diameter:g} mm, "
-                f"up to Z{held.top:g})",
-                float(room[worst]),
-                0.0,
-                "mm",
-            )
-    after = paths.steps[paths.steps > (stops[0] if stops.size else -1)]
-    for body in _bodies(scene):
-        own = after[run.tool[after] == body.tool.number]
-        pieces = paths.below(held.top - body.lift - NEAR, steps=own)
-        if len(pieces) == 0:
-            continue
-        room = shapely.distance(paths.lines(pieces), shapely.Point(held.centre))
-        room = room - body.radius - held.diameter / 2
-        worst = int(np.argmin(room))
-        if room[worst] < 0:
-            return scene.bad(
-                "clamp",
-                int(pieces.step[worst]),
-                f"the {body.name} of T{body.tool.number} goes {-room[worst]:.2f} mm into the clamp (diameter "
-                f"{held.diameter:g} mm, up to Z{held.top:g}); let the tool stick out further",
-                float(room[worst]),
-                0.0,
-                "mm",
-            )
-    return Check("clamp", True, "the cutter stays clear of the clamp")

@@ -2,6 +2,7 @@
 
 import math
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -52,16 +53,33 @@ CHUNK = 32
 """Corners of a path that are buffered at a time: a long path that crosses itself takes four times as long."""
 
 
+BACK = -0.999
+"""Cosine of the turn at which a path runs back on itself, as a slot does that is cut to and fro. GEOS 3.14
+leaves holes in the buffer of such a line."""
+
+
+def _turns_back(points: Array) -> Ints:
+    """Indices of the inner corners of a line at which it turns back."""
+    step = np.diff(points, axis=0)
+    length = np.hypot(*step.T)
+    cosine = (step[:-1] * step[1:]).sum(axis=1)
+    found: Ints = np.flatnonzero(cosine < BACK * length[:-1] * length[1:]) + 1
+    return found
+
+
 def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
     """What a disc sweeps along chains, within ``error``; the chains may be points."""
     pieces: list[Any] = []
     for chain in shapely.simplify(chains, error / 2).tolist():
         points = shapely.get_coordinates(chain)
-        if len(points) <= CHUNK:
+        turns = _turns_back(points)
+        if len(points) <= CHUNK and turns.size == 0:
             pieces.append(chain)
-        else:
+            continue
+        for first, last in pairwise([0, *turns.tolist(), len(points) - 1]):
+            stretch = points[first : last + 1]
             pieces += [
-                shapely.LineString(points[i : i + CHUNK]) for i in range(0, len(points) - 1, CHUNK - 1)
+                shapely.LineString(stretch[i : i + CHUNK]) for i in range(0, len(stretch) - 1, CHUNK - 1)
             ]
     discs = shapely.buffer(np.array(pieces, dtype=object), radius, quad_segs=quarter(radius, error))
     area: Shape = shapely.union_all(discs)

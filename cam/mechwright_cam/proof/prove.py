@@ -22,6 +22,7 @@ from mechwright_cam.proof.holding import holding
 from mechwright_cam.proof.leftover import SPOTS, Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
+from mechwright_cam.proof.ramped import deepest_in_tab
 from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
 from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
@@ -105,11 +106,13 @@ def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
             *(fillet.deepest(paths) for fillet in fillets(job)),
         ]
     )
-    in_tab = _deepest(
-        deepest_cut(paths, shapely.union_all([t.shape for t in job.tabs if t.top == top]), top)
-        for top in sorted({tab.top for tab in job.tabs})
-    )
-    return gouge, in_tab
+    upright = [tab for tab in job.tabs if not tab.ramped]
+    in_tab = [
+        deepest_cut(paths, shapely.union_all([t.shape for t in upright if t.top == top]), top)
+        for top in sorted({tab.top for tab in upright})
+    ]
+    in_tab += [deepest_in_tab(paths, tab) for tab in job.tabs if tab.ramped]
+    return gouge, _deepest(in_tab)
 
 
 def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:

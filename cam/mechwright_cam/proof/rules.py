@@ -1,5 +1,6 @@
 """All rules, in the order of the report."""
 
+from mechwright_cam.proof.held import clamp
 from mechwright_cam.proof.machine_rules import (
     arcs,
     coolant,
@@ -16,7 +17,6 @@ from mechwright_cam.proof.machine_rules import (
     work_offset,
 )
 from mechwright_cam.proof.motion_rules import (
-    clamp,
     entries,
     flutes,
     holder,

@@ -15,6 +15,8 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
     rows = [("rapids", program.clearance, "#555555"), ("top of stock, Z0", 0.0, _RED)]
     if job.clamp is not None:
         rows.append(("top of clamp", job.clamp.top, "#8a6100"))
+    if job.jaws:
+        rows.append(("top of the jaws", job.jaws[0].top, "#8a6100"))
     if job.tabs:
         rows.append(("top of tabs", max(tab.top for tab in job.tabs), "#8a6100"))
     rows += [("underside", -job.thickness, _INK), ("through cuts", job.floor, "#555555")]
@@ -64,6 +66,12 @@ def _body(job: Job, heights: dict[str, float], top: float, under: float) -> str:
         high = heights["top of clamp"]
         look = {"fill": "#e6a100", "fill_opacity": 0.6}
         clamp = svg.element("rect", x=10, y=-high, width=12, height=high - top, **look)
+    if "top of the jaws" in heights:
+        below = svg.text(39, under - 4.4, "vice", 3.4, text_anchor="middle", fill="#5c4000")
+        look = {"fill": "#e6a100", "fill_opacity": 0.6, "stroke": "#8a6100", "stroke_width": 0.4}
+        high = heights["top of the jaws"]
+        for x in (0.0, 72.0):
+            clamp += svg.element("rect", x=x, y=-high, width=6, height=high - under + 6, **look)
     return bed + stock + words + below + clamp
 
 

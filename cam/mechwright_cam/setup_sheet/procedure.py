@@ -60,7 +60,7 @@ def steps(
     over = job.side == "underside"
     by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
     return [
-        _with_reach(_turn(job) if over else _stock(job, deepest), reach),
+        _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
         _second_plane(job, offset) if over else _plane(job, offset),
         _height(offset),
         *(
@@ -91,6 +91,8 @@ def quantity(job: Job) -> int:
 
 def _stock(job: Job, deepest: float) -> Step:
     x0, y0, x1, y1 = job.stock
+    if job.jaws:
+        return _vice(job, deepest)
     lines = [
         f"Plate of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z), "
         "edges parallel to X and Y. Indicate the rear edge to 0.02 mm.",
@@ -108,6 +110,29 @@ def _stock(job: Job, deepest: float) -> Step:
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
+
+
+def _vice(job: Job, deepest: float) -> Step:
+    x0, y0, x1, y1 = job.stock
+    edges = " and ".join(jaw.edge for jaw in job.jaws)
+    along = job.jaws[0].face
+    low, high, axis = along.bounds[0], along.bounds[2], "X"
+    if low == high:
+        low, high, axis = along.bounds[1], along.bounds[3], "Y"
+    finished = ", ".join(job.settings.stock.finished)
+    lines = [
+        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). "
+        f"Edges that stay as they are: {finished}. Measure them: they are edges of the finished part.",
+        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} "
+        f"and no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
+        f"{job.thickness + job.jaws[0].top:g} mm above the underside.",
+    ]
+    if deepest < -job.thickness:
+        lines.append(
+            f"Keep parallels away from holes and ends: cutters go down to Z {signed(deepest)}, "
+            f"{-deepest - job.thickness:.2f} mm below the bar."
+        )
+    return Step("Clamp the bar in a vice", tuple(lines))
 
 
 def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> Step:
@@ -251,8 +276,12 @@ def _run(job: Job, offset: str, file_name: str) -> Step:
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
+        sides = ""
+        if job.tabs[0].ramped:
+            foot = width + 2 * height / job.tabs[0].slope
+            sides = f", on slopes that reach {foot:.1f} mm along the wall at the underside,"
         lines.append(
-            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm hold the part to the end. "
+            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the part to the end. "
             "Saw them through, and file them flush."
         )
     if job.clamp is not None:

@@ -1,7 +1,7 @@
 """Tangential arcs that lead a cutter to a wall and away from it."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,3 +118,41 @@ def with_leads(path: Path, heading: float, rho: float, sweep: float, climb: bool
     end = (rounded(x + rise * nx + along * tx), rounded(y + rise * ny + along * ty))
     centre = (x + rho * nx, y + rho * ny)
     return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))
+
+
+def led(
+    path: Path, headings: tuple[float, float], shapes: Sequence[tuple[float, float]], climb: bool, test: Test
+) -> Path:
+    """An open path with an arc in front and one behind, each as roomy as it fits.
+
+    Parameters
+    ----------
+    headings
+        Of the path at its start and at its end, rad.
+    shapes
+        Radius, mm, and sweep, rad, of leads to try in this order.
+    climb
+        The wall is on the right; on the left if false.
+    test
+        Points (k, 2) of a lead to whether the cutter may be there with nothing in its way.
+    """
+    side = 1 if climb else -1
+    for at_end, heading in enumerate(headings):
+        x, y = path.end if at_end else path.start
+        tx, ty = math.cos(heading), math.sin(heading)
+        nx, ny = -ty * side, tx * side
+        way = 1 if at_end else -1
+        for rho, sweep in shapes:
+            a = np.linspace(0, sweep, STEPS + 1)[1:]
+            rise, along = rho * (1 - np.cos(a)), way * rho * np.sin(a)
+            points = np.column_stack((x + rise * nx + along * tx, y + rise * ny + along * ty))
+            if not test(points).all():
+                continue
+            far = (rounded(float(points[-1, 0])), rounded(float(points[-1, 1])))
+            centre = (x + rho * nx, y + rho * ny)
+            if at_end:
+                path = path + Path(path.end, (arc(path.end, far, centre, side),))
+            else:
+                path = Path(far, (arc(far, path.start, centre, side),)) + path
+            break
+    return path

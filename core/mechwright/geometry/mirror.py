@@ -3,6 +3,7 @@
 import math
 from typing import Literal
 
+from mechwright.errors import GeometryError
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment
 
@@ -17,6 +18,23 @@ def turned_point(point: Point, about: Literal["x", "y"]) -> Point:
     return (x, -y) if about == "x" else (-x, y)
 
 
+def turned_segment(segment: Segment, about: Literal["x", "y"]) -> Segment:
+    """A segment of a plate that has been turned over, seen from above, from its old start to its old end."""
+    match segment:
+        case Line():
+            return Line(turned_point(segment.start, about), turned_point(segment.end, about), segment.tag)
+        case Arc():
+            # The mirror image of an angle: -a about X, pi - a about Y; it is run the other way.
+            start = -segment.start_angle if about == "x" else math.pi - segment.start_angle
+            centre = turned_point(segment.centre, about)
+            return Arc(centre, segment.radius, start, -segment.sweep, segment.tag)
+        case BSpline():
+            net = tuple(turned_point(point, about) for point in segment.points)
+            return BSpline(segment.degree, segment.knots, net, segment.tag)
+        case _:
+            raise GeometryError(f"a segment of type {type(segment).__name__} cannot be turned over")
+
+
 def turned_over(loop: Loop, about: Literal["x", "y"]) -> Loop:
     """A loop of a plate that has been turned over, seen from above; it runs the way round that it did.
 
@@ -28,19 +46,4 @@ def turned_over(loop: Loop, about: Literal["x", "y"]) -> Loop:
     >>> over.area == loop.area, min(y for _, y in over.flatten().tolist())
     (True, -3.0)
     """
-    segments: list[Segment] = []
-    for segment in loop.segments:
-        match segment:
-            case Line():
-                segments.append(
-                    Line(turned_point(segment.start, about), turned_point(segment.end, about), segment.tag)
-                )
-            case Arc():
-                # The mirror image of an angle: -a about X, pi - a about Y; it is run the other way.
-                start = -segment.start_angle if about == "x" else math.pi - segment.start_angle
-                centre = turned_point(segment.centre, about)
-                segments.append(Arc(centre, segment.radius, start, -segment.sweep, segment.tag))
-            case BSpline():
-                net = tuple(turned_point(point, about) for point in segment.points)
-                segments.append(BSpline(segment.degree, segment.knots, net, segment.tag))
-    return Loop(tuple(segments)).reversed()
+    return Loop(tuple(turned_segment(segment, about) for segment in loop.segments)).reversed()

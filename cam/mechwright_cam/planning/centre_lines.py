@@ -1,0 +1,69 @@
+"""Grooves as wide as a mill: its centre runs on the groove's centre line, and both walls are cut at once."""
+
+import numpy as np
+
+from mechwright.part import OpenProfile
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import Tool
+from mechwright_cam.job import Job
+from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.planning.zone import bottom_of
+from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.toolpath.offsets import FIT, densified
+from mechwright_cam.toolpath.path import Path
+
+PLAY = TOLERANCES.leftover - TOLERANCES.gouge
+"""A mill may be so much narrower than its groove, mm: half of it stays on either wall, and the path may be as
+much off as the proof lets it."""
+DENSE = 2.0
+"""Distance of points on straight stretches of a centre line, mm, between which arcs are looked for."""
+
+
+def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
+    """The mill that cuts a groove to its width in one; None if there is none.
+
+    Where clearing is adaptive, a narrower mill with room to turn in loops goes first.
+
+    Raises
+    ------
+    ToolError
+        No mill reaches the groove's bottom.
+    """
+    if feature.side != "on":
+        return None
+    bottom = bottom_of(job, feature.top, feature.depth)
+    mills = usable_mills(job, -bottom)
+    if job.settings.clearing == "adaptive" and mills[-1].diameter <= ROOMY * feature.width:
+        return None
+    return next((mill for mill in mills if -1e-9 <= feature.width - mill.diameter <= PLAY), None)
+
+
+def grooves(job: Job) -> dict[str, Tool]:
+    """The grooves that are cut in one, by name, each with its mill."""
+    every = [feature for feature in job.features if isinstance(feature, OpenProfile)]
+    chosen = {feature.name: groove_mill(job, feature) for feature in every}
+    return {name: mill for name, mill in chosen.items() if mill is not None}
+
+
+def centre_line(feature: OpenProfile) -> Path:
+    """The way of the cutter's centre."""
+    rows = [segment.flatten(TOLERANCES.flatten) for segment in feature.path]
+    points = np.concatenate([rows[0], *(row[1:] for row in rows[1:])])
+    return fit(densified(points, DENSE), FIT)
+
+
+def write_groove(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None:
+    """Write ramped passes of full width along the centre line, to and fro, and the last over the floor."""
+    path = centre_line(feature)
+    top, bottom = -feature.top, bottom_of(job, feature.top, feature.depth)
+    step_down = pen.tool.cutting[job.part.material].step_down * pen.tool.diameter
+    heights = levels(top, bottom + leave, step_down)
+    heights += [bottom] * (job.settings.spring_passes + (leave > 0))
+    pen.above(path.start)
+    pen.sink(top)
+    for z in heights:
+        pen.ramp(path, z)
+        pen.follow(path)
+        path = path.reversed()
+    pen.retract()

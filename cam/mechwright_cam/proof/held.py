@@ -1,0 +1,90 @@
+"""What the part is held by is in the cutter's way: a clamp on it, or the jaws of a vice beside it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from mechwright_cam.interpreter import Kind
+from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.motion_rules import bodies
+from mechwright_cam.proof.paths import NEAR, Pieces
+from mechwright_cam.proof.plane import Shape
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Something that reaches up to ``top``, z in mm: all within ``radius`` of a shape, from a step on."""
+
+    name: str
+    shape: Shape
+    radius: float
+    top: float
+    since: int
+
+
+def obstacles(scene: Scene) -> list[Obstacle]:
+    """Clamp and jaws of the job; a clamp is set at the first stop, jaws are there from the start."""
+    job, run = scene.job, scene.run
+    found = [
+        Obstacle(f"the {jaw.edge} jaw of the vice (up to Z{jaw.top:g})", jaw.shape, 0.0, jaw.top, -1)
+        for jaw in job.jaws
+    ]
+    if job.clamp is not None:
+        # A stop right after a T word is for that tool, where tools are changed by hand.
+        stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
+        name = f"the clamp (diameter {job.clamp.diameter:g} mm, up to Z{job.clamp.top:g})"
+        # Without a stop it can only have been there from the start.
+        since = int(stops[0]) if stops.size else -1
+        found.append(
+            Obstacle(name, shapely.Point(job.clamp.centre), job.clamp.diameter / 2, job.clamp.top, since)
+        )
+    return found
+
+
+def clamp(scene: Scene) -> Check:
+    """Cutter, shank and holder stay clear of clamp and jaws."""
+    paths, run = scene.paths, scene.run
+    every = obstacles(scene)
+    for one in every:
+        after = paths.steps[paths.steps > one.since]
+        check = _met(scene, one, "cutter", paths.below(one.top - NEAR, steps=after), None)
+        if check is not None:
+            return check
+        for body in bodies(scene):
+            own: Ints = after[run.tool[after] == body.tool.number]
+            pieces = paths.below(one.top - body.lift - NEAR, steps=own)
+            check = _met(scene, one, f"{body.name} of T{body.tool.number}", pieces, body.radius)
+            if check is not None:
+                return check
+    if not every:
+        return Check("clamp", True, "there is no clamp in the way")
+    held = "jaws of the vice" if scene.job.jaws else "clamp"
+    return Check("clamp", True, f"the cutter stays clear of the {held}")
+
+
+def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float | None) -> Check | None:
+    """The failed check, if a cylinder along some pieces goes into an obstacle: the cutter, or a radius."""
+    paths = scene.paths
+    own = paths.radius if radius is None else np.full(len(scene.run), radius)
+    # No path leads further than its length.
+    away = shapely.distance(shapely.points(paths.start[pieces.step, :2]), one.shape)
+    near = away - np.nan_to_num(scene.run.length[pieces.step]) < one.radius + own[pieces.step]
+    pieces = pieces.only(near)
+    if len(pieces) == 0:
+        return None
+    room = shapely.distance(paths.lines(pieces), one.shape) - own[pieces.step] - one.radius
+    worst = int(np.argmin(room))
+    if room[worst] >= 0:
+        return None
+    advice = "" if radius is None else "; let the tool stick out further"
+    return scene.bad(
+        "clamp",
+        int(pieces.step[worst]),
+        f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}",
+        float(room[worst]),
+        0.0,
+        "mm",
+    )
