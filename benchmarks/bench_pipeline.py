@@ -24,6 +24,15 @@ ANCHOR, ANCHOR_SECONDS = "import cadquery", 1.6
 CAM = "import sys; sys.argv = ['mechwright', *sys.argv[1:]]; from mechwright.cli import main; main()"
 
 
+def forget() -> None:
+    """Empty what planning and proof remember of shapes: a command cuts every part for the first time."""
+    for name, module in list(sys.modules.items()):
+        if name.startswith("mechwright_cam.") and name != "mechwright_cam.library":
+            for value in vars(module).values():
+                if hasattr(value, "cache_clear"):
+                    value.cache_clear()
+
+
 def main() -> int:
     design = load(EXAMPLE, host())
     post = host().post(design.cam.control)
@@ -38,6 +47,7 @@ def main() -> int:
         return outline_of(params)
 
     def job_of(which: object) -> object:
+        forget()
         return machine(make_job(which, design.cam, choose_tools(which, design.cam, library)), post).proof.ok
 
     with tempfile.TemporaryDirectory() as folder:

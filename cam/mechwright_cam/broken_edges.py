@@ -20,7 +20,6 @@ import cadquery as cq
 import numpy as np
 from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeSolid
-from OCP.BRepFill import BRepFill
 from OCP.BRepLib import BRepLib
 from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface, Geom_ConicalSurface, Geom_Plane, Geom_Surface
@@ -135,8 +134,8 @@ def _chamfer(edge: Edge, rim: list[TopoDS_Edge], top: float) -> tuple[list[TopoD
     share = nodes()[0]
     before, after = parallel.joints(edge.width * share)
     wire, ridge = wire_of(parallel.between(np.roll(after[:, -1], 1), before[:, -1], edge.width), top)
-    if edge.loop.is_circle:
-        return [BRepFill.Face_s(rim[0], ridge[0])], wire
+    if isinstance(edge.loop.segments[0], Arc) and edge.loop.is_circle:
+        return [_round(parallel, edge.loop.segments[0], rim[0], ridge[0], edge.width, top - edge.width)], wire
     places = [
         parallel.point(segment, t, edge.width * share)
         for segment, t in zip(edge.loop.segments, before, strict=True)
@@ -246,9 +245,36 @@ def _cone(parallel: Parallel, arc: Arc, z: float) -> tuple[Geom_Surface, "Sheet"
     return Geom_ConicalSurface(axes, STEEP, arc.radius), sheet
 
 
+def _round(
+    parallel: Parallel, arc: Arc, rim: TopoDS_Edge, ridge: TopoDS_Edge, width: float, z: float
+) -> TopoDS_Face:
+    """The chamfer of a whole circle: a cone that meets itself at a seam."""
+    surface, sheet = _cone(parallel, arc, z)
+    face, builder = TopoDS_Face(), BRep_Builder()
+    builder.MakeFace(face, surface, TOLERANCES.closure)
+    seam = BRepBuilderAPI_MakeEdge(_last(rim), _last(ridge)).Edge()
+    first, last = BRep_Tool.Range_s(seam)
+    slant = width * math.sqrt(2)
+    corners = sheet(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, slant], [1.0, slant]]))
+    _lay(builder, rim, corners[[0, 1]], surface)
+    _lay(builder, ridge, corners[[2, 3]], surface)
+    ends = [_curve(corners[[1, 3]], first, last), _curve(corners[[0, 2]], first, last)]
+    turned = arc.sweep < 0
+    builder.UpdateEdge(seam, *(ends[::-1] if turned else ends), surface, TopLoc_Location(), SAME)
+    sides, ways = (rim, seam, ridge, seam), (_FORWARD, _FORWARD, _REVERSED, _REVERSED)
+    around = [TopoDS.Edge_s(side.Oriented(way)) for side, way in zip(sides, ways, strict=True)]
+    loop = closed_wire(around)
+    builder.Add(face, loop.Reversed() if turned else loop)
+    return face
+
+
 def _lay(builder: BRep_Builder, edge: TopoDS_Edge, places: Array, surface: Geom_Surface) -> None:
     """Tell an edge where it runs on a surface: straight between two places, or through Lobatto nodes."""
     first, last = BRep_Tool.Range_s(edge)
+    builder.UpdateEdge(edge, _curve(places, first, last), surface, TopLoc_Location(), SAME)
+
+
+def _curve(places: Array, first: float, last: float) -> Geom2d_BSplineCurve:
     inverse = nodes()[1]
     poles = places if len(places) == 2 else inverse @ places
     straight = poles[0] + np.linspace(0, 1, len(poles))[:, None] * (poles[-1] - poles[0])
@@ -259,6 +285,4 @@ def _lay(builder: BRep_Builder, edge: TopoDS_Edge, places: Array, surface: Geom_
     for place, (u, v) in enumerate(poles.tolist(), start=1):
         points.SetValue(place, gp_Pnt2d(u, v))
     knots, folds = _knots([first, last], degree)
-    builder.UpdateEdge(
-        edge, Geom2d_BSplineCurve(points, knots, folds, degree), surface, TopLoc_Location(), SAME
-    )
+    return Geom2d_BSplineCurve(points, knots, folds, degree)

@@ -120,7 +120,7 @@ def _library(design: Design) -> Library:
 
 def _check_part_names(design: Design, parts: Sequence[Part]) -> None:
     """Refuse a table ``[cam.part.NAME]`` of no plate part."""
-    known = sorted(part.name for part in parts)
+    known = sorted({part.name for part in parts})
     for name in design.part_cam:
         if name not in known:
             raise DesignError(

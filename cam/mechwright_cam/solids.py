@@ -15,7 +15,7 @@ import numpy as np
 from OCP.gp import gp_Trsf
 from OCP.Standard import Standard_Failure
 
-from mechwright.details import Thread
+from mechwright.details import Chamfer, Engraving, Thread
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
 from mechwright.motion import Motion
@@ -59,7 +59,7 @@ def part_solid(part: Part) -> cq.Solid:
         It cannot be made or is not right; the message names the part.
     """
     try:
-        if part.outline is not None and any(not isinstance(detail, Thread) for detail in part.details):
+        if part.outline is not None and any(isinstance(detail, Chamfer) for detail in part.details):
             made = detailed(part)
             check_recessed(made, part)
             return made
@@ -76,18 +76,29 @@ def part_solid(part: Part) -> cq.Solid:
 
 
 def part_shape(part: Part) -> cq.Shape:
-    """The solid of a part, and for each thread a circle of its nominal diameter on the top face.
+    """The solid of a part, and for each thread and engraving curves on the top face.
 
-    CAD systems show threads so; the hole itself has the core diameter.
+    CAD systems show threads so, by a circle of the nominal diameter; the hole itself has that of the core.
     """
-    threads = [detail for detail in part.details if isinstance(detail, Thread)]
-    if not threads:
-        return part_solid(part)
-    circles = [
-        cq.Edge.makeCircle(thread.diameter / 2, cq.Vector(*thread.centre, part.thickness))
-        for thread in threads
-    ]
-    return cq.Compound.makeCompound([part_solid(part), *circles])
+    curves = [curve for _, curve in marks(part)]
+    return cq.Compound.makeCompound([part_solid(part), *curves]) if curves else part_solid(part)
+
+
+def marks(part: Part) -> list[tuple[str, cq.Shape]]:
+    """The curves on the top face, one for each thread and each stroke, with their names in STEP files."""
+    found: list[tuple[str, cq.Shape]] = []
+    z = part.thickness
+    for detail in part.details:
+        match detail:
+            case Thread():
+                circle = cq.Edge.makeCircle(detail.diameter / 2, cq.Vector(*detail.centre, z))
+                found.append((f"{detail.name}: {detail.designation}", circle))
+            case Engraving():
+                name = f"{detail.name}: engraved {detail.depth:g} mm deep"
+                for stroke in detail.strokes:
+                    line = cq.Wire.makePolygon([cq.Vector(*point, z) for point in stroke])
+                    found.append((name, line))
+    return found
 
 
 def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:

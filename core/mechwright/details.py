@@ -1,7 +1,8 @@
 """Details of a plate that its shape does not show: broken edges, threads, engraved marks.
 
-They are cut into the top face when the shape is made. Solids show chamfers and engravings as they are, and
-threads as a circle; drawings show lines and a note. Depths are measured downwards from the top face.
+They are cut into the top face when the shape is made. Solids show chamfers as they are, engravings as curves
+and threads as circles on the top face; drawings show lines and a note. Depths are measured downwards from the
+top face.
 """
 
 import math
@@ -104,52 +105,33 @@ def moved(detail: Detail, x: float, y: float, angle: float = 0.0) -> Detail:
             return Engraving(detail.name, strokes, detail.depth, detail.width)
 
 
-ROUND = 64
-"""Chords of a quarter of an engraved line's end."""
-
-
-def depth_of(detail: Detail) -> float:
-    """How far below the top face a detail reaches, mm."""
-    return detail.width if isinstance(detail, Chamfer) else detail.depth
-
-
-def taken_by(detail: Detail, depth: float, tolerance: float) -> "shapely.Geometry":
-    """What a detail takes at a depth, seen from above, mm; the neighbours of an edge are not asked.
-
-    A groove is engraved by a point: V-shaped, as wide as drawn at the top face. The turns of a thread take
-    nothing here: solids have the core, as drawings do.
+def band_of(chamfer: Chamfer, depth: float, tolerance: float) -> "shapely.Geometry":
+    """What a chamfer takes at a depth, seen from above, mm: a band along its edge, with mitred corners.
 
     Parameters
     ----------
-    detail
-        Chamfer, thread or engraving.
+    chamfer
+        The edge; its neighbours are not asked.
     depth
-        Below the top face, 0 to :func:`depth_of`, mm.
+        Below the top face, 0 to the chamfer's width, mm.
     tolerance
         Chord error of the loop, mm.
 
     Examples
     --------
     >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
-    >>> taken_by(Chamfer("rim", square, "outside", 1.0), 0.0, 0.001).area  # 100 - 8 x 8
+    >>> band_of(Chamfer("rim", square, "outside", 1.0), 0.0, 0.001).area  # 100 - 8 x 8
     36.0
     """
     import shapely
 
     from mechwright.geometry.parallel import MITRE
 
-    match detail:
-        case Chamfer():
-            region = shapely.Polygon(detail.loop.flatten(tolerance))
-            width = max(detail.width - depth, 0.0)
-            sign = -1 if detail.side == "outside" else 1
-            moved = shapely.buffer(region, sign * width, join_style="mitre", mitre_limit=MITRE)
-            return shapely.symmetric_difference(region, moved)
-        case Engraving():
-            half = detail.width / 2 * max(1 - depth / detail.depth, 0.0)
-            return shapely.buffer(shapely.MultiLineString(list(detail.strokes)), half, quad_segs=ROUND)
-        case Thread():
-            return shapely.Polygon()
+    region = shapely.Polygon(chamfer.loop.flatten(tolerance))
+    width = max(chamfer.width - depth, 0.0)
+    sign = -1 if chamfer.side == "outside" else 1
+    moved = shapely.buffer(region, sign * width, join_style="mitre", mitre_limit=MITRE)
+    return shapely.symmetric_difference(region, moved)
 
 
 def chamfer_lines(chamfer: Chamfer) -> tuple[Loop, ...]:
@@ -174,7 +156,7 @@ def chamfer_lines(chamfer: Chamfer) -> tuple[Loop, ...]:
         return (Parallel(chamfer.loop, 1 if left else -1).at(chamfer.width),)
     except GeometryError:
         region = shapely.Polygon(chamfer.loop.flatten())
-        taken = taken_by(chamfer, 0.0, TOLERANCES.flatten)
+        taken = band_of(chamfer, 0.0, TOLERANCES.flatten)
         moved = shapely.difference(region, taken) if outside else shapely.union(region, taken)
         rings = shapely.get_rings(shapely.get_parts(shapely.simplify(moved, TOLERANCES.flatten)))
         return tuple(Loop.polygon(list(ring.coords)[:-1]) for ring in rings)

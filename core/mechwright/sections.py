@@ -1,8 +1,8 @@
 """What stands of a plate at each height: the outline, less the recesses that reach that height.
 
 A recess that reaches beyond the outline is open there, and nothing of it stands in the opening. Solids, mass,
-pictures and interference ask here, so that a part is the same in all of them. Chamfers and
-engravings count in the volume; layers do not show them.
+pictures and interference ask here, so that a part is the same in all of them. Chamfers
+count in the volume; layers do not show them.
 """
 
 import math
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright.details import Engraving, depth_of, taken_by
+from mechwright.details import Chamfer, band_of
 from mechwright.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 
@@ -174,7 +174,7 @@ def _foot(
 
 
 def volume(part: Part) -> float:
-    """Volume of a plate part, mm³, recesses, chamfers and engravings taken out; 0 for one built as a solid.
+    """Volume of a plate part, mm³, recesses and chamfers taken out; 0 for one built as a solid.
 
     The plate itself is exact, what is taken out of it is right to ``FINE``.
     """
@@ -187,7 +187,7 @@ def volume(part: Part) -> float:
     layers = _layers(part, FINE)
     taken = sum((whole - layer.shape.area) * (layer.bottom - layer.top) for layer in layers)
     solid += sum(_fillet_volume(part, f, layers) for f in blind(part)) - float(taken)
-    return solid - _details_volume(part) if part.details else solid
+    return solid - _chamfer_volume(part) if part.details else solid
 
 
 def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> float:
@@ -209,28 +209,28 @@ def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> f
     return float(math.pi / 4 * radius * np.sum(weights * np.sin(angles) * areas))
 
 
-DEPTHS = {False: 2, True: 6}
-"""Depths at which details are looked at, between those where one begins or ends. Two (of Gauss) are exact for
-bands along edges, whose area is a polynomial of degree 2; strokes of an engraving part from each other."""
+DEPTHS = 2
+"""Depths at which chamfers are looked at, between those where one begins or ends: two (of Gauss) are exact,
+for the area of a band along an edge is a polynomial of degree 2."""
 BAND = 10 * FINE
 """Chord error of the polygons along which details are cut, mm: both sides of a band have it."""
 
 
-def _details_volume(part: Part) -> float:
-    """What details take of the layers of a part, mm³."""
+def _chamfer_volume(part: Part) -> float:
+    """What chamfers take of the layers of a part, mm³."""
     import shapely
 
     layers = sections(part, BAND)
-    count = DEPTHS[any(isinstance(detail, Engraving) for detail in part.details)]
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    ends = {depth_of(detail) for detail in part.details}
+    nodes, weights = np.polynomial.legendre.leggauss(DEPTHS)
+    chamfers = [detail for detail in part.details if isinstance(detail, Chamfer)]
+    ends = {chamfer.width for chamfer in chamfers}
     taken = 0.0
     for layer in layers:
         inner = {depth for depth in ends if layer.top < depth < layer.bottom}
         for top, bottom in pairwise(sorted({layer.top, layer.bottom} | inner)):
             for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
                 depth = top + (bottom - top) * (1 + node) / 2
-                cut = [taken_by(d, depth, BAND) for d in part.details if depth < depth_of(d)]
+                cut = [band_of(one, depth, BAND) for one in chamfers if depth < one.width]
                 if cut:
                     area = shapely.intersection(layer.shape, shapely.union_all(cut)).area
                     taken += float(area) * weight * (bottom - top) / 2

@@ -209,6 +209,30 @@ CASES: dict[str, Case] = {
         thickness=3,
         settings={"hold": {"method": "tabs", "tabs": 2, "tab_width": 4}},
     ),
+    "floor": Case(
+        (Pocket("recess", rounded_box(22, 12, 5), (), 0, 2), hole("seat", 15, 0, 6, 1)),
+        ("mill-8", "mill-4"),
+        (
+            "seat: bore",
+            "seat: finish",
+            "recess: rough",
+            "recess: finish the floor",
+            "recess: finish",
+        ),
+        settings={**FLUSH, "floor_to_leave": 0.3},
+    ),
+    "bull-nose": Case(
+        (Pocket("dish", rounded_box(22, 14, 5), (), 0, 2, floor_radius=1.0),),
+        ("mill-6", "bull-6-r1"),
+        ("dish: rough", "dish: finish"),
+        settings=FLUSH,
+    ),
+    "ball": Case(
+        (Pocket("dish", Loop((circle((0, 0), 5.0),)), (), 0, 3, floor_radius=3.0),),
+        ("ball-6",),
+        ("dish: rough", "dish: level the floor", "dish: finish"),
+        settings=FLUSH,
+    ),
     "conventional": Case(
         (Pocket("recess", rounded_box(24, 16, 5), (), 0, 2),),
         ("mill-8",),
@@ -231,7 +255,8 @@ CASES: dict[str, Case] = {
 def made(operation: str, control: str) -> tuple[Machined, ...]:
     """The proven programs of an operation's part: one, or two where it has a second side."""
     case, post = CASES[operation], host().post(control)
-    cam = CamSettings.model_validate({"control": control, "tools": case.tools, **case.settings})
+    plain = {"control": control, "tools": case.tools, "floor_to_leave": 0}
+    cam = CamSettings.model_validate({**plain, **case.settings})
     jobs, found = lay_out_setups(case.part(operation), cam, LIBRARY)
     if errors(found):
         raise AssertionError(f"{operation}: {errors(found)[0]}")

@@ -57,6 +57,20 @@ def test_lines_that_go_on_straight_are_one():
     assert [cut.x for cut in fit(there_and_back, 1e-6).cuts] == [8, 0]
 
 
+@pytest.mark.parametrize("way", [1, -1])
+def test_the_round_end_of_a_slot_turns_the_right_way(way):
+    # Half a turn of few corners between two straight walls: one arc would be written either way.
+    for corners in range(6, 40):
+        for turn in (3.0, 3.1, 3.14, math.pi, 3.2):
+            t = np.linspace(-turn / 2, turn / 2, corners)
+            end = np.column_stack((10 + 0.74 * np.cos(t), 0.74 * np.sin(t)))
+            points = np.vstack(([(0, end[0, 1])], end, [(0, end[-1, 1])]))[::way]
+            path = fit(points, 0.01)
+            sound(path)
+            assert distance(points, path) < 0.02
+            assert {cut.turn for cut in path.cuts if cut.turn} <= {way}
+
+
 def test_a_slow_bend_is_not_straightened():
     # Every vertex is nearly on the line of its neighbours, and the whole is far from straight.
     x = np.linspace(0, 100, 4001)

@@ -10,6 +10,8 @@ import pytest
 from mechwright.cli.beside import Beside, cores
 from mechwright.cli.solids import SolidWork, Work, compared_and_made
 from mechwright.design import load
+from mechwright.errors import ProofError, ToolError
+from mechwright.findings import Finding, Severity
 from mechwright.host import host
 from mechwright.output import Exporter
 
@@ -113,6 +115,51 @@ def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch):
         monkeypatch.setattr("mechwright.cli.solids.cores", lambda count=count: count)
         with SolidWork([exporter()], build=wanted) as work:
             assert work.beside is begun
+
+
+MET = Finding("interference.collision", Severity.ERROR, "", "one and two stand in each other")
+
+
+class Late(SolidWork):
+    """A second process that has found a collision."""
+
+    beside = True
+
+    def __init__(self, exporters, *, build):
+        super().__init__(exporters, build=False)
+
+    def begin(self, design, motion, sample):
+        pass
+
+    def collisions(self):
+        return [MET]
+
+    def files(self):
+        raise AssertionError("there are none")
+
+
+@pytest.mark.parametrize("fault", [None, ProofError("the program gouges"), ToolError("no such mill")])
+def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, monkeypatch, command_line):
+    def programs(*_):
+        if fault is not None:
+            raise fault
+        return []
+
+    monkeypatch.setattr("mechwright.cli.work.SolidWork", Late)
+    monkeypatch.setattr("mechwright.cli.work._programs", programs)
+    (tmp_path / "pair.toml").write_text('format = 1\nfamily = "elliptic-gears"\n[parameters]\nteeth = 21\n')
+    code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
+    assert code == 1
+    assert str(MET) in said
+    assert "gouges" not in said
+    assert "mill" not in said
+    assert not (tmp_path / "out").exists()
+    monkeypatch.setattr(Late, "collisions", lambda self: [])
+    monkeypatch.setattr(Late, "files", lambda self: {"x.step": b"x"})
+    code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
+    assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0)
+    assert fault is None or str(fault) in said
+    assert (tmp_path / "out" / "x.step").exists() is (fault is None)
 
 
 def test_a_second_process_compares_and_writes_the_same(tmp_path):

@@ -26,7 +26,6 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 from OCP.XSControl import XSControl_WorkSession
 
-from mechwright.details import Thread
 from mechwright.errors import GeometryError
 from mechwright.motion import Motion
 from mechwright.part import Part
@@ -87,7 +86,7 @@ def _write(
             raise GeometryError(f"the CAD kernel cannot turn {name} into STEP entities")
         model = writer.ChangeWriter().Model()
         _set_header(model, name)
-        _name_threads(model, parts)
+        _name_marks(model, parts)
         if occurrences:
             _number_occurrences(model)
         status = writer.WriteStream(text)
@@ -107,16 +106,16 @@ def _set_header(model: StepData_StepModel, name: str) -> None:
     header.SetAuthorisation(_text(""))
 
 
-def _name_threads(model: StepData_StepModel, parts: Sequence[Part]) -> None:
-    """Name the circles that stand for threads; the kernel writes them in the order of the parts."""
-    threads = [detail for part in parts for detail in part.details if isinstance(detail, Thread)]
+def _name_marks(model: StepData_StepModel, parts: Sequence[Part]) -> None:
+    """Name the curves of threads and engravings; the kernel writes them in the order of the parts."""
+    names = [name for part in parts for name, _ in solids.marks(part)]
     curves = [
         entity
-        for place in range(1, model.NbEntities() + 1 if threads else 0)
+        for place in range(1, model.NbEntities() + 1 if names else 0)
         if isinstance(entity := model.Value(place), StepShape_GeometricCurveSet)
     ]
-    for entity, thread in zip(curves, threads, strict=True):
-        entity.SetName(_text(f"{thread.name}: {thread.designation}"))
+    for entity, name in zip(curves, names, strict=True):
+        entity.SetName(_text(name))
 
 
 def _number_occurrences(model: StepData_StepModel) -> None:

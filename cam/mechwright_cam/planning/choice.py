@@ -117,6 +117,7 @@ def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: sha
     return bisect_left(radii, True, hi=len(radii) - 1, key=as_good)
 
 
+@lru_cache(maxsize=64)
 def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
     """The middle of the largest circle in an opening, and its radius, mm."""
     line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)

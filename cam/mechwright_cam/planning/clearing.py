@@ -18,6 +18,7 @@ from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
+from mechwright_cam.buffers import buffered
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import CUSP, SLACK, Zone
 from mechwright_cam.toolpath.arcfit import fit_all
@@ -142,7 +143,7 @@ class Roughing:
         self.touch = self.foot if ridges else tool.radius
         self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
-        self.core = shapely.buffer(take, -self.sliver, quad_segs=2)
+        self.core = buffered(take, -self.sliver, 2)
         if not shapely.is_empty(zone.waste):
             self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
 

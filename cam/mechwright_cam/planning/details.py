@@ -8,7 +8,7 @@ from functools import partial
 import shapely
 
 from mechwright.details import Chamfer, Detail, Engraving, Thread
-from mechwright.errors import ToolError
+from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
@@ -64,6 +64,9 @@ def spread(tool: Tool, height: float) -> float:
 
 def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
     region = shapely.Polygon(detail.loop.flatten())
+    # Around the rim the tip must stay above the tabs.
+    tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
+    held = False
     for tool in _tools(job, ToolKind.CHAMFER):
         if abs(tool.point_angle - 90) > 1e-6:
             continue
@@ -71,6 +74,9 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
             offset = spread(tool, below) + BIAS
             wide = spread(tool, below + detail.width)
             if wide > tool.radius or detail.width + below > tool.flute_length:
+                continue
+            if -(detail.width + below) < tabs:
+                held = True
                 continue
             if detail.side == "outside":
                 blocked = grow(region, offset)
@@ -84,6 +90,11 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
             if found:
                 paths = [fit(ring, FIT) for ring in found]
                 return DetailPlan(detail, tool, partial(_around, paths=paths, z=-(detail.width + below)))
+    if held:
+        raise DesignError(
+            f"cam.hold.tab_height: the chamfer {detail.name} of {detail.width:g} mm in part {job.part.name} "
+            f"would cut into the tabs, whose upper side is at Z{tabs:g}; make the tabs lower"
+        )
     raise ToolError(
         f"cam.tools: no chamfer mill of 90 degrees cuts {detail.name} of {detail.width:g} mm in part "
         f"{job.part.name}; list one that goes {detail.width + BELOW[-1]:g} mm deep and into its corners"

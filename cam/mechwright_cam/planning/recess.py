@@ -12,6 +12,7 @@ around
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import shapely
 
@@ -81,7 +82,7 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.target, window), shapely.union_all([must, gone]))
-    keep = shapely.difference(keep, _skin(keep))
+    keep = _without_skin(keep)
     tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
     keep = shapely.union_all([*polygons(keep), *tabs])
     free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
@@ -122,13 +123,15 @@ def reached_share(shapes: Recess, radius: float) -> float:
     return float(shapely.intersection(reach, shapes.must).area / shapes.must.area)
 
 
-def _skin(keep: shapely.Geometry) -> shapely.Geometry:
-    """What rounding leaves standing where a feature ends at the edge: long and thin, no wall of the drawing.
+@lru_cache(maxsize=64)
+def _without_skin(keep: shapely.Geometry) -> shapely.Geometry:
+    """Without what rounding leaves standing where a feature ends at the edge: long and thin, no drawn wall.
 
-    The tip of a sharp wedge is as thin, but short.
+    The tip of a sharp wedge is as thin, but short. Choice, findings and plan ask for the same shapes.
     """
     thin = polygons(shapely.difference(keep, opened(keep, SKIN / 2)))
-    return shapely.union_all([p for p in thin if p.length > LONG or p.area < FILM * p.length])
+    skin = [part for part in thin if part.length > LONG or part.area < FILM * part.length]
+    return shapely.difference(keep, shapely.multipolygons(skin)) if skin else keep
 
 
 def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:

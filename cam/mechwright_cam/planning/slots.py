@@ -11,6 +11,7 @@ from functools import lru_cache
 import shapely
 
 from mechwright.tooling import Tool
+from mechwright_cam.buffers import buffered
 from mechwright_cam.reach import ROUGHLY, closing, roughly_swollen
 from mechwright_cam.toolpath.offsets import BIAS, ROUGH, grow
 
@@ -32,7 +33,7 @@ def fills_a_slot(radius: float, part: shapely.Geometry, allowance: float) -> boo
     if not _may_fill(radius, part, allowance):
         return False
     only = shapely.difference(closing(part, radius + allowance), closing(part, radius + BIAS))
-    return not shapely.is_empty(shapely.buffer(only, -FILLS * radius, quad_segs=8))
+    return not shapely.is_empty(buffered(only, -FILLS * radius, 8))
 
 
 def _may_fill(radius: float, part: shapely.Geometry, allowance: float) -> bool:

@@ -9,6 +9,7 @@ less that cutter's radius. Where it is nothing a disc touches the wall, and the 
 wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
+A bore has no such corners: it is cut to its wall (``bores``), or the program is not that of the part.
 """
 
 import math
@@ -24,6 +25,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
+from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
@@ -76,11 +78,11 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
     mills = [t for n, t in paths.tools.items() if n in used and t.kind in MILLS]
+    worst, at = uncut_bores(sweeps, job)
     if not mills:
-        return Remains(0.0, None, ())
+        return Remains(worst, at, ())
     reach, round_floors = Reach(mills, PLAY), fillets(job)
     smallest, widest = min(t.radius for t in mills) + PLAY, max(t.diameter for t in mills)
-    worst, at = 0.0, None
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
     extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))

@@ -162,8 +162,9 @@ def entries(scene: Scene) -> Check:
     plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS}
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
-    # A ramp may end lower than its angle allows by the last decimal: both its ends are rounded in the text.
-    steep = drop > flat * np.tan(np.radians(limit)) + 10.0**-scene.dialect.decimals
+    # Both ends are rounded in the text: a ramp may end a last decimal lower, and be one and a half shorter.
+    digit = 10.0**-scene.dialect.decimals
+    steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(limit)) + digit
     threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     # A thread mill goes down a finished hole, as steeply as its pitch asks.
     suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed

@@ -9,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
+from mechwright_cam.buffers import buffered
 from mechwright_cam.interpreter.run import Ints
 
 ROUND = 1e-4
@@ -29,7 +30,7 @@ def quarter(radius: float, error: float = ROUND) -> int:
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
     """The shape and all within ``distance`` of it; shrunk if that is negative."""
-    grown: Shape = shapely.buffer(shape, distance, quad_segs=quarter(distance, error))
+    grown: Shape = buffered(shape, distance, quarter(distance, error))
     return grown
 
 

@@ -194,12 +194,14 @@ def _shapes(
     total = of_v.sum(axis=0)
     of_v = np.multiply(v, power if weight is None else weight * power, out=y)
     k = of_v.sum(axis=0) / np.where(total > 0, 2 * total, 1.0)
+    # Of more than half a turn the centre is on the side of the arc, and it would be written the other way.
+    less_than_half = k * v.sum(axis=0) < 0
     radius = np.hypot(h, k)
     v *= 2 * k
     power -= v
     most, least = tolerance * (tolerance + 2 * radius), tolerance * (tolerance - 2 * radius)
     curved = (power.max(axis=0) <= most) & (power.min(axis=0) >= least)
-    return straight, curved & (total > 0) & (radius <= GREATEST_RADIUS) & (h > 0), k
+    return straight, curved & less_than_half & (total > 0) & (radius <= GREATEST_RADIUS) & (h > 0), k
 
 
 def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.buffers import buffered
 
 CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
@@ -43,12 +44,12 @@ def corners(radius: float, tolerance: float) -> int:
 
 def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> shapely.Geometry:
     """Everything within ``distance`` (shrink if negative), arcs within ``tolerance``, mm."""
-    return shapely.buffer(shape, distance, quad_segs=corners(abs(distance), tolerance))
+    return buffered(shape, distance, corners(abs(distance), tolerance))
 
 
 def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
     """The shape without what is thinner than twice ``width``."""
-    return shapely.buffer(shapely.buffer(shape, -width, quad_segs=2), width, quad_segs=2)
+    return buffered(buffered(shape, -width, 2), width, 2)
 
 
 @lru_cache(maxsize=16)

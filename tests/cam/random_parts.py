@@ -1,0 +1,322 @@
+"""Random plates for each operation: polygons with arcs, holes and islands, of many sizes, for any cutters and controls.
+
+``benchmarks/random_parts.py`` runs hundreds of them.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from planning_parts import LIBRARY, rounded_box
+from random_pockets import rounded
+
+from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.errors import MechwrightError
+from mechwright.findings import errors
+from mechwright.geometry import Arc, Line, Loop, Outline, circle
+from mechwright.host import host
+from mechwright.lettering import lettering
+from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.tooling import CamSettings, Tool, ToolKind
+from mechwright_cam.job import Job
+from mechwright_cam.pipeline import Machined, _after, dialect_of
+from mechwright_cam.planning import plan
+from mechwright_cam.proof import Proof, prove
+from mechwright_cam.setups import lay_out_setups
+
+Rng = np.random.Generator
+CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
+MATERIALS = ("aluminium", "steel", "brass", "pom")
+THREADS = {"m3": (3.0, 0.5), "m4": (4.0, 0.7), "m5": (5.0, 0.8), "m6": (6.0, 1.0), "m8": (8.0, 1.25)}
+
+
+def polygon(rng: Rng, size: float, x: float = 0.0, y: float = 0.0) -> Loop:
+    """A star-shaped polygon about a place, some of its corners round, others sharp."""
+    count = int(rng.integers(3, 9))
+    angles = np.linspace(0, math.tau, count, endpoint=False) + rng.uniform(-0.25, 0.25, count)
+    far = size * rng.uniform(0.65, 1.0, count)
+    points = np.array((x, y)) + np.column_stack((far * np.cos(angles), far * np.sin(angles)))
+    return rounded(points, rng.uniform(0.3, 0.3 * size, count))
+
+
+def slot(rng: Rng, length: float, width: float, x: float, y: float, angle: float) -> Loop:
+    """A slot with round, or nearly square, ends."""
+    return rounded_box(length, width, width * rng.choice([0.5, 0.3, 0.1])).moved(x, y, angle)
+
+
+def ring(rng: Rng, inner: float, outer: float) -> Loop:
+    """A groove along a circle."""
+    first, sweep = rng.uniform(0, 6), rng.uniform(0.5, 3)
+    one, two = Arc((0, 0), outer, first, sweep), Arc((0, 0), inner, first + sweep, -sweep)
+    return Loop((one, Line(one.end, two.start), two, Line(two.end, one.start)))
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A random part and what goes with it; features that stand apart from each other."""
+
+    part: Part
+    settings: dict[str, object]
+    kinds: frozenset[ToolKind] = frozenset()
+    """Kinds of cutter that the operation needs beside end mills."""
+
+
+def plate(
+    rng: Rng,
+    features: list[Feature],
+    rim: Loop,
+    thickness: float,
+    details: tuple[Chamfer | Thread | Engraving, ...] = (),
+) -> Part:
+    """The plate with what goes through it in its outline."""
+    inner = []
+    for f in features:
+        if f.top == 0 and f.depth == thickness:
+            if isinstance(f, Bore):
+                inner.append(Loop((circle(f.centre, f.diameter / 2, clockwise=True),)))
+            elif isinstance(f, Profile) and f.side == "inside":
+                inner.append(f.loop.reversed())
+    outside = Profile("outside", rim, "outside", 0.0, thickness)
+    machined = (*features, outside)
+    material = str(rng.choice(MATERIALS))
+    return Part("plate", Outline(rim, tuple(inner)), thickness, material, machined=machined, details=details)
+
+
+def _size(rng: Rng) -> tuple[float, float]:
+    """Size of a plate and its thickness, mm."""
+    return float(rng.uniform(22, 45)), round(float(rng.uniform(2, 9)), 1)
+
+
+def outside(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    return Drawn(plate(rng, [], polygon(rng, size), thick), {})
+
+
+def inside(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    window = Profile("window", polygon(rng, rng.uniform(4, 0.5 * size)), "inside", 0.0, thick)
+    return Drawn(plate(rng, [window], rounded_box(2 * size, 1.6 * size, 5), thick), {})
+
+
+def pocket(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    wide = rng.uniform(5, 0.75 * size)
+    depth = round(float(rng.uniform(0.3, 0.8)) * thick, 2)
+    islands = ()
+    if wide > 14 and rng.random() < 0.5:
+        islands = (polygon(rng, rng.uniform(1.5, 0.25 * wide)),)
+    recess = Pocket("recess", polygon(rng, wide), islands, 0.0, depth)
+    features: list[Feature] = [recess]
+    if rng.random() < 0.3 and not islands:  # a step lower
+        features.append(
+            Pocket("lower", Loop((circle((0.0, 0.0), 0.3 * wide),)), (), depth, 0.5 * (thick - depth))
+        )
+    return Drawn(plate(rng, features, rounded_box(2 * size, 1.8 * size, 4), thick), {})
+
+
+def adaptive(rng: Rng) -> Drawn:
+    drawn = pocket(rng)
+    how = {"clearing": "adaptive", "engagement": float(rng.uniform(40, 110)), "adaptive_depth": 1.0}
+    return replace(drawn, settings=how)
+
+
+def slots(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    width = rng.uniform(1.2, 9)
+    depth = round(min(float(rng.uniform(0.2, 0.9)) * thick, 3 * width), 2)
+    loop = slot(
+        rng, width + rng.uniform(2, size), width, rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(0, 3)
+    )
+    how = {"clearing": str(rng.choice(["contour", "adaptive"]))}
+    return Drawn(
+        plate(rng, [Pocket("slot", loop, (), 0.0, depth)], rounded_box(2 * size, 1.9 * size, 5), thick), how
+    )
+
+
+def groove(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    depth = round(float(rng.uniform(0.2, 0.7)) * thick, 2)
+    width = rng.uniform(2, 10)
+    if rng.random() < 0.4:
+        inner = rng.uniform(0.5, 0.9) * size
+        loop = ring(rng, inner, inner + width)
+    else:
+        loop = rounded_box(6 * size, width, 0.2).moved(0.0, rng.uniform(-0.3, 0.3) * size, rng.uniform(0, 3))
+    rim = rounded_box(2 * size, 1.7 * size, 4)
+    return Drawn(plate(rng, [Pocket("groove", loop, (), 0.0, depth)], rim, thick), {})
+
+
+def face(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    depth = round(float(rng.uniform(0.1, 0.3)) * thick, 2)
+    over = rounded_box(5 * size, 5 * size, 1)
+    features: list[Feature] = [Pocket("face", over, (), 0.0, depth)]
+    if rng.random() < 0.5:
+        below = polygon(rng, rng.uniform(5, 0.5 * size))
+        features.append(Pocket("recess", below, (), depth, round(0.5 * (thick - depth), 2)))
+    return Drawn(plate(rng, features, polygon(rng, size), thick), {})
+
+
+def holes(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    thick = round(thick * rng.choice([1.0, 2.0]), 1)
+    features: list[Feature] = []
+    for number in range(int(rng.integers(1, 5))):
+        diameter = float(rng.choice([2.0, 3.0, 3.3, 4.0, 5.0, 6.0, 8.0, rng.uniform(2, 14)]))
+        x = -0.75 * size + number * 0.45 * size
+        blind = rng.random() < 0.3 and diameter > 3
+        depth = round(float(rng.uniform(0.3, 0.8)) * thick, 2) if blind else thick
+        features.append(Bore(f"hole-{number}", (x, float(rng.uniform(-5, 5))), diameter, 0.0, depth))
+    rim = rounded_box(2 * size + 16, 1.2 * size, 5)
+    return Drawn(plate(rng, features, rim, thick), {}, frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL}))
+
+
+def thread(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    name = str(rng.choice(list(THREADS)))
+    diameter, pitch = THREADS[name]
+    at = (float(rng.uniform(-5, 5)), float(rng.uniform(-5, 5)))
+    cut = Thread(name, at, diameter, pitch, round(float(rng.uniform(0.4, 1.0)) * thick, 2))
+    core = Bore("core", at, cut.core, 0.0, thick)
+    part = plate(rng, [core], rounded_box(2 * size, 1.2 * size, 5), thick, (cut,))
+    return Drawn(part, {}, frozenset({ToolKind.THREAD_MILL, ToolKind.DRILL}))
+
+
+def chamfer(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    rim, width = polygon(rng, size), round(float(rng.uniform(0.2, 1.2)), 2)
+    if rng.random() < 0.5:
+        part = plate(rng, [], rim, thick, (Chamfer("edge", rim, "outside", width),))
+    else:
+        window = polygon(rng, rng.uniform(5, 0.5 * size))
+        features: list[Feature] = [Profile("window", window, "inside", 0.0, thick)]
+        edge = Chamfer("edge", window, "inside", width)
+        part = plate(rng, features, rounded_box(2 * size, 1.6 * size, 5), thick, (edge,))
+    return Drawn(part, {}, frozenset({ToolKind.CHAMFER}))
+
+
+def engrave(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    letters = "".join(
+        rng.choice(list("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-/ "), int(rng.integers(1, 7)))
+    ).strip()
+    strokes = lettering(letters or "A", rng.uniform(2.5, 6), (0.0, 0.0), rng.uniform(0, 3))
+    mark = Engraving("mark", strokes, round(float(rng.uniform(0.1, 0.3)), 2), 0.6)
+    part = plate(rng, [], rounded_box(2 * size + 10, 2 * size, 6), thick, (mark,))
+    return Drawn(part, {}, frozenset({ToolKind.CHAMFER}))
+
+
+def second_side(rng: Rng) -> Drawn:
+    size, thick = _size(rng)
+    bore = Bore("bore", (0.0, 0.0), float(rng.uniform(6, 10)), 0.0, thick)
+    depth = round(float(rng.uniform(0.2, 0.5)) * thick, 2)
+    if rng.random() < 0.5:
+        under: Feature = Bore("counterbore", (0.0, 0.0), bore.diameter + 4, thick - depth, depth)
+    else:
+        loop = polygon(rng, 0.3 * size, 0.0, 0.6 * size)
+        under = Pocket("mark", loop, (), thick - depth, depth)
+    how = {"second_side": {"flip": str(rng.choice(["x", "y"])), "locate": str(rng.choice(["bore", "edges"]))}}
+    rim = rounded_box(2 * size, 2.2 * size, 5)
+    return Drawn(plate(rng, [bore, under], rim, thick), how)
+
+
+OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
+    "outside": outside,
+    "inside": inside,
+    "pocket": pocket,
+    "adaptive": adaptive,
+    "slot": slots,
+    "groove": groove,
+    "face": face,
+    "holes": holes,
+    "thread": thread,
+    "chamfer": chamfer,
+    "engrave": engrave,
+    "second-side": second_side,
+}
+
+
+def cutters(rng: Rng, kinds: frozenset[ToolKind]) -> list[str]:
+    """Names of random end mills and of all cutters of the other kinds; none: let them be chosen."""
+    if rng.random() < 0.5:
+        return []
+    mills = [tool.name for tool in LIBRARY if tool.kind is ToolKind.END_MILL]
+    others = [tool.name for tool in LIBRARY if tool.kind in kinds]
+    return [*rng.choice(mills, int(rng.integers(1, 4)), replace=False).tolist(), *others]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a random part: programs with their proofs, or why planning refuses it."""
+
+    drawn: Drawn
+    control: str
+    refusal: str = ""
+    made: tuple[Machined, ...] = ()
+
+    @property
+    def failures(self) -> list[str]:
+        return [check.message for one in self.made for check in one.proof.failures]
+
+
+def run(operation: str, seed: int) -> Outcome:
+    """One random part with random cutters, settings and control."""
+    rng = np.random.default_rng(seed)
+    drawn = OPERATIONS[operation](rng)
+    control = str(rng.choice(CONTROLS))
+    wanted = {
+        "control": control,
+        "tools": cutters(rng, drawn.kinds),
+        "climb": bool(rng.integers(2)),
+        "origin": str(rng.choice(["axis", "corner", "centre"])),
+        "stock_to_leave": float(rng.choice([0.0, 0.1, 0.2, 0.5])),
+        "spring_passes": int(rng.integers(0, 3)),
+        "ramp_angle": float(rng.choice([1.0, 3.0, 10.0])),
+        "hold": {"tabs": int(rng.integers(2, 5)), "tab_height": float(rng.choice([0.5, 1.0]))},
+        **drawn.settings,
+    }
+    post = host().post(control)
+    made: list[Machined] = []
+    try:
+        cam = CamSettings.model_validate(wanted)
+        jobs, found = lay_out_setups(drawn.part, cam, LIBRARY)
+        if errors(found):
+            return Outcome(drawn, control, str(errors(found)[0]))
+        for job in jobs:
+            laid = job if job.side == "top" else _after(made[-1], job, post)
+            program = plan(laid)
+            text = post.write(program)
+            made.append(
+                Machined(laid, program, {program.name: text}, prove(text, laid, dialect_of(post)), text)
+            )
+    except MechwrightError as error:
+        return Outcome(drawn, control, str(error))
+    return Outcome(drawn, control, made=tuple(made))
+
+
+def without(outcome: Outcome, place: int, name: str) -> Proof | None:
+    """The proof of a program that lacks all operations on the feature or detail ``name``; None if it has none."""
+    one = outcome.made[place]
+    sections = []
+    for section in one.program.sections:
+        kept = tuple(o for o in section.operations if o.name.split(":")[0].split(" below")[0] != name)
+        if kept:
+            sections.append(replace(section, operations=kept))
+    if tuple(sections) == one.program.sections:
+        return None
+    if not sections:
+        return None
+    post = host().post(outcome.control)
+    return prove(post.write(replace(one.program, sections=tuple(sections))), one.job, dialect_of(post))
+
+
+def named(job: Job, tools: tuple[Tool, ...]) -> set[str]:
+    """Names of the features and details that operations of their own have to cut: holes to size have none."""
+    drills = {tool.diameter for tool in tools if tool.kind is ToolKind.DRILL}
+    names = {detail.name for detail in job.details}
+    for feature in job.features:
+        drilled = isinstance(feature, Bore) and any(abs(feature.diameter - d) <= 0.005 for d in drills)
+        if not drilled:
+            names.add(feature.name)
+    return names

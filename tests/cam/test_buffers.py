@@ -1,0 +1,68 @@
+"""Parallel curves: nothing of them is nearer to the shape than the distance, and nothing that is farther is lost."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mechwright_cam.buffers import THINNING, buffered
+
+# An opening with a bulge; with a distance of 2.5, GEOS 3.14 leaves a ring that is 1.9 from its walls.
+BULGE = [(4.957, 0.818), (-3.0197, -4.2554), (-1.7939, 1.7778), (-1.7, 2.07), (-1.554, 2.314), (-1.31, 2.58)]
+BULGE += [(-1.0, 2.77), (-0.7, 2.863), (-0.4, 2.889), (-0.125, 2.854), (0.0859, 2.788)]
+QUAD = 16
+
+
+def check(shape, distance):
+    found = buffered(shape, distance, QUAD)
+    assert found.is_valid
+    slack = abs(distance) * (1 - math.cos(math.pi / (4 * QUAD)) + THINNING)
+    edge = shapely.points(shapely.get_coordinates(found))
+    far = shapely.distance(edge, shape if distance > 0 else shapely.boundary(shape))
+    assert far.size == 0 or far.min() >= abs(distance) - slack
+    # What is farther away than the distance is free, or gone; what is nearer is not.
+    x0, y0, x1, y1 = shape.bounds
+    grid = np.array(np.meshgrid(np.linspace(x0, x1, 60), np.linspace(y0, y1, 60))).reshape(2, -1).T
+    points = shapely.points(grid)
+    inside = shapely.contains(found, points)
+    if distance > 0:
+        away = shapely.distance(points, shape)
+        assert not inside[away > distance + slack].any()
+        assert inside[away < distance - slack].all()
+    else:
+        away = np.where(shapely.contains(shape, points), shapely.distance(points, shapely.boundary(shape)), 0)
+        assert inside[away > -distance + slack].all()
+        assert not inside[away < -distance - slack].any()
+    return found
+
+
+@pytest.mark.parametrize("distance", np.arange(1.2, 3.0, 0.1))
+def test_an_opening_that_turns_inside_out_vanishes(distance):
+    plate = shapely.box(-20, -20, 20, 20)
+    bulge = shapely.Polygon(BULGE)
+    check(plate.difference(bulge), distance)
+    check(bulge, -distance)
+    island = shapely.Point(0.1, 0.0).buffer(0.05)
+    check(plate.difference(bulge).union(island), distance)
+
+
+def test_islands_in_openings_stay():
+    ring = shapely.Point(0, 0).buffer(20).difference(shapely.Point(0, 0).buffer(15))
+    found = check(shapely.union(ring, shapely.Point(0, 0).buffer(2)), 1.0)
+    assert [len(part.interiors) for part in shapely.get_parts(found)] == [1, 0]
+
+
+@given(seed=st.integers(0, 10**6), distance=st.floats(0.2, 6))
+def test_random_openings(seed, distance):
+    rng = np.random.default_rng(seed)
+    turn = np.sort(rng.uniform(0, math.tau, rng.integers(3, 12)))
+    far = rng.uniform(2, 8, len(turn))
+    opening = shapely.Polygon(np.column_stack((far * np.cos(turn), far * np.sin(turn)))).buffer(0)
+    opening = max(shapely.get_parts(opening), key=lambda part: part.area)
+    if rng.random() < 0.5:
+        opening = opening.buffer(rng.uniform(0.1, 1)).buffer(-0.05)
+    check(shapely.box(-20, -20, 20, 20).difference(opening), distance)
+    check(opening, -distance)

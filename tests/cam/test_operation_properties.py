@@ -1,0 +1,65 @@
+"""Whatever is drawn, and with whatever cutters: proven, or refused with a reason; never empty, never in part."""
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from random_parts import OPERATIONS, Outcome, named, run, without
+
+EXAMPLES = {"adaptive": 2, "slot": 3}
+"""The slow ones; every other operation has five."""
+REASON = re.compile(r"(error \[cam\.[a-z-]+\] )?(cam\.[a-z_.]+: |part plate)")
+"""How the reasons of planning begin: with the key of the design file, or with the part."""
+
+
+def check(outcome: Outcome) -> None:
+    if outcome.refusal:
+        assert "\n" not in outcome.refusal
+        assert REASON.match(outcome.refusal), outcome.refusal
+        part = outcome.drawn.part
+        names = [f.name for f in part.features] + [d.name for d in part.details]
+        assert "cam." in outcome.refusal or any(name in outcome.refusal for name in names), outcome.refusal
+        return
+    assert not outcome.failures, (outcome.control, outcome.failures)
+    assert outcome.made
+    done = set()
+    for one in outcome.made:
+        assert one.proof.cutting_length_mm > 0
+        operations = [o for section in one.program.sections for o in section.operations]
+        assert all(o.moves for o in operations)
+        done |= {o.name.split(":")[0] for o in operations}
+    for one in outcome.made:
+        assert named(one.job, one.program.tools) <= done
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_any_part_is_proven_or_refused(operation: str) -> None:
+    @settings(max_examples=EXAMPLES.get(operation, 5))
+    @given(seed=st.integers(0, 10**9))
+    def every(seed: int) -> None:
+        check(run(operation, seed))
+
+    every()
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_a_program_without_one_feature_is_not_proven(operation: str) -> None:
+    """Each is found that is missing, whatever it is: the first proven part of each operation is taken apart."""
+    outcome = next(o for o in (run(operation, seed) for seed in range(50)) if o.made and not o.failures)
+    looked = 0
+    for place, one in enumerate(outcome.made):
+        for name in sorted(named(one.job, one.program.tools)):
+            proof = without(outcome, place, name)
+            if proof is not None:
+                looked += 1
+                found = {check.name for check in proof.failures}
+                assert found & {"leftover", "depth", "details"}, (name, found)
+    assert looked or operation == "outside"
+
+
+def test_refusals_are_rare_and_cuts_are_many() -> None:
+    """The properties above would hold for a planner that refuses everything."""
+    outcomes = [run("pocket", int(seed)) for seed in np.arange(8)]
+    assert sum(bool(o.made) for o in outcomes) >= 6
