@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import shapely
 
-from mechwright.cutter import cutter
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.materials import material
@@ -19,7 +18,7 @@ from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import CUSP, bottom_of, through
+from mechwright_cam.planning.zone import bottom_of, through
 from mechwright_cam.toolpath.path import Path, arc, circle, rounded
 
 DEEP = 3.0
@@ -70,7 +69,8 @@ def starting_drill(job: Job, diameter: float, depth: float) -> Tool | None:
 def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:
     """The mill for a hole: the largest with room for chips, else the smallest that fits at all.
 
-    Flat end mills come before round ones.
+    Flat end mills come before round ones, which leave a fillet on the floor of a blind hole and are for holes
+    through the plate.
     """
     flat = [mill for mill in mills if mill.nose == 0 and mill.diameter <= SNUG * diameter]
     mills = flat or mills
@@ -83,12 +83,6 @@ def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
     """Depth of a bore's cuts, z in mm: out of the plate with all of a rounded corner."""
     bottom = bottom_of(job, bore.top, bore.depth)
     return bottom - mill.nose if bottom == job.floor else bottom
-
-
-def _foot(job: Job, bore: Bore, mill: Tool) -> float:
-    """Radius to which a mill makes the floor of a bore flat, mm; all of it in a hole through the plate."""
-    out = through(job, bore.top + bore.depth)
-    return mill.radius if out else float(cutter(mill).radius_at(CUSP))
 
 
 @dataclass(frozen=True)
@@ -105,7 +99,7 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
     depth = -bottom_of(job, bore.top, bore.depth)
     out = through(job, bore.top + bore.depth)
     usable = usable_mills(job, depth)
-    able = usable if out else [tool for tool in usable if tool.nose < tool.radius]
+    able = usable if out else [tool for tool in usable if tool.nose == 0]
     mill = boring_mill([tool for tool in able if enters(tool, bore.diameter, job.settings)], bore.diameter)
     if mill is not None:
         drill = starting_drill(job, bore.diameter, depth) if out else None
@@ -186,9 +180,8 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
         return False  # the drill has left just the finishing allowance
     # Too narrow for an allowance: the finishing circle is the only one.
     widest = widest if widest >= final / 2 else final
-    foot = _foot(job, bore, mill)
-    step = min(data.step_over * mill.diameter, CORELESS * 2 * foot)
-    first = min(widest, CORELESS * foot)
+    step = min(data.step_over, CORELESS) * mill.diameter
+    first = min(widest, CORELESS * mill.radius)
     if plan.drill is not None:
         first = max(first, min(widest, plan.drill.radius + step - mill.radius))
     edge = open_radius(job, bore) - mill.radius
