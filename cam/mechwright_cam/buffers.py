@@ -72,7 +72,9 @@ def _with_corners(shape: Any, distance: float) -> Any:
     if not parts.size or (shapely.get_num_coordinates(shapely.get_rings(parts)) > FEW).all():
         return shape
     pieces = [_dotted(piece, distance > 0) for piece in shapely.get_parts(shape).tolist()]
-    return pieces[0] if len(pieces) == 1 else shapely.geometrycollections(pieces)
+    if all(piece.geom_type == "Polygon" for piece in pieces):
+        return _joined(np.array(pieces, dtype=object))
+    return shapely.geometrycollections(pieces)  # grown only: of mixed shapes nothing is left when they shrink
 
 
 def _dotted(piece: Any, inside: bool) -> Any:

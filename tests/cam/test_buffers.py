@@ -80,3 +80,8 @@ def test_the_middle_of_an_opening_that_is_just_wide_enough_stays(seed, share):
     assert shapely.contains(buffered(opening, -share * radius, QUAD), middle)
     plate = shapely.union(shapely.box(-20, -20, 20, 20).difference(opening), shapely.box(30, 0, 31, 1))
     assert not shapely.contains(buffered(plate, share * radius, QUAD), middle)
+
+
+def test_all_pieces_of_a_shape_are_shrunk():
+    pieces = [shapely.box(0, 0, 5, 5), shapely.box(8, 0, 13, 5)]
+    assert buffered(shapely.MultiPolygon(pieces), -1, QUAD).area == pytest.approx(18)
