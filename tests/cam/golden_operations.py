@@ -95,31 +95,31 @@ CASES: dict[str, Case] = {
     "pocket-contour": Case(
         (Pocket("recess", rounded_box(28, 20, 5), (), 0, 2),),
         ("mill-8",),
-        ("recess: rough", "recess: finish the floor", "recess: finish"),
+        ("recess: rough", "recess: finish"),
         settings=FLUSH,
     ),
     "pocket-island": Case(
         (Pocket("recess", rounded_box(34, 24, 5), (Loop((circle((0, 0), 4.0),)),), 0, 1),),
         ("mill-6",),
-        ("recess: rough", "recess: finish the floor", "recess: finish"),
+        ("recess: rough", "recess: finish"),
         settings=FLUSH,
     ),
     "pocket-adaptive": Case(
         (Pocket("recess", Loop((circle((0, 0), 9.0),)), (), 0, 3),),
         ("mill-8",),
-        ("recess: clear", "recess: rough the rest", "recess: finish the floor", "recess: finish"),
+        ("recess: clear", "recess: rough the rest", "recess: finish"),
         settings={**FLUSH, "clearing": "adaptive", "engagement": 90},
     ),
     "slot": Case(
         (Pocket("slot", rounded_box(30, 8.0, 4.0), (), 0, 2),),
         ("mill-6",),
-        ("slot: rough", "slot: finish the floor", "slot: finish"),
+        ("slot: rough", "slot: finish"),
         settings=FLUSH,
     ),
     "groove": Case(
         (Pocket("groove", box(-30, -5, 30, 5), (), 0, 2),),
         ("mill-6",),
-        ("groove: rough", "groove: finish the floor", "groove: finish"),
+        ("groove: rough", "groove: finish"),
         settings=FLUSH,
     ),
     "rest": Case(
@@ -127,9 +127,7 @@ CASES: dict[str, Case] = {
         ("mill-12", "mill-4"),
         (
             "recess: rough",
-            "recess: finish the floor",
             "recess: rough the rest",
-            "recess: finish the rest of the floor",
             "recess: finish",
         ),
         settings=FLUSH,
@@ -195,13 +193,13 @@ CASES: dict[str, Case] = {
     "ramp": Case(
         (Pocket("keyway", rounded_box(24, 6.0, 3.0), (), 0, 1.5),),
         ("mill-5",),
-        ("keyway: rough", "keyway: finish the floor", "keyway: finish"),
+        ("keyway: rough", "keyway: finish"),
         settings={**FLUSH, "ramp_angle": 2},
     ),
     "helix": Case(
         (Pocket("seat", Loop((circle((0, 0), 8.0),)), (), 0, 2),),
         ("mill-8",),
-        ("seat: rough", "seat: finish the floor", "seat: finish"),
+        ("seat: rough", "seat: finish"),
         settings={**FLUSH, "ramp_angle": 5},
     ),
     "tabs-ramped": Case(
@@ -279,7 +277,7 @@ CASES: dict[str, Case] = {
     "conventional": Case(
         (Pocket("recess", rounded_box(24, 16, 5), (), 0, 2),),
         ("mill-8",),
-        ("recess: rough", "recess: finish the floor", "recess: finish"),
+        ("recess: rough", "recess: finish"),
         settings={**FLUSH, "climb": False, "spring_passes": 0, "stock_to_leave": 0.5},
     ),
     "second-side": Case(
