@@ -37,6 +37,7 @@ WHERE = "__import__('os').getpid()"
         f"{HERE} if {WHERE} == {HERE} else 'another type'",
         f"{HERE} if {WHERE} == {HERE} else __import__('threading').Lock()",  # no copy of it
     ],
+    ids=["dies", "raises", "another-type", "no-copy"],  # the process number is another at every run
 )
 def test_what_goes_wrong_there_is_done_here(fault):
     with Beside([]) as second:
