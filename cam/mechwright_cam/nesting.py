@@ -19,7 +19,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, Placed, make_nest
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.zone import channel_width
+from mechwright_cam.planning.zones import channel_width
 from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.setups import sides
 

@@ -206,7 +206,7 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     """
     from mechwright_cam.planning.centre_lines import grooves
     from mechwright_cam.planning.recess import plan_view
-    from mechwright_cam.planning.zone import inner_zones, outer_zones, through
+    from mechwright_cam.planning.zones import inner_zones, outer_zones, through
 
     plates = polygons(job.target)
     walls = [closing(zone.wall, job.reach(zone.finisher)) for zone in outer_zones(job) if not zone.at_tabs]

@@ -8,7 +8,7 @@ from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import bottom_of
+from mechwright_cam.planning.zones import bottom_of
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.offsets import FIT, densified
 from mechwright_cam.toolpath.path import Path

@@ -10,7 +10,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.planning.entry import bore_lead, offsets_of
 from mechwright_cam.planning.holes import CIRCLE_BIAS
 from mechwright_cam.planning.pen import Pen, levels
-from mechwright_cam.planning.zone import bottom_of
+from mechwright_cam.planning.zones import bottom_of
 from mechwright_cam.toolpath.path import Path, arc, circle, line, rounded
 
 

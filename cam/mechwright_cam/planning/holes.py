@@ -18,7 +18,7 @@ from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import bottom_of, through
+from mechwright_cam.planning.zones import bottom_of, through
 from mechwright_cam.toolpath.path import Path, arc, circle, rounded
 
 DEEP = 3.0

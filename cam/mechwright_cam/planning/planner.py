@@ -35,7 +35,8 @@ from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
 from mechwright_cam.planning.walls import Cut, Walls
-from mechwright_cam.planning.zone import Zone, check_clamp, inner_zones, outer_walls
+from mechwright_cam.planning.zone import Zone
+from mechwright_cam.planning.zones import check_clamp, inner_zones, outer_walls
 
 
 def plan(job: Job) -> Program:

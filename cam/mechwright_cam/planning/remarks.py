@@ -22,7 +22,8 @@ from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import plan_bore
 from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.selection import choose_tools
-from mechwright_cam.planning.zone import Zone, bores, check_clamp, inner_zones, outer_zones
+from mechwright_cam.planning.zone import Zone
+from mechwright_cam.planning.zones import bores, check_clamp, inner_zones, outer_zones
 from mechwright_cam.reach import remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow
 

@@ -29,13 +29,7 @@ from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
-from mechwright_cam.planning.zone import (
-    bores,
-    bottom_of,
-    floor_mills,
-    roughing_mills,
-    through,
-)
+from mechwright_cam.planning.zones import bores, bottom_of, floor_mills, roughing_mills, through
 from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
 from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons

@@ -1,0 +1,306 @@
+"""The zones of a job: recesses and openings, and the channel around the outside in its layers."""
+
+import math
+from collections.abc import Container, Sequence
+from functools import partial
+
+import shapely
+
+from mechwright.errors import DesignError, ToolError
+from mechwright.part import Bore, Pocket, Profile
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import Tool
+from mechwright_cam.job import Job
+from mechwright_cam.nest import Nest
+from mechwright_cam.planning.choice import (
+    finishing_choice,
+    last_mills,
+    makes_floor,
+    roomy_mills,
+    usable_mills,
+)
+from mechwright_cam.planning.recess import Recess, reached_share, recess
+from mechwright_cam.planning.slots import outside_mills
+from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
+from mechwright_cam.reach import roughly_swollen
+from mechwright_cam.toolpath.offsets import (
+    BIAS,
+    ROUGH,
+    filled,
+    grow,
+    polygons,
+    simplified,
+    thinned,
+)
+from mechwright_cam.toolpath.path import DECIMALS
+from mechwright_cam.vice import CLAMP_GAP, beside
+
+
+def through(job: Job, depth: float) -> bool:
+    """Whether a feature of this depth goes through the plate."""
+    return depth >= job.thickness - TOLERANCES.noise
+
+
+def bottom_of(job: Job, top: float, depth: float) -> float:
+    """Height z of the bottom of a cut; through cuts go below the plate."""
+    return job.floor if through(job, top + depth) else -(top + depth)
+
+
+LEAST_SHARE = 0.02
+"""A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
+
+
+ENTERED = 0.5
+"""Below this share of a groove a mill has only come in at its open ends."""
+FILLED = 0.9
+"""A mill makes a groove of its own width if it reaches this share of it."""
+
+
+def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
+    """Openings that are not round, and pockets, but for those of some names."""
+    zones = []
+    for feature in job.features:
+        if feature.name in skip:
+            continue
+        if not isinstance(feature, Pocket) and not (
+            isinstance(feature, Profile) and feature.side == "inside"
+        ):
+            continue
+        bottom = bottom_of(job, feature.top, feature.depth)
+        radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+        mills = usable_mills(job, -bottom, radius)
+        shapes = recess(job, feature, mills[0].diameter, bottom)
+        if shapely.is_empty(shapes.must):
+            raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
+        snug = False
+        if radius > 0:
+            last, snug = floor_mills(job, feature, mills, shapes)
+            mills = last if snug else roomy_mills(mills, shapes.must)
+        else:
+            if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
+                raise ToolError(
+                    f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
+                    f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
+                )
+            mills = roomy_mills(mills, shapes.must)
+            last = last_mills(mills, shapes.keep, shapes.must if shapes.open else None)
+        finisher = last[-1]
+        if shapes.open:  # once more, to run out no further than the finishing cutter needs
+            run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
+            shapes = recess(job, feature, run_out, bottom)
+        zone = Zone(
+            feature.name,
+            shapes.keep,
+            shapes.around,
+            -feature.top,
+            bottom,
+            mills,
+            finisher,
+            "pocket" if isinstance(feature, Pocket) else "inside",
+            bottom == job.floor,
+            feature,
+            shapes.must if shapes.open else None,
+            below=bottom == job.floor,
+            before=last[0] if len(last) > 1 else None,
+            floor_radius=radius,
+            snug=snug,
+        )
+        if shapes.open:
+            zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
+        zones.append(zone)
+    return zones
+
+
+def floor_mills(
+    job: Job, feature: Pocket | Profile, mills: Sequence[Tool], shapes: Recess
+) -> tuple[list[Tool], bool]:
+    """The mill that makes a floor with a fillet, and whether it is just as wide as the recess.
+
+    Raises ToolError if none has the radius, or none gets in.
+    """
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    able = [mill for mill in mills if makes_floor(mill, radius)]
+    if not able:
+        raise ToolError(
+            f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
+            f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
+        )
+    if reached_share(shapes, able[-1].radius + BIAS) < ENTERED:
+        fit = [mill for mill in able if reached_share(shapes, mill.radius - SNUG) >= FILLED]
+        if fit:
+            return fit[:1], True
+    fit = [mill for mill in able if reached_share(shapes, mill.radius + BIAS) >= LEAST_SHARE]
+    if not fit:
+        raise ToolError(
+            f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
+            "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
+        )
+    fit = roomy_mills(fit, shapes.must)
+    return [finishing_choice(fit, shapes.keep, shapes.must if shapes.open else None)], False
+
+
+def outer_zones(job: Job) -> list[Zone]:
+    """The outsides: one zone each, or two with tabs, above and below their tops."""
+    return [zone for wall in outer_walls(job) for zone in wall]
+
+
+def outer_walls(job: Job) -> list[list[Zone]]:
+    """The zones of :func:`outer_zones`, outside by outside: a nest has several."""
+    walls = []
+    for feature in job.features:
+        if not (isinstance(feature, Profile) and feature.side == "outside"):
+            continue
+        if not through(job, feature.top + feature.depth):
+            raise DesignError(
+                f"part {job.part.name}: the outside {feature.name} ends {feature.depth:g} mm below "
+                f"{feature.top:g} mm and not at the underside; only outsides through the plate can be cut"
+            )
+        part = shapely.Polygon(feature.loop.flatten())
+        # A mill too wide for the frame is as good as none, for finishing as well.
+        mills = roughing_mills(job, usable_mills(job, -job.floor), part)
+        mills = outside_mills(mills, part, job.settings.stock_to_leave)
+        clear, channel = _channel(job, part, mills[0])
+        last = last_mills(mills, part)
+        finisher = last[-1]
+
+        layer = partial(
+            Zone,
+            wall=part,
+            mills=mills,
+            finisher=finisher,
+            kind="outside",
+            through=True,
+            channel=channel,
+            before=last[0] if len(last) > 1 else None,
+        )
+        zones: list[Zone] = []
+        if shapely.is_empty(clear):
+            continue  # all of its edges are those of the stock
+        top = -feature.top
+        own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
+        if own:
+            # Rounded upwards: a decimal too low would already cut the tabs.
+            height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=height))
+            if own[0].ramped:
+                name = f"{feature.name} over the tabs"
+                zones.append(
+                    layer(name, clear=clear, top=height, bottom=job.floor, slopes=tuple(own), below=True)
+                )
+            else:
+                tabs = shapely.union_all([tab.shape for tab in own])
+                name = f"{feature.name} below the tabs"
+                below = clear.difference(tabs)
+                zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
+        else:
+            zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
+        walls.append(zones)
+    return walls
+
+
+def roughing_mills(
+    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None
+) -> list[Tool]:
+    """The mills whose channel around the part leaves a frame, largest first.
+
+    Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
+    error if no mill leaves one.
+    """
+    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill))]
+    if fit or not (bool(job.tabs) if framed is None else framed):
+        return fit or mills
+    least = channel_width(job, mills[-1])
+    apart = _neighbour(job, part)
+    if apart < 2 * least + FRAME:
+        raise DesignError(
+            f"cam.nest.gap: {apart:.2f} mm between the parts of {job.part.name} leave no frame between two "
+            f"channels of {least:.2f} mm; use at least {math.ceil(2 * least + FRAME):g} mm"
+        )
+    x0, y0, x1, y1 = part.bounds
+    margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
+    raise DesignError(
+        f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
+        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm, or hold by the bore"
+    )
+
+
+FRAME = 1.0
+"""Least width of the frame that tabs end in, mm."""
+
+
+def channel_width(job: Job, mill: Tool) -> float:
+    """Width of the channel that a mill opens around the part in one pass, mm."""
+    return mill.diameter + max(job.settings.stock_to_leave, SLACK)
+
+
+def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
+    """Whether the stock around a channel of this width is one ring at least FRAME wide."""
+    x0, y0, x1, y1 = part.bounds
+    far = width + FRAME
+    return bool(
+        x0 - far >= job.stock[0]
+        and y0 - far >= job.stock[1]
+        and x1 + far <= job.stock[2]
+        and y1 + far <= job.stock[3]
+        and _neighbour(job, part) >= width + far - NEARLY
+    )
+
+
+NEARLY = 1e-6
+"""Gaps are compared to this, mm: parts that were placed at a distance have it but for rounding."""
+
+
+def _neighbour(job: Job, part: shapely.Geometry) -> float:
+    """Distance of an outside from the next part of a nest, mm; inf where it is alone."""
+    if not isinstance(job.part, Nest):
+        return math.inf
+    # A turned polygon is not the same to the last digit; its own plate is the one it overlaps.
+    others = [one for one in polygons(job.target) if not shapely.intersects(one, part)]
+    return min((float(shapely.distance(one, part)) for one in others), default=math.inf)
+
+
+def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
+    """What has to go around the part, and the outer limit of the channel."""
+    width = channel_width(job, mill)
+    thin = thinned(part)  # the finishing of the wall does not depend on it
+    if not _has_frame(job, part, width):
+        # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
+        if job.settings.stock.finished:
+            return beside(shapely.box(*job.stock), part), None
+        return shapely.box(*job.stock).difference(thin), None
+    # Whatever the channel encloses would come loose, so it goes as well.
+    near = roughly_swollen(part, width - mill.radius)
+    channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
+    return channel.difference(thin), channel
+
+
+def check_clamp(job: Job) -> None:
+    """Raise DesignError if the clamp comes too near to the outside."""
+    if job.clamp is None:
+        return
+    reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
+    limit = 2 * (float(reach) - CLAMP_GAP)
+    if job.clamp.diameter > limit:
+        raise DesignError(
+            f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
+            f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
+        )
+
+
+def bores(job: Job) -> list[Bore]:
+    """The round holes."""
+    return [feature for feature in job.features if isinstance(feature, Bore)]
+
+
+__all__ = [
+    "Zone",
+    "bores",
+    "bottom_of",
+    "check_clamp",
+    "inner_zones",
+    "outer_walls",
+    "outer_zones",
+    "polygons",
+    "roughing_mills",
+    "through",
+]
