@@ -26,6 +26,7 @@ from mechwright.sections import blind
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.broken_edges import Edge, body
 from mechwright_cam.recess_tools import edges_of, round_floored, taken
+from mechwright_cam.threads import prepared
 
 SAME_LOOP = 4 * TOLERANCES.flatten
 """A chamfer follows an edge if the two are no further apart than this, mm, on the mean."""
@@ -78,7 +79,7 @@ def _plate(edges: Sequence[Edge], thickness: float) -> cq.Solid:
 def _chamfered(whole: cq.Solid, edge: Edge, thickness: float, error: GeometryError) -> cq.Solid:
     """The kernel's chamfer along a loop; ``error`` says what else was tried."""
     ring = shapely.LinearRing(edge.loop.flatten())
-    shapely.prepare(ring)
+    ring = prepared(ring)
     maker = BRepFilletAPI_MakeChamfer(whole.wrapped)
     for one in whole.Edges():
         points = [one.positionAt(t) for t in (0.0, 0.5, 1.0)]

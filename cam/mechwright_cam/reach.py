@@ -23,6 +23,7 @@ from mechwright.motion import Array
 from mechwright.part import Bore
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons, thinned
 
 PRECISION = 1e-4
@@ -78,7 +79,7 @@ def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
     points: Array = shapely.get_coordinates(keep)
     if near is None:
         return points
-    shapely.prepare(near)
+    near = prepared(near)
     found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
     return found
 
@@ -93,7 +94,7 @@ def remainder_depths(
     """
     walls = _points(keep, near)
     touched = shapely.boundary(closing(keep, radius))
-    shapely.prepare(touched)
+    touched = prepared(touched)
     depths = np.zeros(len(walls))
     # Nearly every point is touched; the prepared test for that is much faster than a distance.
     points = shapely.points(walls)
@@ -145,7 +146,7 @@ def _deep(
     shape: shapely.Geometry, keep: shapely.Geometry, near: shapely.Geometry | None
 ) -> NDArray[np.bool_]:
     """Which corners of ``keep``, or those ``near`` a shape, lie in another one."""
-    shapely.prepare(shape)
+    shape = prepared(shape)
     x, y = _points(keep, near).T
     inside: NDArray[np.bool_] = shapely.contains_xy(shape, x, y)
     return inside

@@ -21,6 +21,7 @@ from mechwright.motion import Array
 from mechwright.part import Profile
 from mechwright.tooling import MILLS
 from mechwright_cam.nest import Nest
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import filled
 
 if TYPE_CHECKING:
@@ -184,7 +185,7 @@ def _slope(job: "Job") -> float:
 def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
     """A ramped tab with its inner end so far inside the part that no path along the wall runs around it."""
     part = shapely.Polygon(feature.loop.flatten())
-    shapely.prepare(part)
+    part = prepared(part)
     # Where its inner end is in the part, no cutter that keeps off the part gets around it. Through cuts go on
     # down below the underside.
     half = (tab.width + slopes) / 2 + job.settings.breakthrough / tab.slope

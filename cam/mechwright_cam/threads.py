@@ -3,7 +3,9 @@
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
+from typing import Any, TypeVar
+
+import shapely
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -21,3 +23,14 @@ def together(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
         return [function(item) for item in work]
     with ThreadPoolExecutor(count) as pool:
         return list(pool.map(function, work))
+
+
+def prepared(shape: Any) -> Any:
+    """A copy of a shape, prepared for many questions.
+
+    A prepared shape builds indices while it is asked, and threads that ask the same one at once spoil them:
+    so what is prepared is never what others may hold.
+    """
+    own = shapely.force_2d(shape)
+    shapely.prepare(own)
+    return own

@@ -174,7 +174,8 @@ class Simulation:
             a = heading + np.radians(np.arange(-90, 91, 3))
             i = ((place[0] + (r - 0.3 * self.pitch) * np.cos(a) - self.x[0]) / self.pitch + 0.5).astype(int)
             j = ((place[1] + (r - 0.3 * self.pitch) * np.sin(a) - self.y[0]) / self.pitch + 0.5).astype(int)
-            angle = 3.0 * float((self.height[j, i] > place[2] + 0.01).sum())
+            stands = np.maximum(place[2], self.lowest[j, i]) + 0.01
+            angle = 3.0 * float((self.height[j, i] > stands).sum())
         if move.kind == "rapid" and volume > 0:
             self.complaints.append(f"line {move.line}: rapid into {volume:.3f} mm³ at {place}")
         self.met.append((index, move.tool, *place, way, volume / way, angle, depth, flat <= 1e-6))

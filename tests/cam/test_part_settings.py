@@ -32,6 +32,8 @@ OVERRIDES = {
     "breakthrough": 0.5,
     "stock_to_leave": 0.1,
     "floor_to_leave": 0.05,
+    "compensation": "wear",
+    "wear_limit": 0.05,
     "spring_passes": 2,
     "finish_step": 1.5,
     "ramp_angle": 2.0,

@@ -1,10 +1,12 @@
 """Work done at once gives what it gives one after another."""
 
 import threading
+from pathlib import Path
 
 import pytest
+import shapely
 
-from mechwright_cam.threads import together
+from mechwright_cam.threads import prepared, together
 
 
 def test_results_come_in_the_order_of_the_items() -> None:
@@ -24,3 +26,13 @@ def test_the_error_of_the_first_item_is_raised() -> None:
 
 def test_a_single_item_takes_no_thread() -> None:
     assert together(lambda _: threading.current_thread(), [0]) == [threading.current_thread()]
+
+
+def test_what_is_prepared_is_a_copy_and_nothing_else_in_cam_prepares():
+    shape = shapely.box(0, 0, 2, 1)
+    own = prepared(shape)
+    assert shapely.is_prepared(own)
+    assert not shapely.is_prepared(shape)
+    assert shapely.equals_identical(own, shape)
+    for path in (Path(__file__).parents[2] / "cam").rglob("*.py"):
+        assert ("shapely.prepare(" in path.read_text(encoding="utf-8")) == (path.name == "threads.py"), path

@@ -36,6 +36,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.choice import entry_place
 from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.offsets import ROUGH, densified, grow, polygons, simplified
 from mechwright_cam.toolpath.path import Path, circle
@@ -112,7 +113,7 @@ def engagements(points: Array, cleared: shapely.Geometry, radius: float) -> Arra
     middle = (points[:-1] + points[1:]) / 2
     angle = heading[:, None] + FRONT_ANGLES
     edge = middle[:, None] + EDGE * radius * np.stack((np.cos(angle), np.sin(angle)), axis=2)
-    shapely.prepare(cleared)
+    cleared = prepared(cleared)
     x, y = edge.reshape(-1, 2).T
     stock = ~shapely.contains_xy(cleared, x, y).reshape(angle.shape)
     found: Array = stock.sum(axis=1) * (FRONT_ANGLES[1] - FRONT_ANGLES[0])
@@ -164,7 +165,7 @@ class _Clearing:
         self.rest: list[shapely.Polygon] = []
         self.end: Point | None = None
         self.walls = shapely.boundary(area)
-        shapely.prepare(self.walls)
+        self.walls = prepared(self.walls)
 
     def cavity(self) -> Cavity | None:
         centre, widest = entry_place(self.area)
@@ -279,7 +280,7 @@ class _Clearing:
         points = shapely.get_coordinates(shapely.segmentize(stock, step))
         places = shapely.points(points)
         edge = shapely.union_all([shapely.boundary(p) for p in self.rest if shapely.intersects(p, stock)])
-        shapely.prepare(edge)
+        edge = prepared(edge)
         # The front is where the rest ends and no wall stands.
         front = shapely.dwithin(edge, places, COARSE) & ~shapely.dwithin(self.walls, places, COARSE)
         points = points[front] if front.any() else points
@@ -293,8 +294,7 @@ class _Clearing:
         """What is cleared within a box, prepared."""
         rest = shapely.union_all([shapely.intersection(piece, box) for piece in self.rest])
         cleared = shapely.difference(shapely.intersection(self.area, box), rest)
-        shapely.prepare(cleared)
-        return cleared
+        return prepared(cleared)
 
     def _engaged(self, way: Array, cleared: shapely.Geometry) -> float:
         dense = densified(way, SAMPLE * self.radius)
@@ -365,8 +365,8 @@ class _Ahead:
         self.fat = grow(stock, COARSE, COARSE)
         self.old = grow(cleared, 2 * COARSE - radius, COARSE)
         self.near = grow(stock, radius + COARSE, COARSE)
-        shapely.prepare(self.old)
-        shapely.prepare(self.near)
+        self.old = prepared(self.old)
+        self.near = prepared(self.near)
 
 
 def _apart(stock: shapely.Geometry, cleared: shapely.Geometry) -> list[shapely.Polygon]:

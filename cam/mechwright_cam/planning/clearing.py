@@ -21,6 +21,7 @@ from mechwright.tooling import Tool
 from mechwright_cam.buffers import buffered
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import CUSP, SLACK, Zone
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
     BIAS,
@@ -189,7 +190,7 @@ class Roughing:
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
         near = grow(self.zone.standing, self.tool.radius + self.zone.over - CLEAR, ROUGH)
-        shapely.prepare(near)
+        near = prepared(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
             groups.setdefault(part, []).append(piece)
@@ -202,7 +203,7 @@ class Roughing:
         paths = iter(fit_all([points for _, runs in ordered for points in runs], self.fit))
         # Slack for rounding: a link along a ring's chord may cut its corner by this much.
         free = grow(self.free, 2 * self.chord + self.fit, ROUGH)
-        shapely.prepare(free)
+        free = prepared(free)
         cavities = []
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
@@ -239,12 +240,12 @@ class Roughing:
 
     def _pieces(self) -> list[Piece]:
         radius = self.tool.radius
-        shapely.prepare(self.room)
+        self.room = prepared(self.room)
         found: list[Piece] = []
         blocked, core = self.blocked, self.core
         wanted = grow(core, self.touch, ROUGH)
         near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
-        shapely.prepare(near)
+        near = prepared(near)
         order = 0
         while True:
             if order:
@@ -254,7 +255,7 @@ class Roughing:
                     return found
                 blocked = self._blocked(order)
                 wanted = grow(core, self.touch, ROUGH)
-            shapely.prepare(wanted)
+            wanted = prepared(wanted)
             some = False
             for ring in rings(blocked, self.climb, self.chord):
                 dense = densified(ring, radius / 2)

@@ -29,6 +29,7 @@ from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
 from mechwright_cam.planning.finishing import LEAD_PLAY
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import HEAVY, Zone
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.contour import contour_beside
 from mechwright_cam.toolpath.leads import middle_of_longest
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, densified, grow, pieces, rings
@@ -79,20 +80,16 @@ class CompensatedFinishing:
         self.room = zone.room(self.tool.radius, finishing=True)
         self.near = grow(zone.left, self.tool.radius - CLEAR, ROUGH)
         self.wide = grow(self.room, CLEAR + self.offsets.limit, ROUGH)
-        for shape in (self.room, self.near, self.wide):
-            shapely.prepare(shape)
+        self.room, self.near, self.wide = map(prepared, (self.room, self.near, self.wide))
 
     @cached_property
     def _blocked(self) -> dict[float, shapely.Geometry]:
         """Where the centre of a tool may not be, by D of that tool."""
         play = BIAS - LEAD_PLAY
-        found = {
-            d: grow(self.zone.keep, self.offsets.base + d + play)
+        return {
+            d: prepared(grow(self.zone.keep, self.offsets.base + d + play))
             for d in (self.offsets.least, self.offsets.planned, self.offsets.most)
         }
-        for shape in found.values():
-            shapely.prepare(shape)
-        return found
 
     def write(self, pen: Pen) -> None:
         """Write the moves of all contours."""

@@ -12,6 +12,7 @@ from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.wedges import into_wedges
 from mechwright_cam.planning.zone import HEAVY, Zone
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
@@ -40,8 +41,7 @@ class Finishing:
         self.free = shapely.difference(
             grow(self.room, CLEAR + beyond, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))
         )
-        for shape in (self.room, self.near, self.free):
-            shapely.prepare(shape)
+        self.room, self.near, self.free = map(prepared, (self.room, self.near, self.free))
 
     def write(self, pen: Pen) -> None:
         """Write the moves of all rings."""

@@ -107,10 +107,10 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
     for drill in usable_drills(job, depth):
         if abs(drill.diameter - bore.diameter) <= ON_SIZE and through(job, bore.top + bore.depth):
             return BorePlan(bore, drill, None)
-    if boring_mill(usable, bore.diameter) is not None:
+    if boring_mill(able, bore.diameter) is not None:
         raise ToolError(
             f"cam.compensation: no listed end mill has room in {bore.name} of {bore.diameter:g} mm, part "
-            f"{job.part.name}, for an entry longer than D may be; the smallest is {usable[-1].name}: list a "
+            f"{job.part.name}, for an entry longer than D may be; the smallest is {able[-1].name}: list a "
             'smaller one, or use "wear" or "computer"'
         )
     raise ToolError(

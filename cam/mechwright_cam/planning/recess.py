@@ -21,6 +21,7 @@ from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
 from mechwright_cam.reach import opening_keep
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import ROUGH, corners, filled, grow, opened, polygons
 
 LEVEL = 1e-6
@@ -68,7 +69,7 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     others = _at_least_as_deep(job, feature)
     inside = filled(job.target)
     edge = grow(inside, -SKIN, ROUGH)
-    shapely.prepare(edge)
+    edge = prepared(edge)
     near = [other for other in others if shapely.dwithin(shape, other, SKIN)]
     if isinstance(feature, Pocket) and feature.floor_radius > 0:
         _check_alone(job, feature, shape)

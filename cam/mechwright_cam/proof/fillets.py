@@ -20,6 +20,7 @@ from mechwright_cam.proof.bands import bands, floor_of, inside_of
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, grow
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import polygons
 
 SKIN = 2 * TOLERANCES.flatten
@@ -89,7 +90,7 @@ class Fillet:
             return None
         lines, steps = paths.lines(pieces), pieces.step
         foot = self.foot
-        shapely.prepare(foot)
+        foot = prepared(foot)
         shape = paths.cutters(steps)
         near = np.flatnonzero(shapely.dwithin(foot, lines, shape.radius))
         if near.size == 0:

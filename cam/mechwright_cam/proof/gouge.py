@@ -15,6 +15,7 @@ from mechwright.motion import Array
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
+from mechwright_cam.threads import prepared
 
 DEAR = 4
 """To grow a shape by one corner takes a quarter of the time of one question about nearness."""
@@ -41,7 +42,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
     edge = Boundary(keep)
-    near = _near(keep, lines, radius)
+    near = _near(edge.shape, lines, radius)
     gap = np.full(len(pieces), np.inf)
     gap[near] = edge.distance(lines[near], within=float(radius.max()))
     inside = edge.inside(lines)
@@ -75,7 +76,7 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
         if mine.size > shapely.get_num_coordinates(keep) / DEAR:
             # Whether a line meets a shape is known much sooner than whether it comes near one.
             around = grow(keep, one + 2 * ROUND)
-            shapely.prepare(around)
+            around = prepared(around)
             mine = mine[shapely.intersects(around, lines[mine])]
         near[mine] = shapely.dwithin(keep, lines[mine], one)
     return np.flatnonzero(near)

@@ -10,6 +10,7 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.sweep import Sweep, Sweeps
+from mechwright_cam.threads import prepared
 
 ROUGHLY = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
@@ -64,7 +65,7 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     ways = [shapely.shortest_line(tab.shape, plate.exterior) for tab in job.tabs]
     for sweep in cut:
         for way in ways if sweep.stays_inside(plate) else [plate.exterior, *ways]:
-            shapely.prepare(way)
+            way = prepared(way)
             if shapely.dwithin(way, sweep.beside(way), sweep.radius).any():
                 return False
     return True
@@ -72,7 +73,7 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
 
 def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     """What is cut away of a region, roughly."""
-    shapely.prepare(region)
+    region = prepared(region)
     shapes: list[Shape] = []
     for sweep in cut:
         chains = sweep.beside(region)

@@ -32,6 +32,7 @@ from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow, swept
 from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
+from mechwright_cam.threads import prepared
 
 VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
@@ -182,9 +183,7 @@ def _on_walls(
     wall = Wall(reached)
     if wall.length == 0:
         return 0.0, None
-    for region in (within, aside):
-        if region is not None:
-            shapely.prepare(region)
+    within, aside = (region if region is None else prepared(region) for region in (within, aside))
     stations = wall.stations(spacing)
     _, thick, stations = _measured(wall, stations, within, aside, job, groups)
     if thick.size == 0:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mechwright.motion import Array
 from mechwright_cam.buffers import buffered
 from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.threads import prepared
 
 ROUND = 1e-4
 """How far a buffer's round corners may lie inside the true arc, mm: a hundredth of the leftover limit."""
@@ -90,8 +91,7 @@ class Boundary:
     """The edge of a shape, ready for many questions about distance."""
 
     def __init__(self, shape: Shape) -> None:
-        self.shape = shape
-        shapely.prepare(shape)
+        self.shape = prepared(shape)
 
     @cached_property
     def _edges(self) -> NDArray[Any]:

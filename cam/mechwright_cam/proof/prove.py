@@ -28,6 +28,7 @@ from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import ROUNDING, Sweeps
+from mechwright_cam.threads import prepared
 from mechwright_cam.timing import step_times
 
 FEW = 64
@@ -187,7 +188,7 @@ def _depth_check(scene: Scene) -> Check:
             shape = shapely.difference(around, shape)
         if shape.is_empty or shape.area <= NEAR:
             continue
-        shapely.prepare(shape)
+        shape = prepared(shape)
         low = _lowest(paths, paths.below(floor + ROUNDING, steps=cutting), shape)
         if low > floor + ROUNDING:
             low = _lowest(paths, paths.below(-NEAR, steps=cutting), shape)

@@ -28,6 +28,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.threads import prepared
 
 CELLS = 1_000_000
 """Cells of the grid: on a plate of a hand's size they are a tenth of a millimetre wide."""
@@ -255,7 +256,7 @@ def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: floa
     x0, y0, _, _ = job.stock
     x = x0 + (np.arange(grid[1]) + 0.5) * cell
     y = y0 + (np.arange(grid[0]) + 0.5) * cell
-    shapely.prepare(shape)
+    shape = prepared(shape)
     inside: NDArray[np.bool_] = shapely.contains_xy(shape, *np.meshgrid(x, y))
     return inside
 

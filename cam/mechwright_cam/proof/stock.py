@@ -12,6 +12,7 @@ from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
 from mechwright_cam.proof.plane import Shape, grow
+from mechwright_cam.threads import prepared
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
@@ -54,7 +55,7 @@ class Stock:
         apart = (least[index] > (x1 + reach, y1 + reach)) | (most[index] < (x0 - reach, y0 - reach))
         steps = self.cuts[index[~apart.any(axis=1)]]
         lines: Geometries = self.paths.lines(self.paths.below(np.inf, steps=steps))
-        shapely.prepare(body)
+        body = prepared(body)
         near: Ints = steps[shapely.dwithin(body, lines, reach)]
         return near
 

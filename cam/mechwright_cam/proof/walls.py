@@ -30,6 +30,7 @@ from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
+from mechwright_cam.threads import prepared
 
 SAMPLES = 6000
 """Places along all walls of one height, at most."""
@@ -132,7 +133,7 @@ def wall_deviation(run: Run, job: Job) -> Walls:
         corner = np.zeros(len(points), dtype=bool)
         if mills:
             reached = shapely.boundary(closing(band.keep, smallest + PLAY))
-            shapely.prepare(reached)
+            reached = prepared(reached)
             corner = (off > VISIBLE) & ~shapely.dwithin(reached, shapely.points(points), VISIBLE)
         height = np.full(len(points), band.bottom)
         found.append((points, outward, height, np.minimum(off, max(widest, NEAR)), corner))
@@ -168,7 +169,7 @@ def _in_stock(points: Array, job: Job) -> NDArray[np.bool_]:
 def _within(shapes: list[Shape], points: Array) -> NDArray[np.bool_]:
     found: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     for shape in shapes:
-        shapely.prepare(shape)
+        shape = prepared(shape)
         found[shapely.contains_xy(shape, points[:, 0], points[:, 1])] = True
     return found
 
