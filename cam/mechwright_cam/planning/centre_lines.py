@@ -7,6 +7,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright_cam.planning.grooves import to_and_fro
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zones import bottom_of
 from mechwright_cam.toolpath.arcfit import fit
@@ -36,7 +37,7 @@ def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
     mills = usable_mills(job, -bottom)
     if job.settings.clearing == "adaptive" and mills[-1].diameter <= ROOMY * feature.width:
         return None
-    return next((mill for mill in mills if -1e-9 <= feature.width - mill.diameter <= PLAY), None)
+    return next((mill for mill in mills if -TOLERANCES.noise <= feature.width - mill.diameter <= PLAY), None)
 
 
 def grooves(job: Job) -> dict[str, Tool]:
@@ -60,10 +61,5 @@ def write_groove(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None
     step_down = pen.tool.cutting[job.part.material].step_down * pen.tool.diameter
     heights = levels(top, bottom + leave, step_down)
     heights += [bottom] * (job.settings.spring_passes + (leave > 0))
-    pen.above(path.start)
-    pen.sink(top)
-    for z in heights:
-        pen.ramp(path, z)
-        pen.follow(path)
-        path = path.reversed()
+    to_and_fro(pen, path, top, heights)
     pen.retract()

@@ -41,7 +41,7 @@ def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool
     if not knows:
         what = f"none has cutting data for {material}" if job.mills else "there is none"
         raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
-    through = depth >= job.thickness - 1e-9
+    through = depth >= job.thickness - TOLERANCES.noise
     mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]
     if not mills:
         longest = max(knows, key=lambda tool: tool.flute_length)

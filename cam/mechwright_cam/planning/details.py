@@ -10,6 +10,7 @@ import shapely
 from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.pen import Pen
@@ -68,7 +69,7 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
     tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
     held = False
     for tool in _tools(job, ToolKind.CHAMFER):
-        if abs(tool.point_angle - 90) > 1e-6:
+        if abs(tool.point_angle - 90) > TOLERANCES.noise:
             continue
         for below in BELOW:
             offset = spread(tool, below) + BIAS
@@ -119,7 +120,7 @@ def _around(pen: Pen, paths: list[Path], z: float) -> None:
 def _engraving(job: Job, detail: Engraving) -> DetailPlan:
     for tool in reversed(_tools(job, ToolKind.CHAMFER)):
         line = 2 * spread(tool, detail.depth)
-        if NARROWER * detail.width <= line <= detail.width + 1e-6 and line <= tool.diameter:
+        if NARROWER * detail.width <= line <= detail.width + TOLERANCES.noise and line <= tool.diameter:
             return DetailPlan(detail, tool, partial(_strokes, detail=detail))
     raise ToolError(
         f"cam.tools: no pointed cutter engraves {detail.name} of part {job.part.name} {detail.depth:g} mm "
@@ -138,7 +139,11 @@ def _strokes(pen: Pen, detail: Engraving) -> None:
 
 
 def _thread(job: Job, detail: Thread) -> DetailPlan:
-    holes = [f for f in job.features if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < 1e-6]
+    holes = [
+        f
+        for f in job.features
+        if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < TOLERANCES.closure
+    ]
     play = CORE_PLAY * detail.pitch
     hole = next((h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None)
     if hole is None:

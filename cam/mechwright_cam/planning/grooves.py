@@ -24,17 +24,21 @@ PAST = 0.5
 
 def groove(zone: Zone, settings: CamSettings, pen: Pen, step_down: float) -> None:
     """Write the passes of one zone."""
+    heights = levels(zone.top, zone.bottom, step_down)
+    heights += heights[-1:] * settings.spring_passes
     for path in ways(zone, pen.tool.radius, settings.climb):
-        pen.above(path.start)
-        pen.sink(zone.top)
-        for z in levels(zone.top, zone.bottom, step_down):
-            pen.ramp(path, z)
-            pen.follow(path)
-            path = path if path.closed else path.reversed()
-        for _ in range(settings.spring_passes):
-            pen.follow(path)
-            path = path if path.closed else path.reversed()
+        to_and_fro(pen, path, zone.top, heights)
     pen.retract()
+
+
+def to_and_fro(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
+    """Passes along a groove, at one height after the other; a closed one is run round and round."""
+    pen.above(path.start)
+    pen.sink(top)
+    for z in heights:
+        pen.ramp(path, z)
+        pen.follow(path)
+        path = path if path.closed else path.reversed()
 
 
 def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:

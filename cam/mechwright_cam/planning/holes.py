@@ -187,7 +187,7 @@ def rough_bore(job: Job, plan: BorePlan, pen: Pen) -> bool:
     edge = open_radius(job, bore) - mill.radius
     if edge > 0:  # outwards from there in even rings
         edge = min(edge, widest)
-        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - 1e-9), 1)
+        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - TOLERANCES.noise), 1)
     count = math.ceil((widest - first) / step - TOLERANCES.noise) + 1
     radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
     bottom = _bottom(job, bore, mill)

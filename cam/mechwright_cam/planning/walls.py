@@ -8,6 +8,7 @@ import shapely
 
 from mechwright.errors import ToolError
 from mechwright.program import Move
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import entry_place, roughers
@@ -260,4 +261,4 @@ class Walls:
 def _pass(zone: Zone, mill: Tool, step: float) -> float:
     """Depth of the even passes that are no deeper than ``step``, mm."""
     height = zone.top - zone.bottom_for(mill)
-    return height / max(1, math.ceil(height / step - 1e-9))
+    return height / max(1, math.ceil(height / step - TOLERANCES.noise))
