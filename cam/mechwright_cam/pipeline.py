@@ -10,7 +10,7 @@ import shapely
 from mechwright.design import Design
 from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.files import Output
-from mechwright.findings import Finding, errors
+from mechwright.findings import Finding, Severity, errors
 from mechwright.host import Host
 from mechwright.host import host as default_host
 from mechwright.output import Post
@@ -93,7 +93,24 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         for number in range(max(map(len, copies.values()), default=0)):
             cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
             findings += [f for f in design.family.check_cut(design.params, cut) if f not in findings]
+        findings += _unused_data(design, jobs)
     return findings, jobs
+
+
+def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
+    """Cutting data in the design for tools that no job has."""
+    named = dict.fromkeys(name for cam in (design.cam, *design.part_cam.values()) for name in cam.cutting)
+    used = {tool.name for job in jobs for tool in job.tools}
+    return [
+        Finding(
+            "cam.cutting-unused",
+            Severity.NOTE,
+            f"cam.cutting.{name}",
+            f"{name} is not used here, so its cutting data change nothing",
+        )
+        for name in named
+        if name not in used
+    ]
 
 
 def _cut_parts(job: Job) -> list[tuple[str, shapely.Polygon]]:

@@ -69,3 +69,10 @@ def test_speed_and_chip_load_stand_for_a_material_that_the_library_does_not_know
 def test_a_name_of_no_tool_is_refused(table, key, tmp_path):
     with pytest.raises(ToolError, match=key + r": no tool 'mill-66' in the library; did you mean"):
         jobs(tmp_path, table)
+
+
+def test_data_of_a_tool_that_is_not_used_are_told_of(tmp_path):
+    _, findings = jobs(tmp_path, TOOLS + "[cam.cutting.mill-12]\nstep_down = 0.3\n")
+    assert [f.parameter for f in findings if f.code == "cam.cutting-unused"] == ["cam.cutting.mill-12"]
+    _, findings = jobs(tmp_path, TOOLS + "[cam.cutting.mill-6]\nstep_down = 0.3\n")
+    assert "cam.cutting-unused" not in {finding.code for finding in findings}
