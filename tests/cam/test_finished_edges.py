@@ -10,7 +10,7 @@ from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, part, plate, rounded_box
-from planning_simulation import check_rules, gouge
+from proving import proven
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import DesignError, MechwrightError
@@ -50,22 +50,12 @@ def laid(of, *names, **more):
     return make_job(of, wanted, tools)
 
 
-def proven(of):
-    program = plan(of)
-    text = LinuxCncPost().write(program)
-    proof = prove(text, of)
-    assert proof.ok, [check.message for check in proof.failures]
-    assert gouge(of, program) <= 0.005
-    check_rules(of, program)
-    return program, text
-
-
 @pytest.mark.parametrize("climb", [True, False])
 @pytest.mark.parametrize("names", [("mill-6",), ("mill-8", "mill-4")])
 def test_only_the_ends_of_a_link_are_milled(climb, names):
     of = laid(link(), *names, climb=climb)
     assert of.stock[1::2] == pytest.approx((-10, 10), abs=1e-6)
-    _, text = proven(of)
+    _, text, _ = proven(of)
     seen = Simulation(of.stock, of.thickness, pitch=0.2)
     moves = [move for move in read(text) if move.operation.startswith("outside")]
     seen.run(moves, cutters(of))
@@ -85,7 +75,7 @@ def test_only_the_ends_of_a_link_are_milled(climb, names):
 
 def test_finishing_comes_from_the_air_and_leaves_into_it():
     of = laid(link(), "mill-6")
-    _, text = proven(of)
+    _, text, _ = proven(of)
     finish = [
         move for move in read(text) if move.operation == "outside: finish" and move.points[:, 2].max() < 0
     ]
@@ -106,14 +96,14 @@ def test_a_plate_with_three_finished_edges():
     plain = part(Loop.polygon([(0, 0), (60, 0), (60, 30), (0, 30)]))
     of = laid(plain, "mill-4", stock={"finished": ["front", "rear", "left"], "margin": 5})
     assert of.stock == pytest.approx((0, 0, 65, 30))
-    program, _ = proven(of)
+    program, _, _ = proven(of)
     assert {o.name for s in program.sections for o in s.operations} == {"outside: rough", "outside: finish"}
 
 
 def test_with_all_edges_finished_no_outside_is_milled():
     square = part(Loop.polygon([(-30, -15), (30, -15), (30, 15), (-30, 15)]), bore(8))
     of = laid(square, "mill-4", stock={"finished": ["front", "rear", "left", "right"]})
-    program, text = proven(of)
+    program, text, _ = proven(of)
     assert not any(o.name.startswith("outside") for s in program.sections for o in s.operations)
     assert "(vice: front and rear edges, jaws X-30.00 to X30.00, top Z-3)" in text
 

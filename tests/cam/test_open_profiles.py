@@ -12,7 +12,8 @@ from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, plate, rounded_box
-from planning_simulation import check_rules, gouge, leftover
+from planning_simulation import leftover
+from proving import proven
 
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line
@@ -34,16 +35,6 @@ LIMITS = {"groove": ("on", 6.0), "left": ("left", 8.0), "right": ("right", 7.0)}
 
 def opened(side, width, path=BENT, depth=2.0):
     return plate(machined=(OpenProfile("open", 0.0, depth, path=path, side=side, width=width), OUTSIDE))
-
-
-def proven(of):
-    program = plan(of)
-    text = LinuxCncPost().write(program)
-    proof = prove(text, of)
-    assert proof.ok, [check.message for check in proof.failures]
-    assert gouge(of, program) <= 0.005
-    check_rules(of, program)
-    return program, text, proof
 
 
 def names(program):
