@@ -11,9 +11,12 @@ here.
 Gouge and leftover are measured alike on both, from the cutter's centre path against the outline as it was
 given: how much nearer than the radius the path comes to the wall, and how far from the path's reach the
 wall stays where the cutter could have touched it. The targets are those of the rim; straight walls with
-round corners are no trouble to either. The finer a path, the more arcs it has (their number goes with the
-cube root of the accuracy), so arcs are also compared at one accuracy: our fit of the exact path with the
-tolerance that FreeCAD's path needs.
+round corners are no trouble to either.
+
+The finer a path, the more lines and arcs it needs, so their number is compared at one accuracy: our fit of
+the exact path in the band that FreeCAD's path needs. That no path has fewer of them at a fifth of FreeCAD's
+deviations than FreeCAD has, and how near ours comes to the fewest for its own, is shown by a bound that any
+path keeps (``least_moves.py``).
 """
 
 import json
@@ -31,6 +34,7 @@ from statistics import median
 import numpy as np
 import shapely
 from harness import require
+from least_moves import least_moves
 
 from mechwright.design import load
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
@@ -62,6 +66,10 @@ SAGITTA = 1e-4
 """Chord error of arcs and walls when distances are taken, mm: a fiftieth of the gouge our proof lets pass."""
 OURS = 3
 """Runs of ours for one of FreeCAD's, which takes half a minute on the polyline."""
+FINEST = 1e-4
+"""Gouge that measuring does not tell from none, mm."""
+NEARLY = 1.15
+"""How near to the bound, which no path need reach, since its pieces do not even meet."""
 LEVEL = 1e-4
 """A move this near to a floor runs on it, mm; FreeCAD stays a millionth above."""
 
@@ -216,10 +224,10 @@ def measured(cuts, keep, wall, radius):
     return max(0.0, radius - float(nearest.min())), max(0.0, float(far.max()) - radius)
 
 
-def arcs_at(rim, radius, tolerance):
-    """Arcs per mm of our fit of the path around a rim, which is given to the planner's own chord error."""
+def fitted(rim, radius, tolerance):
+    """Arcs and moves per mm of our fit of the path around a rim."""
     path = fit(shapely.get_coordinates(grow(rim, radius).exterior), tolerance)
-    return sum(1 for cut in path.cuts if cut.turn) / path.length
+    return sum(1 for cut in path.cuts if cut.turn) / path.length, len(path.cuts) / path.length
 
 
 def edges(lines):
@@ -244,8 +252,8 @@ def compared(title, part, case, settings, tool, folder, rounds):
         runs["FreeCAD"].append(theirs(case, folder))
         runs["Mechwright"] += [ours(replace(part), settings, tools) for _ in range(OURS)]
     print(f"\n{title}, mill of {tool.diameter:g} mm")
-    titles = f"{'planning':>24}   {'':<8}{'gouge':>9}{'leftover':>10}{'arcs':>7}{'moves':>7}{'arcs/mm':>9}"
-    print("  " + titles)
+    titles = f"{'gouge':>9}{'leftover':>10}{'arcs':>7}{'moves':>7}{'arcs/mm':>9}{'moves/mm':>10}"
+    print(f"  {'planning':>24}   {'':<8}{titles}")
     found = {}
     for name, done in runs.items():
         seconds, cuts = median(s for s, _ in done), done[-1][1]
@@ -253,23 +261,36 @@ def compared(title, part, case, settings, tool, folder, rounds):
         for wall in ("profile", "pocket"):
             gouge, left = measured(cuts[wall], keeps[wall], walls[wall], tool.radius)
             dense = cuts[wall].arcs / cuts[wall].length
+            moves = cuts[wall].moves / cuts[wall].length
             first = f"{name:<12}{1e3 * seconds:9.0f} ms" if wall == "profile" else f"{'':<24}"
             print(
                 f"  {first}   {wall:<8}{1e3 * gouge:6.1f} um{1e3 * left:7.1f} um"
-                f"{cuts[wall].arcs:7d}{cuts[wall].moves:7d}{dense:9.3f}"
+                f"{cuts[wall].arcs:7d}{cuts[wall].moves:7d}{dense:9.3f}{moves:10.3f}"
             )
-            worst[wall] = (gouge, left, dense)
+            worst[wall] = (gouge, left, dense, moves)
         found[name] = seconds, worst
     (slow, other), (fast, own) = found["FreeCAD"], found["Mechwright"]
-    band = sum(other["profile"][:2])
-    alike = arcs_at(part.outline.polygon(), tool.radius, band / 2)
-    print(f"  at FreeCAD's accuracy (a band of {1e3 * band:.0f} um) ours has {alike:.3f} arcs/mm\n")
+    (gouge, left, arcs, moves), mine = other["profile"], own["profile"]
+    band = gouge + left
+    alike = fitted(part.outline.polygon(), tool.radius, band / 2)
+    print(
+        f"  in FreeCAD's band of {1e3 * band:.0f} um ours has {alike[0]:.3f} arcs and {alike[1]:.3f} moves/mm"
+    )
+    # Counter-clockwise, so that the wall is on the left.
+    ring = shapely.orient_polygons(grow(rim, tool.radius, SAGITTA / 10)).exterior
+    fifth, finest = (
+        least_moves(ring, inside, outside) / ring.length
+        for inside, outside in ((gouge / 5, left / 5), (max(mine[0], FINEST), mine[1]))
+    )
+    print(f"  at a fifth of FreeCAD's gouge and leftover any path has {fifth:.3f} moves/mm at least")
+    print(f"  where ours stays, any path has {finest:.3f} moves/mm at least\n")
     return [
         require("time, as a part of FreeCAD's", fast / slow, 0.1),
-        require("gouge, as a part of FreeCAD's", own["profile"][0] / other["profile"][0], 0.2),
-        require("leftover, as a part of FreeCAD's", own["profile"][1] / other["profile"][1], 0.2),
-        require("arcs per mm, to FreeCAD's", own["profile"][2] / other["profile"][2], 1.0),
-        require("arcs per mm at one accuracy, to FreeCAD's", alike / other["profile"][2], 1.0),
+        require("gouge, as a part of FreeCAD's", mine[0] / gouge, 0.2),
+        require("leftover, as a part of FreeCAD's", mine[1] / left, 0.2),
+        require("arcs per mm at one accuracy, to FreeCAD's", alike[0] / arcs, 1.0),
+        require("moves per mm at one accuracy, to FreeCAD's", alike[1] / moves, 1.0),
+        require("moves per mm, to the fewest of any path as exact", mine[3] / finest, NEARLY),
     ]
 
 

@@ -26,6 +26,9 @@ from mechwright_cam.job import Job
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons, thinned
 
+SPACING = 0.1
+"""Of places on walls, mm: where a cutter of 3 mm or more just does not pass between two walls, and leaves all
+that the proof allows, so much of a straight wall has more than half of it."""
 PRECISION = 1e-4
 """Chord error of the closing, mm: a hundredth of the leftover that the proof lets pass."""
 CUT_SHORT = 2.25
@@ -74,9 +77,16 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     return grow(thinned(keep), radius + SAFE, ROUGH)
 
 
+@lru_cache(maxsize=32)
+def _walls(keep: shapely.Geometry) -> Array:
+    """Places (n, 2) on the edge of a shape: its corners, and some on long edges."""
+    points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
+    return points
+
+
 def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
-    """Corners (n, 2) of a shape, or those of them that stand on another shape."""
-    points: Array = shapely.get_coordinates(keep)
+    """Places (n, 2) on the edge of a shape, or those of them that stand on another shape."""
+    points = _walls(keep)
     if near is None:
         return points
     near = prepared(near)
@@ -145,7 +155,7 @@ def _much(keep: shapely.Geometry, radius: float, limit: float) -> shapely.Geomet
 def _deep(
     shape: shapely.Geometry, keep: shapely.Geometry, near: shapely.Geometry | None
 ) -> NDArray[np.bool_]:
-    """Which corners of ``keep``, or those ``near`` a shape, lie in another one."""
+    """Which places on the edge of ``keep``, or those ``near`` a shape, lie in another one."""
     shape = prepared(shape)
     x, y = _points(keep, near).T
     inside: NDArray[np.bool_] = shapely.contains_xy(shape, x, y)

@@ -253,6 +253,16 @@ def test_the_spot_drill_s_point_may_stand_in_the_bore_but_not_beside_it() -> Non
     assert proof.gouge_max_mm == pytest.approx(0.1, abs=1e-3)
 
 
+def test_a_bore_that_is_cut_too_small_is_named():
+    program = plate_program()
+    section = program.sections[2]
+    small = (bore(MILL.radius, bias=0.03), *section.operations[1:])
+    program = replace(program, sections=(*program.sections[:2], replace(section, operations=small)))
+    proof = prove(LinuxCncPost().write(program), plate_job())
+    assert proof.leftover_reachable_max_mm == pytest.approx(0.03, abs=1e-3)
+    assert "0.030 mm of stock stay on the wall of bore, which is to be cut to" in proof.failures[0].message
+
+
 def clamped_program(*, pause: bool, swing: float) -> Program:
     program = plate_program()
     bore_moves = bore(MILL.radius)

@@ -6,9 +6,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, fit, fit_all
+from mechwright_cam.toolpath.arcfit import fit, fit_all
 from mechwright_cam.toolpath.offsets import grow, rings
 from mechwright_cam.toolpath.path import Path, arc, circle, line, polyline
+from mechwright_cam.toolpath.runs import GREATEST_RADIUS, LONGEST_TURN
 
 
 def wavy(n, teeth, depth, radius=40.0):
@@ -48,6 +49,70 @@ def test_fit_stays_within_its_tolerance(teeth, depth, tolerance):
     assert path.closed
     assert distance(points, path) <= tolerance + 0.0004
     assert len(path.cuts) < len(points) / 4
+
+
+def chain(pieces, step=0.05):
+    """Points of a line (length, 0) or arc (length, radius) after the other, each tangent to the one before."""
+    place, heading, points = 0j, 0.0, [np.zeros(1, dtype=complex)]
+    for length, radius in pieces:
+        way = np.linspace(0, length, math.ceil(length / step) + 1)[1:]
+        ahead = np.exp(1j * heading)
+        if radius:
+            points.append(place + radius / 1j * (np.exp(1j * (heading + way / radius)) - ahead))
+            heading += length / radius
+        else:
+            points.append(place + way * ahead)
+        place = points[-1][-1]
+    every = np.concatenate(points)
+    return np.column_stack((every.real, every.imag))
+
+
+PIECES = st.lists(
+    st.tuples(st.floats(1.0, 12.0), st.sampled_from([0.0, 3.0, -4.0, 6.5, -9.0, 40.0])),
+    min_size=1,
+    max_size=8,
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(pieces=PIECES, tolerance=st.sampled_from([0.0014, 0.004, 0.01]))
+def test_fit_has_no_more_moves_than_the_drawing(pieces, tolerance):
+    points = chain(pieces)
+    path = fit(points, tolerance)
+    sound(path)
+    assert distance(points, path) <= tolerance + 0.0004
+    # A chord of the points stands off an arc of the drawing by step²/8r, which is within all tolerances.
+    most = sum(math.ceil(length / abs(radius) / LONGEST_TURN) if radius else 1 for length, radius in pieces)
+    assert len(path.cuts) <= most
+
+
+@pytest.mark.parametrize("tolerance", [0.0014, 0.004])
+def test_fit_of_a_smooth_curve_comes_near_to_the_fewest_arcs(tolerance):
+    # Arcs that meet on a curve whose curvature changes by c per mm reach (125 t / c)^(1/3) mm each.
+    t = np.linspace(0, 40, 4001)
+    heading = 0.02 * t**2 / 2  # a clothoid of c = 0.02
+    step = np.diff(t)[:, None] * np.column_stack((np.cos(heading[:-1]), np.sin(heading[:-1])))
+    points = np.vstack(([[0.0, 0.0]], np.cumsum(step, axis=0)))
+    path = fit(points, tolerance)
+    assert distance(points, path) <= tolerance + 0.0004
+    assert len(path.cuts) <= 40 / (125 * tolerance / 0.02) ** (1 / 3) * 1.1 + 1
+
+
+def test_a_line_of_the_drawing_stays_one():
+    box = shapely.box(-20, -10, 20, 10).buffer(5, quad_segs=60)
+    path = fit(shapely.get_coordinates(box.exterior), 0.0014)
+    lines = [cut for cut in path.cuts if not cut.turn]
+    assert len(path.cuts) <= 9  # one of the four sides may be met in its middle
+    assert sorted({round(abs(c), 3) for cut in lines for c in (cut.x, cut.y)}) == [10, 15, 20, 25]
+    assert all(abs(math.hypot(cut.cx, cut.cy) - math.hypot(20, 10)) < 1e-3 for cut in path.cuts if cut.turn)
+
+
+def test_corners_near_a_bend_cost_no_line():
+    # Two fine arcs that meet in a corner are two moves, however short the edges are beside it.
+    one = chain([(4.0, 6.5)], 0.02)
+    turned = one[::-1] * (1.0, -1.0)
+    points = np.concatenate((one, turned[1:] - turned[0] + one[-1]))
+    assert [cut.turn for cut in fit(points, 0.0014).cuts] in ([1, 1], [1, -1])
 
 
 def test_lines_that_go_on_straight_are_one():

@@ -8,7 +8,9 @@ the way to the nearest wall point crosses that ring. So with steps up to the rad
 """
 
 import math
+from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -128,6 +130,7 @@ class Roughing:
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else FIT
         self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
+        self.before = zone.left, zone.over
         self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
         fine = min(self.step, 2 * TIGHT * self.foot)
@@ -155,6 +158,17 @@ class Roughing:
             return self.zone.rough_keep(self.allowance, radius)
         return grow(self.zone.keep, max(self.allowance, BIAS) + radius)
 
+    def serves(self, zone: Zone) -> bool:
+        """Whether another layer of the same recess, with the same stock in it, is cut alike."""
+        left, over = self.before
+        return zone.left is left and zone.over == over and shapely.is_empty(zone.ridges) and not self.ridges
+
+    def at(self, zone: Zone) -> "Roughing":
+        """The same cut of another layer that it serves."""
+        other = copy(self)
+        other.zone = zone
+        return other
+
     @property
     def taken(self) -> float:
         """Area of what the cut is for, mm²: that of the core grown back, by Steiner's formula."""
@@ -181,6 +195,7 @@ class Roughing:
         zone.left = shapely.difference(zone.left, self.reach)
         zone.over = self.over
 
+    @cached_property
     def cavities(self) -> list[Cavity]:
         """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
         parts = polygons(self.core)
@@ -251,7 +266,8 @@ class Roughing:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
                 core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
-                if not polygons(core):
+                core = _without_threads(core, self.sliver / 2)
+                if shapely.is_empty(core):
                     return found
                 blocked = self._blocked(order)
                 wanted = grow(core, self.touch, ROUGH)
@@ -301,7 +317,7 @@ class Roughing:
         bottom = zone.bottom_for(self.tool)
         top = bottom + zone.ridge_height if self.ridges else zone.top
         heights = levels(top, bottom, step_down)
-        for cavity in self.cavities():
+        for cavity in self.cavities:
             first = cavity.runs[0]
             if len(cavity.runs) == 1 and first.path.closed and not first.open:
                 _spiral(pen, first.path, top, heights)
@@ -342,6 +358,20 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
                     pen.ramp(run.path, z)
             pen.follow(run.path)
         above = z
+
+
+def _without_threads(shape: shapely.Geometry, width: float) -> shapely.Geometry:
+    """The shape without those of its pieces that are nowhere wider than ``width``.
+
+    Where a ring reaches just as far as the stock, chords leave hundreds of them; a ring of their own would
+    cut air, and to grow them takes longer than all the rest.
+    """
+    pieces = np.array(polygons(shape), dtype=object)
+    wide = 2 * shapely.area(pieces) > width * shapely.length(pieces)
+    # Thin on the average is not thin everywhere.
+    thin = np.flatnonzero(~wide)
+    wide[thin] = ~shapely.is_empty(shapely.buffer(pieces[thin], -width / 2, quad_segs=1))
+    return shape if wide.all() and pieces.size else shapely.union_all(pieces[wide])
 
 
 def _inside(free: shapely.Geometry, a: Point, b: Point) -> bool:

@@ -21,12 +21,12 @@ from numpy.typing import NDArray
 from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.contour_writer import ContourWriter, touching
 from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
-from mechwright_cam.planning.finishing import LEAD_PLAY
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
@@ -38,6 +38,8 @@ from mechwright_cam.toolpath.places import STEP, candidates, centres, heading_at
 
 TAB_GAP = 0.05
 """Air between a tab and the largest tool allowed, beside it and above it, mm."""
+LEAD_PLAY = TOLERANCES.flatten
+"""Leads touch the contour they lead to, and may come this much into the wall, mm, as chords do."""
 HALVINGS = 12
 """Bisections of a lead's sweep: its start is found to a thousandth of its length."""
 
@@ -85,9 +87,8 @@ class CompensatedFinishing:
     @cached_property
     def _blocked(self) -> dict[float, shapely.Geometry]:
         """Where the centre of a tool may not be, by D of that tool."""
-        play = BIAS - LEAD_PLAY
         return {
-            d: prepared(grow(self.zone.keep, self.offsets.base + d + play))
+            d: prepared(grow(self.zone.keep, self.offsets.base + d - LEAD_PLAY))
             for d in (self.offsets.least, self.offsets.planned, self.offsets.most)
         }
 

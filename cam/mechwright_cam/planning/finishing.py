@@ -18,10 +18,6 @@ from mechwright_cam.toolpath.leads import best_start, lead_shapes, led, with_lea
 from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
 from mechwright_cam.toolpath.path import Path
 
-LEAD_PLAY = 0.003
-"""Leads touch the path they lead to: they may come this much nearer to the wall than BIAS asks, mm; what is
-left of BIAS and rounding still keeps them off it."""
-
 
 class Finishing:
     """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
@@ -38,9 +34,8 @@ class Finishing:
         self.near = grow(zone.standing, radius + zone.over - CLEAR, ROUGH)
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
-        self.free = shapely.difference(
-            grow(self.room, CLEAR + beyond, ROUGH), grow(zone.keep, radius + BIAS - min(BIAS, LEAD_PLAY))
-        )
+        # Leads touch the path they lead to: between that and the wall they may be as wrong as it.
+        self.free = shapely.difference(grow(self.room, CLEAR + beyond, ROUGH), grow(zone.keep, radius))
         self.room, self.near, self.free = map(prepared, (self.room, self.near, self.free))
 
     def write(self, pen: Pen) -> None:

@@ -84,21 +84,23 @@ class Walls:
         roughs, (floor,) = over_openings(self.job, upper), over_openings(self.job, floor)
         cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills)]
         cleared = [mill for _, mill, _ in cuts]
+        above: dict[str, Roughing] = {}
         for mill in roughers(zone.mills, finest):
             found = [self._roughing(rough, mill, allowance) for rough in roughs]
             if found[0].share >= WORTH_A_TOOL:
                 cuts += [self._rough(cut) for cut in found]
                 # Where bounded engagement left corners standing, a wide cutter would run into them.
-                cuts += [] if cleared else [self._floored(floor, mill)]
+                cuts += [] if cleared else [self._floored(floor, mill, found[-1])]
         for mill in zone.last_mills:
             for rough in roughs:
-                cuts += [self._rough(self._roughing(rough, mill, allowance)), *self._rough_heavy(rough, mill)]
+                above[mill.name] = self._roughing(rough, mill, allowance)
+                cuts += [self._rough(above[mill.name]), *self._rough_heavy(rough, mill)]
         # What round mills left at the foot of the wall is cut in one go, down to the floor.
         if not shapely.is_empty(roughs[-1].ridges):
             floor.ridges = shapely.union(floor.ridges, roughs[-1].ridges)
             floor.ridge_height = roughs[-1].ridge_height + leave
         early = [mill for mill in cleared if mill.name not in {last.name for last in zone.last_mills}]
-        cuts += [self._floored(floor, mill) for mill in [*early, *zone.last_mills]]
+        cuts += [self._floored(floor, mill, above.get(mill.name)) for mill in [*early, *zone.last_mills]]
         cuts += self._rough_heavy(floor, finest, "finish the floor of narrow places")
         for mill in zone.last_mills:
             cuts += self._ridges(floor, mill)
@@ -108,11 +110,14 @@ class Walls:
         zone.ridges = floor.ridges
         return [*cuts, *(self._finish(zone, mill) for mill in zone.last_mills)]
 
-    def _floored(self, floor: Zone, mill: Tool) -> Cut:
-        """The floor as far as a mill has roughed above it, in one even pass."""
+    def _floored(self, floor: Zone, mill: Tool, above: Roughing | None) -> Cut:
+        """The floor as far as a mill has roughed ``above`` it, in one even pass."""
         what = "finish the rest of the floor" if floor.begun else "finish the floor"
         # Ring for ring where it has roughed: nothing stands beside the places at which it is sunk.
-        cut = self._roughing(floor, mill, self.job.settings.stock_to_leave)
+        if above is not None and above.serves(floor):
+            cut = above.at(floor)
+        else:
+            cut = self._roughing(floor, mill, self.job.settings.stock_to_leave)
         step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
         deep = _pass(floor, mill, step_down)
         moves = self.moves(mill, partial(cut.write, step_down=step_down), depth=deep)

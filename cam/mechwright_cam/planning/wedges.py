@@ -10,8 +10,8 @@ import shapely
 
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.toolpath.arcfit import CORNER
 from mechwright_cam.toolpath.offsets import BIAS, CHORD
+from mechwright_cam.toolpath.runs import CORNER
 
 TOUCH = TOLERANCES.flatten + CHORD / 2
 """A straight move keeps this distance off the wall, mm: what the flattened outline and the last decimal of

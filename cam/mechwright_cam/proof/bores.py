@@ -16,9 +16,9 @@ AROUND = 64
 """So many places on the wall of a bore are looked at: it is a circle, and so is the path that makes it."""
 
 
-def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, float] | None]:
-    """Thickest stock on the wall of a bore, mm, and its place; the bore's diameter where nothing has cut."""
-    worst, at = 0.0, None
+def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, float] | None, Bore | None]:
+    """Thickest stock on a bore's wall, mm, its place and the bore; the diameter where nothing has cut."""
+    worst, at, uncut = 0.0, None, None
     bores = [feature for feature in job.features if isinstance(feature, Bore)]
     turn = np.linspace(0.0, math.tau, AROUND, endpoint=False)
     ray = np.column_stack((np.cos(turn), np.sin(turn)))
@@ -43,4 +43,5 @@ def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, fl
         best = int(np.argmax(thick))
         if thick[best] > worst:
             worst, at = float(thick[best]), (float(wall[best, 0]), float(wall[best, 1]), band.bottom)
-    return worst, at
+            uncut = here[best // AROUND]
+    return worst, at, uncut

@@ -20,7 +20,7 @@ import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.part import OpenProfile, Profile
+from mechwright.part import Bore, OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.job import Job
@@ -38,12 +38,12 @@ VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
-PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten
+PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten - TOLERANCES.outline
 """A cutter reaches what it enters with this much air on either side, mm.
 
-Paths and outlines are no better: on arcs of ``arc_fit`` a cutter in a slot of its own width would cut both
-walls. Without it a slot up to 5 µm wider than the cutter would count as left over, and no path may go there;
-with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
+Paths and polygons are no better, and may be a micron too deep as outlines may: a path in the middle of a
+narrower slot would cut more off both walls. Without it a slot up to 3 µm wider than the cutter would count as
+left over; with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
 """
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
@@ -75,6 +75,8 @@ class Remains:
     at: tuple[float, float, float] | None
     beyond: tuple[tuple[float, float, float, float, float], ...]
     """x, y, z, depth, area of each unreachable place, mm, deepest first."""
+    bore: Bore | None = None
+    """The bore in which the thickest stock stays, if it does in one."""
 
 
 def remains(sweeps: Sweeps, job: Job) -> Remains:
@@ -82,9 +84,9 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     paths = sweeps.paths
     used = set(paths.run.tool[paths.steps].tolist())
     mills = [t for n, t in paths.tools.items() if n in used and t.kind in MILLS]
-    worst, at = uncut_bores(sweeps, job)
+    worst, at, bore = uncut_bores(sweeps, job)
     if not mills:
-        return Remains(worst, at, ())
+        return Remains(worst, at, (), bore)
     reach, round_floors = Reach(mills, PLAY + job.wear_margin), fillets(job)
     smallest, widest = min(t.radius for t in mills) + PLAY + job.wear_margin, max(t.diameter for t in mills)
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
@@ -128,14 +130,14 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         floors = _on_floors(reached, band, job, groups)
         for depth, spot in ((min(thick, 2 * smallest), where), floors):
             if spot is not None and depth > worst:
-                worst, at = depth, (*spot, band.bottom)
+                worst, at, bore = depth, (*spot, band.bottom), None
     beyond = []
     for key, (band, groups) in lowest.items():
         solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in round_floors]
         keep = shapely.union_all([band.keep, *solid]) if solid else band.keep
         beyond += _beyond(rests[key], Band(band.top, band.bottom, keep), job, groups)
     beyond.sort(key=lambda spot: -spot[3])
-    return Remains(worst, at, tuple(beyond))
+    return Remains(worst, at, tuple(beyond), bore)
 
 
 def _entered(keep: Shape, reach: float, job: Job, band: Band) -> Shape:

@@ -231,10 +231,13 @@ def _leftover_check(left: Remains) -> Check:
             unit="mm",
         )
     x, y, z = left.at
+    where = "where a cutter of the program could go"
+    if left.bore is not None:
+        where = f"on the wall of {left.bore.name}, which is to be cut to {left.bore.diameter:g} mm"
     return Check(
         "leftover",
         False,
-        f"{left.reachable:.3f} mm of stock stay where a cutter of the program could go, "
+        f"{left.reachable:.3f} mm of stock stay {where}, "
         f"the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
         None,
         left.reachable,

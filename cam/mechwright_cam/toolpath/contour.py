@@ -25,8 +25,9 @@ import numpy as np
 
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
-from mechwright_cam.toolpath.arcfit import GREATEST_RADIUS, spans
+from mechwright_cam.toolpath.arcfit import spans
 from mechwright_cam.toolpath.path import Cut, Path, arc, line, rounded
+from mechwright_cam.toolpath.runs import GREATEST_RADIUS
 
 FLAT = 1e-3
 """A line or arc may leave its node under this angle to the heading there, rad: where the control does not

@@ -25,8 +25,9 @@ CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
 FIT = TOLERANCES.arc_fit - 2 * CHORD
 """What is left of the arc-fit tolerance for the fit, after the chords of the offset and their thinning."""
-BIAS = TOLERANCES.arc_fit + TOLERANCES.flatten
-"""Finishing keeps off the wall by all that path and outline can be wrong, mm, so that it never gouges."""
+BIAS = TOLERANCES.arc_fit + TOLERANCES.flatten - TOLERANCES.outline
+"""Finishing keeps off the wall by what path and polygon can be wrong, mm, so that it never cuts deeper than
+the outline itself may be wrong."""
 ROUGH = 0.005
 """Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
 
