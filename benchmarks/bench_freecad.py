@@ -68,8 +68,8 @@ OURS = 3
 """Runs of ours for one of FreeCAD's, which takes half a minute on the polyline."""
 FINEST = 1e-4
 """Gouge that measuring does not tell from none, mm."""
-NEARLY = 1.15
-"""How near to the bound, which no path need reach, since its pieces do not even meet."""
+NEARLY = 1.3
+"""How near to the bound, which no path reaches: its pieces do not even meet, and skip the corners."""
 LEVEL = 1e-4
 """A move this near to a floor runs on it, mm; FreeCAD stays a millionth above."""
 

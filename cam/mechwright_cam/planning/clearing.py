@@ -43,6 +43,9 @@ SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
 FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
+FRAME = 0.05
+"""What the far side of a channel keeps, mm, belongs to the frame. Exact rings that reach just as far would
+leave hundreds of threads there, and to grow them takes longer than all the rest."""
 CLEAR = 0.01
 """A cutter this far from uncut stock runs in the clear, mm."""
 OVERLAP = 1.5 * ROUGH
@@ -147,6 +150,8 @@ class Roughing:
         self.touch = self.foot if ridges else tool.radius
         self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
+        if zone.channel is not None and not coarse:
+            take = shapely.intersection(take, grow(zone.channel, -FRAME, ROUGH))
         self.core = buffered(take, -self.sliver, 2)
         if not shapely.is_empty(zone.waste):
             self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
@@ -266,8 +271,7 @@ class Roughing:
             if order:
                 # The ring before reaches a radius far; this ring is for what lies beyond.
                 core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
-                core = _without_threads(core, self.sliver / 2)
-                if shapely.is_empty(core):
+                if not polygons(core):
                     return found
                 blocked = self._blocked(order)
                 wanted = grow(core, self.touch, ROUGH)
@@ -358,20 +362,6 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
                     pen.ramp(run.path, z)
             pen.follow(run.path)
         above = z
-
-
-def _without_threads(shape: shapely.Geometry, width: float) -> shapely.Geometry:
-    """The shape without those of its pieces that are nowhere wider than ``width``.
-
-    Where a ring reaches just as far as the stock, chords leave hundreds of them; a ring of their own would
-    cut air, and to grow them takes longer than all the rest.
-    """
-    pieces = np.array(polygons(shape), dtype=object)
-    wide = 2 * shapely.area(pieces) > width * shapely.length(pieces)
-    # Thin on the average is not thin everywhere.
-    thin = np.flatnonzero(~wide)
-    wide[thin] = ~shapely.is_empty(shapely.buffer(pieces[thin], -width / 2, quad_segs=1))
-    return shape if wide.all() and pieces.size else shapely.union_all(pieces[wide])
 
 
 def _inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
