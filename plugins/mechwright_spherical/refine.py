@@ -39,16 +39,21 @@ arc."""
 
 
 class Freedom(Enum):
-    """Which unknowns the fit has, by the axes that may move."""
+    """Which unknowns the fit has, by their number: six, and two for each axis that may move."""
 
-    SIX = ()
-    EIGHT = ("a0",)
-    TWELVE = _AXES
+    SIX = 6
+    EIGHT = 8
+    TWELVE = 12
 
     @property
     def unknowns(self) -> int:
         """Number of unknowns."""
-        return 6 + 2 * len(self.value)
+        return self.value
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The axes that may move."""
+        return {6: (), 8: ("a0",), 12: _AXES}[self.value]
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +144,7 @@ class _Problem:
     ) -> None:
         self._start, self._path, self._freedom = start, path, freedom
         self._least = least_transmission
-        self._tangents = {name: _tangents(getattr(start, name)) for name in freedom.value}
+        self._tangents = {name: _tangents(getattr(start, name)) for name in freedom.axes}
 
     def first(self) -> Array:
         """The unknowns of the start, with its mean arcs."""
@@ -173,7 +178,7 @@ class _Problem:
             axis = getattr(self._start, name)
             axis = column(axis, np.empty((3, 1, 1))) if many else axis
             if name in self._tangents:
-                place = 6 + 2 * self._freedom.value.index(name)
+                place = 6 + 2 * self._freedom.axes.index(name)
                 one, two = (column(t, axis) for t in self._tangents[name])
                 axis = axis + unknowns[place] * one + unknowns[place + 1] * two
                 axis = axis / norm(axis)
