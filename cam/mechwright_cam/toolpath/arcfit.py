@@ -58,7 +58,7 @@ def spans(points: Array, tolerance: float) -> tuple[Array, Index, Mask, Array]:
     Returns
     -------
     points
-        (n, 2), the vertices and some places on the edges.
+        (n, 2), the vertices that count: none doubled, none on a straight.
     nodes
         (k + 1,) index of the ends of the runs.
     straight

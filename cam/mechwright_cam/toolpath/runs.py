@@ -142,8 +142,9 @@ def _corners(points: Array, tolerance: float) -> Mask:
     bend[1:-1] = np.abs((np.diff(heading) + math.pi) % math.tau - math.pi)
     corners = bend > CORNER
     corners[[0, -1]] = True
-    # An arc over such an edge and on beside it would stand off from it.
+    # The turn at a corner says nothing about the edge beside it.
     bend[corners] = 0.0
+    # An arc over such an edge and on beside it would stand off from it.
     drawn = (step >= LEAST_LINE) & (step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance)
     corners[:-1] |= drawn
     corners[1:] |= drawn
