@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mechwright.machine import Machine as Machine  # families and CAM know it from here
 from mechwright.parameters import Parameters
+from mechwright.tolerances import TOLERANCES
 from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
 
 
@@ -242,6 +243,39 @@ Compensation = Literal["computer", "control", "wear"]
 the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
 
 
+class PathSettings(Parameters):
+    """How exact the finished walls are, and what their paths are made of."""
+
+    inner_tolerance: Millimetres = Field(
+        TOLERANCES.outline, ge=0, le=0.0045, description="Deepest that finishing may cut into a wall."
+    )
+    outer_tolerance: Millimetres = Field(
+        2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
+        ge=0.003,
+        le=0.008,
+        description="Most that finishing may leave on a wall; at least inner_tolerance.",
+    )
+    lines_per_arc: int = Field(
+        1, ge=1, le=100, description="An arc is written where it stands for at least so many lines."
+    )
+
+    @model_validator(mode="after")
+    def _outwards(self) -> Self:
+        if self.outer_tolerance < self.inner_tolerance:
+            raise ValueError("outer_tolerance must be at least inner_tolerance: paths stay off the wall")
+        return self
+
+    @property
+    def bias(self) -> float:
+        """How far off the wall the path of finishing is planned, mm: in the middle of both tolerances."""
+        return (self.outer_tolerance - self.inner_tolerance) / 2
+
+    @property
+    def tolerance(self) -> float:
+        """How far a path may stray from the parallel of the flattened outline, mm."""
+        return (self.outer_tolerance + self.inner_tolerance) / 2 - TOLERANCES.flatten
+
+
 class Measured(Parameters):
     """What was read at the machine; the setup sheet says how."""
 
@@ -289,6 +323,7 @@ class CamSettings(Parameters):
     floor_to_leave: Millimetres = Field(
         0.2, ge=0, le=5, description="Left on floors of recesses by roughing; at most half of the depth."
     )
+    path: PathSettings = Field(PathSettings(), description="Accuracy of walls, and lines and arcs.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
     finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
     compensation: Compensation = Field(

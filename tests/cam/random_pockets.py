@@ -66,15 +66,15 @@ def random_pocket(rng):
     return Pocket("pocket", boundary, islands, 0.0, float(rng.uniform(0.5, 6.0)))
 
 
-def case(seed: int) -> Proof | str:
-    """The proof of one random pocket, or the reason why planning refuses it."""
+def case(seed: int, **changes: object) -> Proof | str:
+    """The proof of one random pocket, or the reason why planning refuses it; changes go into its settings."""
     rng = np.random.default_rng(seed)
     x, y = WIDE / 2, HIGH / 2
     plate = Outline(Loop.polygon([(-x, -y), (x, -y), (x, y), (-x, y)]))
     part = Part("plate", plate, THICK, "aluminium", machined=(random_pocket(rng),))
     named = [] if rng.random() < 0.4 else sorted(rng.choice(MILLS, 2, replace=False).tolist())
     wanted = CamSettings.model_validate(
-        {"stock": {"margin": 0}, "tools": named, "climb": bool(rng.integers(2))}
+        {"stock": {"margin": 0}, "tools": named, "climb": bool(rng.integers(2)), **changes}
     )
     try:
         job = make_job(part, wanted, choose_tools(part, wanted, LIBRARY))

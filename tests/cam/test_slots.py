@@ -39,14 +39,14 @@ def test_a_mill_fills_a_slot_as_the_exact_shapes_say(radius, play, taper, allowa
     least = max(allowance, BIAS)
     only = closing(part, radius + least).difference(closing(part, radius + BIAS))
     exact = not only.buffer(-FILLS * radius, quad_segs=8).is_empty
-    assert fills_a_slot(radius, part, allowance) is exact
+    assert fills_a_slot(radius, part, allowance, BIAS) is exact
 
 
 def test_both_answers_occur():
-    assert fills_a_slot(3.0, slotted(6.2), 0.2)
-    assert not fills_a_slot(3.0, slotted(5.8), 0.2)  # it does not get in
-    assert not fills_a_slot(3.0, slotted(6.6), 0.2)  # it has room for its allowance
-    assert not fills_a_slot(3.0, slotted(6.2, taper=4.0), 0.2)  # only its bottom is so narrow
+    assert fills_a_slot(3.0, slotted(6.2), 0.2, BIAS)
+    assert not fills_a_slot(3.0, slotted(5.8), 0.2, BIAS)  # it does not get in
+    assert not fills_a_slot(3.0, slotted(6.6), 0.2, BIAS)  # it has room for its allowance
+    assert not fills_a_slot(3.0, slotted(6.2, taper=4.0), 0.2, BIAS)  # only its bottom is so narrow
 
 
 @given(radius=st.floats(0.3, 8.0), corners=st.integers(3, 40), size=st.floats(4.0, 30.0))

@@ -23,7 +23,7 @@ def wedge(half_angle: float) -> shapely.Polygon:
 def test_the_path_ends_as_near_as_a_straight_move_may(half_angle: float, radius: float) -> None:
     keep = wedge(half_angle)
     (ring,) = rings(grow(keep, radius + BIAS), climb=True)
-    deeper = into_wedges(ring, keep, radius)
+    deeper = into_wedges(ring, keep, radius, BIAS)
     assert np.array_equal(deeper[0], deeper[-1])
     lowest = deeper[np.argmin(np.where(deeper[:, 1] > -5, deeper[:, 1], np.inf))]
     reach = (radius + TOUCH) / math.sin(half_angle)
@@ -39,4 +39,4 @@ def test_the_path_ends_as_near_as_a_straight_move_may(half_angle: float, radius:
 def test_convex_corners_and_wide_ones_are_left_alone() -> None:
     keep = shapely.union(shapely.box(0, 0, 40, 20), shapely.box(0, 0, 15, 50))
     (ring,) = rings(grow(keep, 4 + BIAS), climb=False)
-    assert np.array_equal(into_wedges(ring, keep, 4.0), ring)
+    assert np.array_equal(into_wedges(ring, keep, 4.0, BIAS), ring)

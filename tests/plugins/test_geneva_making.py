@@ -19,6 +19,7 @@ from mechwright_cam.library import load_library
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.setup_sheet.procedure import _run
+from mechwright_cam.toolpath.offsets import BIAS
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 
@@ -148,5 +149,5 @@ def test_a_straight_slot_is_not_cut_at_full_width():
     assert used["outside: finish"] < 8 < used["outside: rough"]
     shape = shapely.Polygon(wheel.outline.outer.flatten())
     mills = [LIBRARY.get(f"mill-{d}") for d in (16, 8, 6)]
-    assert [m.diameter for m in outside_mills(mills, shape, 0.2)] == [16, 6]
-    assert outside_mills(mills[:2], shape, 0.2) == mills[:2]
+    assert [m.diameter for m in outside_mills(mills, shape, 0.2, BIAS)] == [16, 6]
+    assert outside_mills(mills[:2], shape, 0.2, BIAS) == mills[:2]

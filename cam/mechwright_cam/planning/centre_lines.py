@@ -47,16 +47,16 @@ def grooves(job: Job) -> dict[str, Tool]:
     return {name: mill for name, mill in chosen.items() if mill is not None}
 
 
-def centre_line(feature: OpenProfile) -> Path:
+def centre_line(feature: OpenProfile, lines_per_arc: int) -> Path:
     """The way of the cutter's centre."""
     rows = [segment.flatten(TOLERANCES.flatten) for segment in feature.path]
     points = np.concatenate([rows[0], *(row[1:] for row in rows[1:])])
-    return fit(densified(points, DENSE), FIT)
+    return fit(densified(points, DENSE), FIT, lines_per_arc)
 
 
 def write_groove(job: Job, feature: OpenProfile, pen: Pen, leave: float) -> None:
     """Write ramped passes of full width along the centre line, to and fro, and the last over the floor."""
-    path = centre_line(feature)
+    path = centre_line(feature, job.settings.path.lines_per_arc)
     top, bottom = -feature.top, bottom_of(job, feature.top, feature.depth)
     step_down = pen.tool.cutting[job.part.material].step_down * pen.tool.diameter
     heights = levels(top, bottom + leave, step_down)

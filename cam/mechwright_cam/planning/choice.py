@@ -9,15 +9,12 @@ import shapely
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
+from mechwright.tooling import PathSettings, Tool
 from mechwright_cam.job import Job
 from mechwright_cam.reach import closing, leaves_at_most, leaves_much_more
-from mechwright_cam.toolpath.offsets import BIAS, polygons
+from mechwright_cam.toolpath.offsets import polygons
 from mechwright_cam.toolpath.path import rounded
 
-SAME_REACH = TOLERANCES.leftover - BIAS - TOLERANCES.arc_fit - TOLERANCES.flatten
-"""A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm: what is
-left of the permitted leftover when path and outline have used their tolerances."""
 SAME_RADIUS = TOLERANCES.leftover / 2
 """A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
 ROOMY = 0.7
@@ -59,7 +56,7 @@ def makes_floor(tool: Tool, floor_radius: float) -> bool:
 
 
 def last_mills(
-    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+    mills: Sequence[Tool], keep: shapely.Geometry, path: PathSettings, near: shapely.Geometry | None = None
 ) -> list[Tool]:
     """The mills that finish a wall, one after the other: the finest, and before a round one a flat one.
 
@@ -68,8 +65,8 @@ def last_mills(
     """
     flat = [mill for mill in mills if mill.nose == 0]
     if not flat or len(flat) == len(mills):
-        return [finishing_choice(mills, keep, near)]
-    first, best = finishing_choice(flat, keep, near), finishing_choice(mills, keep, near)
+        return [finishing_choice(mills, keep, path, near)]
+    first, best = (finishing_choice(some, keep, path, near) for some in (flat, mills))
     return [first] if best.radius >= first.radius else [first, best]
 
 
@@ -88,30 +85,36 @@ def roughers(mills: Sequence[Tool], finest: Tool) -> list[Tool]:
     ]
 
 
-def path_radius(mill: Tool) -> float:
-    """How near to a wall the mill's centre comes: a gap of just its diameter is too narrow for it."""
-    return mill.radius + BIAS
+def same_reach(path: PathSettings) -> float:
+    """A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm.
+
+    It is what is left of the permitted leftover when the path has used its tolerance.
+    """
+    return TOLERANCES.leftover - path.outer_tolerance
 
 
 def finishing_choice(
-    mills: Sequence[Tool], keep: shapely.Geometry, near: shapely.Geometry | None = None
+    mills: Sequence[Tool], keep: shapely.Geometry, path: PathSettings, near: shapely.Geometry | None = None
 ) -> Tool:
     """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one.
 
     Only the walls ``near`` a shape count, if one is given.
     """
-    return mills[_largest_as_good(keep, tuple(path_radius(mill) for mill in mills), near)]
+    return mills[_largest_as_good(keep, tuple(mill.radius for mill in mills), path, near)]
 
 
 @lru_cache(maxsize=64)
-def _largest_as_good(keep: shapely.Geometry, radii: tuple[float, ...], near: shapely.Geometry | None) -> int:
-    """Index of the largest radius that leaves no more on the walls of ``keep`` than the last one."""
-    finest = radii[-1] - BIAS
+def _largest_as_good(
+    keep: shapely.Geometry, radii: tuple[float, ...], path: PathSettings, near: shapely.Geometry | None
+) -> int:
+    """Index of the largest mill that leaves no more on the walls of ``keep`` than the last one."""
+    finest, most = radii[-1], same_reach(path)
 
     def as_good(radius: float) -> bool:
-        if leaves_much_more(keep, radius, finest, SAME_REACH, near):
+        # A gap of just its diameter is too narrow for the mill.
+        if leaves_much_more(keep, radius + path.bias, finest, most, near):
             return False
-        return leaves_at_most(closing(keep, finest), radius, SAME_REACH, near)
+        return leaves_at_most(closing(keep, finest), radius + path.bias, most, near)
 
     # What is left only grows with the radius.
     return bisect_left(radii, True, hi=len(radii) - 1, key=as_good)

@@ -26,12 +26,11 @@ from mechwright_cam.planning.zone import CUSP, SLACK, Zone
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit_all
 from mechwright_cam.toolpath.offsets import (
-    BIAS,
     CHORD,
-    FIT,
     ROUGH,
     Piece,
     densified,
+    fit_tolerance,
     grow,
     pieces,
     polygons,
@@ -106,7 +105,7 @@ class Roughing:
     tool
         An end mill.
     allowance
-        Stock to leave on the wall, mm; at least BIAS.
+        Stock to leave on the wall, mm; at least what its accuracy asks for.
     step_over
         Distance of rings, diameters.
     climb
@@ -131,7 +130,7 @@ class Roughing:
         self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
-        self.fit = COARSE_FIT if coarse else FIT
+        self.fit = COARSE_FIT if coarse else fit_tolerance(zone.path)
         self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
         self.before = zone.left, zone.over
         self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
@@ -161,7 +160,7 @@ class Roughing:
         radius = self.tool.radius + order * self.step
         if self.coarse:
             return self.zone.rough_keep(self.allowance, radius)
-        return grow(self.zone.keep, max(self.allowance, BIAS) + radius)
+        return grow(self.zone.keep, max(self.allowance, self.zone.path.bias) + radius)
 
     def serves(self, zone: Zone) -> bool:
         """Whether another layer of the same recess, with the same stock in it, is cut alike."""
@@ -220,7 +219,11 @@ class Roughing:
             here = ordered[-1][1][-1][-1]
             starts = np.array([runs[0][0] for _, runs in waiting])
             ordered.append(waiting.pop(int(np.argmin(np.hypot(*(starts - here).T)))))
-        paths = iter(fit_all([points for _, runs in ordered for points in runs], self.fit))
+        paths = iter(
+            fit_all(
+                [points for _, runs in ordered for points in runs], self.fit, self.zone.path.lines_per_arc
+            )
+        )
         # Slack for rounding: a link along a ring's chord may cut its corner by this much.
         free = grow(self.free, 2 * self.chord + self.fit, ROUGH)
         free = prepared(free)

@@ -32,7 +32,7 @@ from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.contour import contour_beside
 from mechwright_cam.toolpath.leads import middle_of_longest
-from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, densified, grow, pieces, rings
+from mechwright_cam.toolpath.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.toolpath.path import Path, rounded
 from mechwright_cam.toolpath.places import STEP, candidates, centres, heading_at
 
@@ -110,13 +110,14 @@ class CompensatedFinishing:
         zone, reach = self.zone, self.job.reach(self.tool)
         # Past tabs the tool is lifted: the contour is that of the wall alone.
         keep = zone.wall
+        tolerance = fit_tolerance(zone.path)
         found = []
-        for ring in rings(grow(keep, reach + BIAS), self.settings.climb):
+        for ring in rings(grow(keep, reach + zone.path.bias), self.settings.climb):
             dense = densified(ring, self.tool.radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)
             whole = pieces(dense, everywhere, everywhere, self.wide, 0)
             runs = [ring] if whole and whole[0].closed else [piece.points for piece in whole]
-            found += [contour_beside(run, reach - self.offsets.base, self.side, FIT) for run in runs]
+            found += [contour_beside(run, reach - self.offsets.base, self.side, tolerance) for run in runs]
         return [contour for contour in found if contour.cuts]
 
     # -- leads ------------------------------------------------------------------------------------------

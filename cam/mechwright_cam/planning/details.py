@@ -89,7 +89,7 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
             inner = [ring for ring in found if _within(ring, region)]
             found = inner if detail.side == "inside" else found[:1]
             if found:
-                paths = [fit(ring, FIT) for ring in found]
+                paths = [fit(ring, FIT, job.settings.path.lines_per_arc) for ring in found]
                 return DetailPlan(detail, tool, partial(_around, paths=paths, z=-(detail.width + below)))
     if held:
         raise DesignError(

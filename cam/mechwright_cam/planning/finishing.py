@@ -15,7 +15,7 @@ from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.leads import best_start, lead_shapes, led, with_leads
-from mechwright_cam.toolpath.offsets import BIAS, FIT, ROUGH, Piece, densified, grow, pieces, rings
+from mechwright_cam.toolpath.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.toolpath.path import Path
 
 
@@ -25,7 +25,7 @@ class Finishing:
     def __init__(self, zone: Zone, settings: CamSettings, tool: Tool) -> None:
         self.zone, self.settings, self.tool = zone, settings, tool
         radius = self.tool.radius
-        self.blocked = grow(zone.keep, radius + BIAS)
+        self.blocked = grow(zone.keep, radius + zone.path.bias)
         self.room = zone.room(radius, finishing=True)
         if zone.tabs is not None:
             # Along a tab only as far as the finishing of the wall needs it.
@@ -58,10 +58,15 @@ class Finishing:
     def _pieces(self) -> list[Piece]:
         found = []
         for ring in rings(self.blocked, self.settings.climb):
-            dense = densified(into_wedges(ring, self.zone.keep, self.tool.radius), self.tool.radius / 4)
+            radius = self.tool.radius
+            dense = densified(into_wedges(ring, self.zone.keep, radius, self.zone.path.bias), radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)
             found.extend(pieces(dense, everywhere, everywhere, self.room, 0))
         return found
+
+    def _fitted(self, points: Array) -> Path:
+        path = self.zone.path
+        return fit(points, fit_tolerance(path), path.lines_per_arc)
 
     def _is_clear(self, points: Array) -> NDArray[np.bool_]:
         clear: NDArray[np.bool_] = ~shapely.contains_xy(self.near, points[:, 0], points[:, 1])
@@ -73,7 +78,7 @@ class Finishing:
 
     def _led(self, points: Array) -> Path:
         """An open stretch; in the open it is entered from the air and left into it on arcs."""
-        path = fit(points, FIT)
+        path = self._fitted(points)
         if not self.zone.in_the_open or not path.cuts:
             return path
         first, last = points[1] - points[0], points[-1] - points[-2]
@@ -93,16 +98,15 @@ class Finishing:
         found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear, self._may_run)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
-            self._loop(
-                pen, fit(_from(ring, int(clear[0]) if clear.size else 0), FIT), heights, clear.size > 0
-            )
+            points = _from(ring, int(clear[0]) if clear.size else 0)
+            self._loop(pen, self._fitted(points), heights, clear.size > 0)
             return
         at, rho, sweep = found
         points = _from(ring, at)
         first, last = points[1] - points[0], points[0] - points[-2]
         one, two = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
         heading = one - ((one - two + math.pi) % math.tau - math.pi) / 2
-        path = with_leads(fit(points, FIT), heading, rho, sweep, self.settings.climb)
+        path = with_leads(self._fitted(points), heading, rho, sweep, self.settings.climb)
         self._stretch(pen, path, heights)
 
     def _stretch(self, pen: Pen, path: Path, heights: list[float]) -> None:

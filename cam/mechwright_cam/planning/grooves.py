@@ -52,7 +52,7 @@ def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:
             ring = ring[::-1]
         line = ring if part.interiors else _run_out(half(ring, radius), zone.keep, radius)
         thin = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), CHORD))
-        path = fit(densified(thin, radius / 4), FIT)
+        path = fit(densified(thin, radius / 4), FIT, zone.path.lines_per_arc)
         if path.cuts:
             found.append(path)
     return found

@@ -17,11 +17,10 @@ from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.centre_lines import groove_mill
 from mechwright_cam.planning.choice import (
     ROOMY,
-    SAME_REACH,
     entry_place,
     finishing_choice,
-    path_radius,
     roomy_mills,
+    same_reach,
     usable_mills,
 )
 from mechwright_cam.planning.details import plan_detail
@@ -110,16 +109,16 @@ def _mills(every: Job) -> list[Tool]:
 def _outside(every: Job, sensible: list[Tool], shape: shapely.Polygon) -> list[Tool]:
     """The mills that rough and finish an outside; none is as wide as a slot of it, if there is a choice."""
     mills = _roughing(every, sensible, shape)
-    allowance = every.settings.stock_to_leave
-    fits = partial(_fits, mills, shape, allowance)
+    fits = partial(_fits, mills, shape, every.settings)
     first = next(filter(fits, mills))
-    finest = _finest_needed(mills, shape, every.settings.corner_mill, fits=fits)
+    finest = _finest_needed(mills, shape, every.settings, fits=fits)
     return [first, *_between(every, first, mills, finest, shape, fits), finest]
 
 
-def _fits(mills: Sequence[Tool], shape: shapely.Polygon, allowance: float, mill: Tool) -> bool:
+def _fits(mills: Sequence[Tool], shape: shapely.Polygon, settings: CamSettings, mill: Tool) -> bool:
     """Whether a mill of these may be used around a shape; the finest may in any case."""
-    return mill is mills[-1] or not fills_a_slot(mill.radius, shape, allowance)
+    bias = settings.path.bias
+    return mill is mills[-1] or not fills_a_slot(mill.radius, shape, settings.stock_to_leave, bias)
 
 
 def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
@@ -139,9 +138,7 @@ def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
         width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
         return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
     able = roomy_mills(able, shapes.must)
-    return [
-        _finest_needed(able, shapes.keep, every.settings.corner_mill, shapes.must if shapes.open else None)
-    ]
+    return [_finest_needed(able, shapes.keep, every.settings, shapes.must if shapes.open else None)]
 
 
 def _floor_mills(every: Job) -> list[Tool]:
@@ -188,23 +185,24 @@ def _between(
 def _finest_needed(
     mills: Sequence[Tool],
     keep: shapely.Geometry,
-    least: float,
+    settings: CamSettings,
     near: shapely.Geometry | None = None,
     fits: Fits = lambda _: True,
 ) -> Tool:
     """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest.
 
-    No mill below ``least``, mm, is taken for the sake of sharp corners.
+    No mill below ``corner_mill`` is taken for the sake of sharp corners.
     """
+    path, most = settings.path, same_reach(settings.path)
     # What a mill leaves only shrinks with its size.
     clean = bisect_left(
-        mills, True, key=lambda mill: leaves_at_most(keep, path_radius(mill), SAME_REACH, near)
+        mills, True, key=lambda mill: leaves_at_most(keep, mill.radius + path.bias, most, near)
     )
     for mill in mills[clean:]:
         if fits(mill):
             return mill
     fitting = [mill for mill in mills if fits(mill)]
-    return finishing_choice(_worthwhile(fitting, keep, least, near), keep, near)
+    return finishing_choice(_worthwhile(fitting, keep, settings.corner_mill, near), keep, path, near)
 
 
 FITS = 0.9

@@ -10,7 +10,7 @@ import shapely
 
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.toolpath.offsets import BIAS, CHORD
+from mechwright_cam.toolpath.offsets import CHORD
 from mechwright_cam.toolpath.runs import CORNER
 
 TOUCH = TOLERANCES.flatten + CHORD / 2
@@ -22,18 +22,22 @@ TRIALS = 6
 """Halvings of a move that comes too near: curved walls end sooner than their tangents."""
 
 
-def into_wedges(ring: Array, keep: shapely.Geometry, radius: float) -> Array:
+def into_wedges(ring: Array, keep: shapely.Geometry, radius: float, bias: float) -> Array:
     """The ring with a move to the end of each slender wedge and back.
 
     Parameters
     ----------
     ring
-        (n + 1, 2), mm, closed, at ``radius + BIAS`` from ``keep``.
+        (n + 1, 2), mm, closed, at ``radius + bias`` from ``keep``.
     keep
         What must stay.
     radius
         Of the cutter, mm.
+    bias
+        Distance of the path from the wall, mm.
     """
+    if bias <= TOUCH:
+        return ring
     corner = ring[:-1]
     back, ahead = np.roll(corner, 1, axis=0) - corner, np.roll(corner, -1, axis=0) - corner
     back /= np.linalg.norm(back, axis=1, keepdims=True)
@@ -41,12 +45,12 @@ def into_wedges(ring: Array, keep: shapely.Geometry, radius: float) -> Array:
     middle = back + ahead
     opening = np.linalg.norm(middle, axis=1) / 2  # the cosine of α
     slope = np.sqrt(np.maximum(1 - opening**2, np.finfo(float).eps))
-    held = BIAS / slope
+    held = bias / slope
     sharp = np.flatnonzero((2 * np.arcsin(np.minimum(slope, 1)) < np.pi - CORNER) & (held > HELD_BACK))
     if not sharp.size:
         return ring
     way = -middle[sharp] / (2 * opening[sharp, None])
-    length = held[sharp] * (1 - TOUCH / BIAS)
+    length = held[sharp] * (1 - TOUCH / bias)
     for _ in range(TRIALS):
         end = corner[sharp] + length[:, None] * way
         near = shapely.distance(keep, shapely.points(end)) < radius + TOLERANCES.flatten

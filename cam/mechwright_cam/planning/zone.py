@@ -21,10 +21,9 @@ import shapely
 from mechwright.cutter import cutter
 from mechwright.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
+from mechwright.tooling import PathSettings, Tool
 from mechwright_cam.tabs import Tab
 from mechwright_cam.toolpath.offsets import (
-    BIAS,
     CHORD,
     ROUGH,
     grow,
@@ -70,6 +69,8 @@ class Zone:
     kind: Literal["outside", "inside", "pocket"]
     through: bool
     """Whether nothing of the plate stays below."""
+    path: PathSettings = field(kw_only=True)
+    """How exact the wall is to be."""
     feature: Pocket | Profile | None = None
     """What it is in the drawing, inside."""
     must: shapely.Geometry | None = None
@@ -174,7 +175,7 @@ class Zone:
             return grow(self.channel, slack - radius, ROUGH)
         if self.must is not None and finishing:
             # Past the end of a wall and around its corner, but not on along the outside.
-            return shapely.intersection(self.clear, grow(self.must, radius + BIAS + 2 * CHORD))
+            return shapely.intersection(self.clear, grow(self.must, radius + self.path.bias + 2 * CHORD))
         return self.clear
 
     def rough_keep(self, allowance: float, radius: float = 0.0) -> shapely.Geometry:

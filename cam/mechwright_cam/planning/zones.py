@@ -24,7 +24,6 @@ from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
 from mechwright_cam.reach import roughly_swollen
 from mechwright_cam.toolpath.offsets import (
-    BIAS,
     ROUGH,
     filled,
     grow,
@@ -58,7 +57,7 @@ FILLED = 0.9
 
 def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
     """Openings that are not round, and pockets, but for those of some names."""
-    zones = []
+    zones, path = [], job.settings.path
     for feature in job.features:
         if feature.name in skip:
             continue
@@ -77,13 +76,13 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             last, snug = floor_mills(job, feature, mills, shapes)
             mills = last if snug else roomy_mills(mills, shapes.must)
         else:
-            if reached_share(shapes, mills[-1].radius + BIAS) < LEAST_SHARE:
+            if reached_share(shapes, mills[-1].radius + path.bias) < LEAST_SHARE:
                 raise ToolError(
                     f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
                     f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
                 )
             mills = roomy_mills(mills, shapes.must)
-            last = last_mills(mills, shapes.keep, shapes.must if shapes.open else None)
+            last = last_mills(mills, shapes.keep, path, shapes.must if shapes.open else None)
         finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutter needs
             run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
@@ -100,6 +99,7 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             bottom == job.floor,
             feature,
             shapes.must if shapes.open else None,
+            path=path,
             below=bottom == job.floor,
             before=last[0] if len(last) > 1 else None,
             floor_radius=radius,
@@ -118,25 +118,25 @@ def floor_mills(
 
     Raises ToolError if none has the radius, or none gets in.
     """
-    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    radius, path = feature.floor_radius if isinstance(feature, Pocket) else 0.0, job.settings.path
     able = [mill for mill in mills if makes_floor(mill, radius)]
     if not able:
         raise ToolError(
             f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
             f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
         )
-    if reached_share(shapes, able[-1].radius + BIAS) < ENTERED:
+    if reached_share(shapes, able[-1].radius + path.bias) < ENTERED:
         fit = [mill for mill in able if reached_share(shapes, mill.radius - SNUG) >= FILLED]
         if fit:
             return fit[:1], True
-    fit = [mill for mill in able if reached_share(shapes, mill.radius + BIAS) >= LEAST_SHARE]
+    fit = [mill for mill in able if reached_share(shapes, mill.radius + path.bias) >= LEAST_SHARE]
     if not fit:
         raise ToolError(
             f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
             "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
         )
     fit = roomy_mills(fit, shapes.must)
-    return [finishing_choice(fit, shapes.keep, shapes.must if shapes.open else None)], False
+    return [finishing_choice(fit, shapes.keep, path, shapes.must if shapes.open else None)], False
 
 
 def outer_zones(job: Job) -> list[Zone]:
@@ -146,7 +146,7 @@ def outer_zones(job: Job) -> list[Zone]:
 
 def outer_walls(job: Job) -> list[list[Zone]]:
     """The zones of :func:`outer_zones`, outside by outside: a nest has several."""
-    walls = []
+    walls, path = [], job.settings.path
     for feature in job.features:
         if not (isinstance(feature, Profile) and feature.side == "outside"):
             continue
@@ -158,9 +158,9 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         part = shapely.Polygon(feature.loop.flatten())
         # A mill too wide for the frame is as good as none, for finishing as well.
         mills = roughing_mills(job, usable_mills(job, -job.floor), part)
-        mills = outside_mills(mills, part, job.settings.stock_to_leave)
+        mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
         clear, channel = _channel(job, part, mills[0])
-        last = last_mills(mills, part)
+        last = last_mills(mills, part, path)
         finisher = last[-1]
 
         layer = partial(
@@ -170,6 +170,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             finisher=finisher,
             kind="outside",
             through=True,
+            path=path,
             channel=channel,
             before=last[0] if len(last) > 1 else None,
         )

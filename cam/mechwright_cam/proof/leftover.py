@@ -22,7 +22,7 @@ import shapely
 from mechwright.motion import Array
 from mechwright.part import Bore, OpenProfile, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS
+from mechwright.tooling import MILLS, PathSettings
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
@@ -38,13 +38,20 @@ VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
 SPOTS = 40
 """So many places of unreachable stock are listed, deepest first; a gear has two per tooth."""
-PLAY = TOLERANCES.arc_fit + TOLERANCES.flatten - TOLERANCES.outline
+PLAY = PathSettings().bias
 """A cutter reaches what it enters with this much air on either side, mm.
 
 Paths and polygons are no better, and may be a micron too deep as outlines may: a path in the middle of a
 narrower slot would cut more off both walls. Without it a slot up to 3 µm wider than the cutter would count as
 left over; with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
 """
+
+
+def play(job: Job) -> float:
+    """Air on either side of a cutter where it can enter, mm: more where paths keep farther off the walls."""
+    return max(PLAY, job.settings.path.bias)
+
+
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
 may be off."""
@@ -87,8 +94,9 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     worst, at, bore = uncut_bores(sweeps, job)
     if not mills:
         return Remains(worst, at, (), bore)
-    reach, round_floors = Reach(mills, PLAY + job.wear_margin), fillets(job)
-    smallest, widest = min(t.radius for t in mills) + PLAY + job.wear_margin, max(t.diameter for t in mills)
+    air = play(job) + job.wear_margin
+    reach, round_floors = Reach(mills, air), fillets(job)
+    smallest, widest = min(t.radius for t in mills) + air, max(t.diameter for t in mills)
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
     extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
@@ -150,7 +158,7 @@ def _entered(keep: Shape, reach: float, job: Job, band: Band) -> Shape:
         inside = feature.top < -(band.top + band.bottom) / 2 < feature.top + feature.depth
         if isinstance(feature, OpenProfile) and feature.side == "on" and inside:
             lack = reach - feature.width / 2
-            if -ENTERED < lack <= PLAY + NEAR:
+            if -ENTERED < lack <= play(job) + NEAR:
                 keep = shapely.difference(keep, grow(floor_of(feature, job), lack + ENTERED))
     return keep
 

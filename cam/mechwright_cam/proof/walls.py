@@ -25,7 +25,7 @@ from mechwright_cam.interpreter import Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands
-from mechwright_cam.proof.leftover import BESIDE, PLAY, TAB_SLACK, VISIBLE
+from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
@@ -132,7 +132,7 @@ def wall_deviation(run: Run, job: Job) -> Walls:
         off = _off(points, outward, _groups(sweeps, band, job, nose))
         corner = np.zeros(len(points), dtype=bool)
         if mills:
-            reached = shapely.boundary(closing(band.keep, smallest + PLAY))
+            reached = shapely.boundary(closing(band.keep, smallest + play(job)))
             reached = prepared(reached)
             corner = (off > VISIBLE) & ~shapely.dwithin(reached, shapely.points(points), VISIBLE)
         height = np.full(len(points), band.bottom)

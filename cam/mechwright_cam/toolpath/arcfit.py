@@ -15,7 +15,7 @@ LAST_DIGIT = 1e-4
 """A vertex this near to the line past it is one of rounding, mm: no bend of the path."""
 
 
-def fit(points: Array, tolerance: float) -> Path:
+def fit(points: Array, tolerance: float, lines_per_arc: int = 1) -> Path:
     """Give the path of lines and arcs that passes within ``tolerance`` of a polyline.
 
     Parameters
@@ -24,21 +24,23 @@ def fit(points: Array, tolerance: float) -> Path:
         (n, 2), mm; a closed polyline repeats its first point.
     tolerance
         Largest distance of a vertex or of the middle of an edge from its line or arc, mm.
+    lines_per_arc
+        An arc is taken where it stands for at least so many lines; 1 gives the fewest moves.
 
     Returns
     -------
     path
         From the first point to the last, both rounded as programs print them. Corners are kept.
     """
-    return fit_all([points], tolerance)[0]
+    return fit_all([points], tolerance, lines_per_arc)[0]
 
 
-def fit_all(polylines: Sequence[Array], tolerance: float) -> list[Path]:
+def fit_all(polylines: Sequence[Array], tolerance: float, lines_per_arc: int = 1) -> list[Path]:
     """Fit several polylines in one go; see :func:`fit`."""
     if not polylines:
         return []
     way = course(polylines, tolerance)
-    runs = runs_of(way, tolerance)
+    runs = runs_of(way, tolerance, lines_per_arc)
     places = np.column_stack([axis[runs.nodes] for axis in way.points])
     straight, height = runs.straight.tolist(), runs.height.tolist()
     return [

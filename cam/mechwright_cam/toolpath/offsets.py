@@ -18,19 +18,25 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import PathSettings
 from mechwright_cam.buffers import buffered
 
 CHORD = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
-FIT = TOLERANCES.arc_fit - 2 * CHORD
-"""What is left of the arc-fit tolerance for the fit, after the chords of the offset and their thinning."""
-BIAS = TOLERANCES.arc_fit + TOLERANCES.flatten - TOLERANCES.outline
-"""Finishing keeps off the wall by what path and polygon can be wrong, mm, so that it never cuts deeper than
-the outline itself may be wrong."""
+BIAS = PathSettings().bias
+"""How far paths beside what is no wall, such as chamfers, keep off it, mm: by what path and polygon can be
+wrong, so that nothing is cut deeper than the outline itself may be wrong."""
 ROUGH = 0.005
 """Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
 
+
+def fit_tolerance(path: PathSettings) -> float:
+    """What is left of the tolerance for the fit, mm, after the chords of the offset and their thinning."""
+    return path.tolerance - 2 * CHORD
+
+
+FIT = fit_tolerance(PathSettings())
+"""The same for paths that finish no wall, mm."""
 
 LEAST_CORNERS = 4
 """Of a quarter circle: fewer make corners that fitting takes for those of the drawing."""

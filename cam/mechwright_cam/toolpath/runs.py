@@ -151,13 +151,17 @@ def _corners(points: Array, tolerance: float) -> Mask:
     return corners
 
 
-def runs_of(way: Course, tolerance: float) -> Runs:
-    """The fewest runs that are found within ``tolerance``, mm, of every vertex and middle of an edge."""
+def runs_of(way: Course, tolerance: float, lines_per_arc: int = 1) -> Runs:
+    """The fewest runs that are found within ``tolerance``, mm, of every vertex and middle of an edge.
+
+    An arc counts as ``lines_per_arc`` lines.
+    """
     index = np.arange(len(way.most))
     by_arc = _reach(way, index, way.most, tolerance)
     by_line = _reach(way, index, by_arc, tolerance, lines=True)
     for _ in range(TRIALS):
-        found, bad = _tested(way, _chain(by_line, by_arc), tolerance)
+        nodes, lines = _chain(by_line, by_arc, lines_per_arc)
+        found, bad = _tested(way, nodes, tolerance, lines & (lines_per_arc > 1))
         if not bad.size:
             return found
         place, end = found.nodes[bad], found.nodes[bad + 1]
@@ -167,35 +171,39 @@ def runs_of(way: Course, tolerance: float) -> Runs:
         by_line[place] = _reach(way, place, most, tolerance, lines=True, everywhere=True)
     while bad.size:
         middle = (found.nodes[bad] + found.nodes[bad + 1]) // 2
-        found, bad = _tested(way, np.insert(found.nodes, bad + 1, middle), tolerance)
+        nodes = np.insert(found.nodes, bad + 1, middle)
+        found, bad = _tested(way, nodes, tolerance, np.zeros(len(nodes) - 1, dtype=np.bool_))
     return found
 
 
-def _chain(by_line: Index, by_arc: Index) -> Index:
-    """The vertices of a way with the fewest runs.
+def _chain(by_line: Index, by_arc: Index, lines_per_arc: int) -> tuple[Index, Mask]:
+    """The vertices of a way with the fewest runs, and which of them begin a line.
 
-    Of two as short it is the one whose first run is longer: a line only where an arc goes no farther, for a
+    Of two as short it is the one whose first run is an arc: a line only where an arc goes no farther, for a
     line into a bend is a corner that the machine feels.
     """
-    last = len(by_line) - 1
+    last, more = len(by_line) - 1, lines_per_arc - 1
     count, follow = [0] * (last + 1), [last] * (last + 1)
     one, two = by_line.tolist(), by_arc.tolist()
+    lines = [False] * last
     for here in range(last - 1, -1, -1):
         line, arc = one[here], two[here]
-        best = line if line == arc or count[line] < count[arc] else arc
-        count[here], follow[here] = count[best] + 1, best
+        if line == arc or count[line] < count[arc] + more:
+            count[here], follow[here], lines[here] = count[line] + 1, line, True
+        else:
+            count[here], follow[here] = count[arc] + 1 + more, arc
     nodes = [0]
     while nodes[-1] < last:
         nodes.append(follow[nodes[-1]])
-    return np.array(nodes, dtype=np.intp)
+    return np.array(nodes, dtype=np.intp), np.array([lines[node] for node in nodes[:-1]], dtype=np.bool_)
 
 
-def _tested(way: Course, nodes: Index, tolerance: float) -> tuple[Runs, Index]:
-    """The runs between nodes, and which of them do not hold."""
+def _tested(way: Course, nodes: Index, tolerance: float, lines: Mask) -> tuple[Runs, Index]:
+    """The runs between nodes, and which of them do not hold; some have to be ``lines``."""
     first, last = nodes[:-1], nodes[1:]
     straight, curved, height = shapes(way, first, last, _everywhere(way, first, last), tolerance)
     straight |= last - first == 1
-    return Runs(nodes, straight, height), np.flatnonzero(~(straight | curved))
+    return Runs(nodes, straight, height), np.flatnonzero(~(straight | (curved & ~lines)))
 
 
 def _everywhere(way: Course, first: Index, last: Index) -> Axes:
