@@ -17,7 +17,7 @@ Ours is planned twice: as it comes, which is as exact as our outlines and takes 
 with a table [cam.path] that gives walls 4 um to either side and prefers lines. That one has to keep all the
 targets at once: the time, a fifth of gouge and leftover, and no more arcs per millimetre. It has more moves
 than FreeCAD, as any path has that is so exact: how many at least, and how near ours comes to the fewest, is
-shown by a bound that any path keeps (``least_moves.py``). In the band that FreeCAD's path needs our fit has to
+shown by a bound that any path keeps (``least_moves.py``). In the band of FreeCAD's path our fit has to
 have no more of either, and no preference for lines.
 """
 
