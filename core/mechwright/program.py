@@ -5,6 +5,7 @@ the stock. Feeds are mm/min.
 """
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 from mechwright.machine import Machine
@@ -140,7 +141,7 @@ class Program:
     compensation: Compensation = field(default="computer")
     wear_limit: float = field(default=0.0)
 
-    @property
+    @cached_property
     def compensated(self) -> tuple[Tool, ...]:
         """The tools that cut with compensation, in order of first use."""
         found = {

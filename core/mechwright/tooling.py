@@ -262,7 +262,11 @@ class PathSettings(Parameters):
     @model_validator(mode="after")
     def _outwards(self) -> Self:
         if self.outer_tolerance < self.inner_tolerance:
-            raise ValueError("outer_tolerance must be at least inner_tolerance: paths stay off the wall")
+            raise ValueError(
+                f"outer_tolerance {self.outer_tolerance:g} is below inner_tolerance "
+                f"{self.inner_tolerance:g}; "
+                "paths stay off walls, so give it at least as much"
+            )
         return self
 
     @property

@@ -34,6 +34,7 @@ OVERRIDES = {
     "floor_to_leave": 0.05,
     "compensation": "wear",
     "wear_limit": 0.05,
+    "path": {"outer_tolerance": 0.005},
     "spring_passes": 2,
     "finish_step": 1.5,
     "ramp_angle": 2.0,

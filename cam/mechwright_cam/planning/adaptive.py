@@ -24,7 +24,6 @@ until it holds.
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -34,12 +33,11 @@ from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
+from mechwright_cam.planning.cavity import Cavity, Pass
 from mechwright_cam.planning.choice import entry_place
-from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.arcfit import fit
 from mechwright_cam.toolpath.offsets import ROUGH, densified, grow, polygons, simplified
-from mechwright_cam.toolpath.path import Path, circle
 
 BENDS = (2.2, 1.5, 1.2)
 """Bend radii in cutter radii, in the order of work: below the last, layers are too thin to pay."""
@@ -71,27 +69,6 @@ MOST_LAYERS = 4000
 """Bounds the work in one cavity; no plate has a hundredth of it."""
 RUN_UP = 0.4
 """How far, in cutter radii, a pass starts and ends in the clear."""
-
-
-@dataclass(frozen=True)
-class Pass:
-    """One way through stock; ``linked``: it may be reached straight from the end of the pass before."""
-
-    path: Path
-    linked: bool
-
-
-@dataclass(frozen=True)
-class Cavity:
-    """All ways of one connected area, from its helix on; shapes and lengths in mm."""
-
-    centre: Point
-    helix: float
-    """Radius of the helix's path."""
-    begin: Point
-    """Where on it the first pass starts."""
-    passes: tuple[Pass, ...]
-    cleared: shapely.Geometry
 
 
 def straight_layer(radius: float, engagement: float) -> float:
@@ -377,31 +354,3 @@ def _apart(stock: shapely.Geometry, cleared: shapely.Geometry) -> list[shapely.P
 
 def _disc(centre: Point, radius: float) -> shapely.Polygon:
     return grow(shapely.Point(centre), radius, COARSE / 5)
-
-
-def write(cavities: list[Cavity], pen: Pen, top: float, bottom: float, step_down: float, climb: bool) -> None:
-    """Write the moves of all cavities, each level by level from ``top`` to ``bottom``, z in mm."""
-    for cavity in cavities:
-        above = top
-        for z in levels(top, bottom, step_down):
-            _enter(pen, cavity, above, z, climb)
-            for one in cavity.passes:
-                if one.linked:
-                    pen.straight(one.path.start, pen.air)
-                else:
-                    pen.above(one.path.start)
-                    pen.sink(z)
-                pen.follow(one.path)
-            above = z
-    pen.retract()
-
-
-def _enter(pen: Pen, cavity: Cavity, above: float, z: float, climb: bool) -> None:
-    """Down along a helix, and once round at the bottom."""
-    turn = circle(cavity.centre, cavity.helix, cavity.begin, climb)
-    pen.above(turn.start)
-    pen.sink(above)
-    pitch = math.tau * cavity.helix * pen.slope * 0.999  # a little less than the steepest, for rounding
-    for height in levels(above, z, pitch):
-        pen.descend(turn, height)
-    pen.follow(turn)

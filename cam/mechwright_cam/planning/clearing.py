@@ -231,15 +231,14 @@ class Roughing:
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
             if shapes:
-                stock = grow(parts[part], self.sliver, ROUGH)
-                cavities.append(self._linked(shapes, stock, near, free))
+                cavities.append(self._linked(shapes, parts[part], near, free))
         return cavities
 
     def _linked(
-        self, paths: list[Path], stock: shapely.Polygon, near: shapely.Geometry, free: shapely.Geometry
+        self, paths: list[Path], core: shapely.Polygon, near: shapely.Geometry, free: shapely.Geometry
     ) -> Cavity:
         """Find out which runs may be entered from the one before without lifting the cutter."""
-        radius = self.tool.radius
+        radius, stock = self.tool.radius, None
         swept: shapely.Geometry = shapely.Polygon()
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
@@ -253,6 +252,7 @@ class Roughing:
             linked = _inside(free, last.end, path.start)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
+                stock = grow(core, self.sliver, ROUGH) if stock is None else stock
                 trail = shapely.linestrings(last.points(radius / 3))
                 swept = shapely.union(swept, shapely.buffer(trail, radius, quad_segs=6))
                 way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)

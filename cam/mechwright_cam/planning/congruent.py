@@ -15,7 +15,8 @@ from mechwright.motion import Array
 from mechwright.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
-from mechwright_cam.planning.adaptive import Cavity, Pass, clear
+from mechwright_cam.planning.adaptive import clear
+from mechwright_cam.planning.cavity import Cavity, Pass
 from mechwright_cam.toolpath.offsets import ROUGH
 from mechwright_cam.toolpath.path import Path, arc, line, rounded
 

@@ -86,7 +86,7 @@ class Pen:
         """Feed straight to a point at this height."""
         point = (rounded(point[0]), rounded(point[1]))
         if point != self.place:
-            if self._goes_over(polyline([self.place or point, point]), self.level, feed):
+            if self.over and self._goes_over(polyline([self.place or point, point]), self.level, feed):
                 return
             self.moves.append(Feed(point[0], point[1], None, self.rates.feed if feed is None else feed))
             self.place = point

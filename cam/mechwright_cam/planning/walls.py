@@ -11,6 +11,7 @@ from mechwright.program import Move
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
+from mechwright_cam.planning.cavity import write_cavities
 from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
 from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
@@ -156,8 +157,6 @@ class Walls:
         if settings.clearing != "adaptive" or zone.kind == "outside" or zone.snug:
             return []
         mill = self._clearing_mill(zone, mills)
-        from mechwright_cam.planning import adaptive
-
         allowance = zone.allowance_for(mill, max(settings.stock_to_leave, COARSE_FROM))
         area = shapely.difference(zone.clear, zone.rough_keep(allowance))
         limit = math.radians(settings.engagement)
@@ -171,7 +170,7 @@ class Walls:
         depth = min(settings.adaptive_depth * mill.diameter, mill.flute_length)
         moves = self.moves(
             mill,
-            lambda pen: adaptive.write(cavities, pen, zone.top, zone.bottom_for(mill), depth, settings.climb),
+            lambda pen: write_cavities(cavities, pen, zone.top, zone.bottom_for(mill), depth, settings.climb),
             limit if settings.chip_thinning else math.pi / 2,
             _pass(zone, mill, depth),
         )

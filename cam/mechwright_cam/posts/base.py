@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from mechwright.errors import ProgramError
-from mechwright.findings import Finding, Severity
+from mechwright.findings import Finding
 from mechwright.output import Post
 from mechwright.program import (
     OPERATION_COMMENT,
@@ -33,6 +33,7 @@ from mechwright.program import (
     ToolSection,
 )
 from mechwright.tooling import CamSettings, Tool
+from mechwright_cam.posts.checks import check_program, unmet
 from mechwright_cam.posts.offsets import OFFSETS, DOffset, d_offset, has_offset
 from mechwright_cam.posts.text import DECIMALS, comment_lines, number
 from mechwright_cam.posts.writer import Writer, with_numbers
@@ -75,7 +76,7 @@ class GcodePost(Post):
             The program has no moves, or a section that does not start with a Rapid to x and y; the offsets
             that it should set have not been measured.
         """
-        self._check(program)
+        check_program(program, self.title, self.highest_tool, self.compensates)
         out = Writer(program, self.decimals, self.point)
         self.frame(out)
         self.head(out)
@@ -95,21 +96,7 @@ class GcodePost(Post):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
-        found = []
-        if not has_offset(self.work_offsets, settings.work_offset):
-            known = ", ".join(self.work_offsets)
-            message = f"{self.title} has no work offset {settings.work_offset}"
-            remedy = f"use one of: {known}"
-            found.append(
-                Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy)
-            )
-        if settings.compensation != "computer" and not self.compensates:
-            message = f"{self.title} has no cutter compensation (G41, G42)"
-            remedy = 'use compensation = "computer"'
-            found.append(
-                Finding("cam.compensation", Severity.ERROR, "cam.compensation", message, remedy=remedy)
-            )
-        return tuple(found)
+        return tuple(unmet(settings, self.title, self.work_offsets, self.compensates))
 
     # -- what a control spells its own way ----------------------------------------------------------------
 
@@ -211,28 +198,6 @@ class GcodePost(Post):
         for tool in program.tools:
             for line in self.tool_words(tool):
                 out.line(line)
-
-    def _check(self, program: Program) -> None:
-        if not any(operation.moves for section in program.sections for operation in section.operations):
-            raise ProgramError(f"program {program.name} has no moves; nothing is written")
-        for section in program.sections:
-            tool = section.tool
-            if not self.compensates and tool in program.compensated:
-                raise ProgramError(
-                    f"{self.title} has no cutter compensation (G41, G42), and program {program.name} uses "
-                    'it; use cam.compensation = "computer"'
-                )
-            if max(tool.number, tool.d_number if tool in program.compensated else 0) > self.highest_tool:
-                raise ProgramError(
-                    f"tool {tool.name} has number {max(tool.number, tool.d_number)}; {self.title} takes up "
-                    f"to T{self.highest_tool}; give it a lower one in the tool library"
-                )
-            moves = [move for operation in section.operations for move in operation.moves]
-            if not moves or not (isinstance(moves[0], Rapid) and None not in (moves[0].x, moves[0].y)):
-                raise ProgramError(
-                    f"program {program.name}: the section of T{tool.number} does not start "
-                    "with a rapid to x and y"
-                )
 
     def _section(self, out: Writer, section: ToolSection) -> None:
         named = False

@@ -99,51 +99,62 @@ class Runs:
 
 def course(polylines: Sequence[Array], tolerance: float) -> Course:
     """Make polylines (n, 2), mm, ready: what does not matter left out, corners found."""
-    parts = [_distinct(np.asarray(points, dtype=float)) for points in polylines]
-    corners = np.concatenate([_corners(part, tolerance) for part in parts])
-    points = np.concatenate(parts)
-    n = len(points)
-    bounds = np.cumsum([0, *map(len, parts)])
-    axes = points[:, 0].copy(), points[:, 1].copy()
-    heading = np.arctan2(np.diff(axes[1]), np.diff(axes[0]))
+    points = np.concatenate([np.asarray(part, dtype=float) for part in polylines])
+    bounds = np.cumsum([0, *map(len, polylines)])
+    points, bounds = _without(_doubled(points), points, bounds)
+    points, bounds = _without(_on_straights(points) & ~_ends(bounds), points, bounds)
+    n, ends = len(points), _ends(bounds)
+    edge = np.diff(points, axis=0).T
+    heading = np.arctan2(edge[1], edge[0])
     turn = np.zeros(n)
     turn[1:-1] = np.abs((np.diff(heading) + math.pi) % math.tau - math.pi)
+    corners = _corners(np.hypot(*edge), turn, ends, tolerance)
     turned = np.cumsum(turn)  # where the way leaves a vertex
     index = np.arange(n)
     found = np.flatnonzero(corners)
     corner = found[np.minimum(np.searchsorted(found, index, side="right"), len(found) - 1)]
     enough = np.searchsorted(turned, turned + LONGEST_TURN)
+    axes = points[:, 0].copy(), points[:, 1].copy()
     return Course(axes, np.minimum.reduce([index + LONGEST, corner, enough, np.full(n, n - 1)]), bounds)
 
 
-def _distinct(points: Array) -> Array:
-    """The polyline without doubled vertices, and those on its straights."""
+def _ends(bounds: Index) -> Mask:
+    """Which vertices are the first or last ones of polylines."""
+    ends = np.zeros(bounds[-1], dtype=bool)
+    ends[bounds[:-1]] = ends[bounds[1:] - 1] = True
+    return ends
+
+
+def _without(gone: Mask, points: Array, bounds: Index) -> tuple[Array, Index]:
+    """Points and bounds of polylines without some of their vertices; the first ones stay."""
+    gone[bounds[:-1]] = False
+    left = np.append(0, np.cumsum(~gone))
+    return points[~gone], left[bounds]
+
+
+def _doubled(points: Array) -> Mask:
+    """Which vertices are where the one before is."""
     step = np.diff(points, axis=0)
-    points = points[np.append(True, np.hypot(step[:, 0], step[:, 1]) > NEAR)]
-    if len(points) < 3:
-        return points
-    before, after = points[1:-1] - points[:-2], points[2:] - points[1:-1]
+    return np.append(False, np.hypot(step[:, 0], step[:, 1]) <= NEAR)
+
+
+def _on_straights(points: Array) -> Mask:
+    """Which vertices lie on the line of their neighbours, between them."""
+    step = np.diff(points, axis=0)
+    before, after, whole = step[:-1], step[1:], points[2:] - points[:-2]
     across = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
-    whole = points[2:] - points[:-2]
-    bends = (across > STRAIGHT * np.hypot(whole[:, 0], whole[:, 1])) | ((before * after).sum(axis=1) < 0)
-    distinct: Array = points[np.concatenate(([True], bends, [True]))]
-    return distinct
+    on = (across <= STRAIGHT * np.hypot(whole[:, 0], whole[:, 1])) & ((before * after).sum(axis=1) >= 0)
+    return np.concatenate(([False], on, [False]))
 
 
-def _corners(points: Array, tolerance: float) -> Mask:
-    """Which vertices of a polyline are nodes in any case: its ends and corners, and those of long lines."""
-    n = len(points)
-    if n < 3:
-        return np.ones(n, dtype=bool)
-    edge = np.diff(points, axis=0)
-    step = np.hypot(edge[:, 0], edge[:, 1])
-    heading = np.arctan2(edge[:, 1], edge[:, 0])
-    bend = np.zeros(n)
-    bend[1:-1] = np.abs((np.diff(heading) + math.pi) % math.tau - math.pi)
-    corners = bend > CORNER
-    corners[[0, -1]] = True
+def _corners(step: Array, turn: Array, ends: Mask, tolerance: float) -> Mask:
+    """Which vertices are nodes in any case: ends of polylines, their corners, and the ends of long lines.
+
+    From the lengths of edges (n - 1,), mm, and the turns at vertices (n,), rad.
+    """
+    corners: Mask = (turn > CORNER) | ends
     # The turn at a corner says nothing about the edge beside it.
-    bend[corners] = 0.0
+    bend = np.where(corners, 0.0, turn)
     # An arc over such an edge and on beside it would stand off from it.
     drawn = (step >= LEAST_LINE) & (step * np.maximum(bend[:-1], bend[1:]) / 8 > tolerance)
     corners[:-1] |= drawn
