@@ -60,7 +60,7 @@ def main() -> int:
                 "CAM with proof, 41 teeth of module 2": lambda: job_of(replace(part)),
                 "CAM with proof, the example": lambda: job_of(replace(example)),
             },
-            rounds=3,
+            rounds=7,
         )
     ratios = report("Gears, CAM and command line", timings, ANCHOR)
     print("\nlimits, as multiples of the anchor")

@@ -17,8 +17,8 @@ from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
 from mechwright_cam.threads import prepared
 
-DEAR = 4
-"""To grow a shape by one corner takes a quarter of the time of one question about nearness."""
+DEAR = 6
+"""To grow a shape by one corner takes about a sixth of the time of one question about nearness."""
 GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 """2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
 
@@ -75,10 +75,10 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
         mine = np.flatnonzero(radius == one)
         if mine.size > shapely.get_num_coordinates(keep) / DEAR:
             # Whether a line meets a shape is known much sooner than whether it comes near one.
-            around = grow(keep, one + 2 * ROUND)
-            around = prepared(around)
-            mine = mine[shapely.intersects(around, lines[mine])]
-        near[mine] = shapely.dwithin(keep, lines[mine], one)
+            around = prepared(grow(keep, one + 2 * ROUND))
+            near[mine] = shapely.intersects(around, lines[mine])
+        else:
+            near[mine] = shapely.dwithin(keep, lines[mine], one)
     return np.flatnonzero(near)
 
 
