@@ -1,6 +1,7 @@
 """The table [cam.path]: how exact walls are, and what their paths are made of."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,17 +13,21 @@ from planning_simulation import motions
 from pydantic import ValidationError
 from random_pockets import case
 
+from mechwright.design import load
 from mechwright.geometry import Loop
+from mechwright.host import host
 from mechwright.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import CamSettings, PathSettings
 from mechwright_cam.job import make_job
-from mechwright_cam.planning import plan
+from mechwright_cam.pipeline import dialect_of
+from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 from mechwright_cam.reach import closing
 from mechwright_cam.toolpath.arcfit import fit
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 ZONES = [(0.0, 0.003), (0.001, 0.004), (0.003, 0.003), (0.0045, 0.0045), (0.0, 0.008), (0.0045, 0.008)]
 """The corners of what is allowed, and what goes without saying."""
 DIGITS = 2e-4
@@ -153,6 +158,23 @@ def test_contours_of_compensation_keep_to_the_tolerances(compensation):
         assert proof.leftover_reachable_max_mm <= zone[1] + TOLERANCES.flatten + DIGITS
         texts.add(text)
     assert len(texts) == 2
+
+
+@pytest.mark.parametrize("compensation", ["computer", "control", "wear"])
+@pytest.mark.parametrize(("inner", "outer"), [(0.0, 0.003), (0.001, 0.004)])
+def test_teeth_lie_between_their_tolerances(compensation, inner, outer):
+    """Teeth have what is hard on contours: tips of 0.03 mm, flanks that meet their fillets at slight angles."""
+    design = load(EXAMPLES / "elliptic-pair-haas.toml", host())
+    changed = {"compensation": compensation, "path": PathSettings(**path(inner, outer))}
+    wanted = design.cam.model_copy(update=changed)
+    (gear,) = design.family.parts(design.params)
+    post = host().post("haas")
+    of = make_job(gear, wanted, choose_tools(gear, wanted, LIBRARY))
+    proof = prove(post.write(plan(of)), of, dialect_of(post))
+    assert proof.ok, [check.message for check in proof.failures]
+    three_decimals = 5e-4
+    assert proof.gouge_max_mm <= inner + three_decimals
+    assert proof.leftover_reachable_max_mm <= outer + TOLERANCES.flatten + three_decimals
 
 
 def test_tolerances_that_contradict_are_refused():

@@ -13,7 +13,7 @@ from mechwright.findings import Severity
 from mechwright.geometry import Loop
 from mechwright.tooling import CamSettings, ToolKind
 from mechwright_cam.job import make_job
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
 from mechwright_cam.reach import closing, remainder, unreachable
 
 
@@ -130,6 +130,22 @@ def test_any_part_is_cut_or_refused(
     assert gouge(job, program) <= 0.005
     assert leftover(job, program) == 0
     check_rules(job, program)
+    if not named:  # every cutter that was chosen has something to do
+        assert "cam.tool-unused" not in [f.code for f in check_tools(of, wanted, LIBRARY)]
+
+
+@pytest.mark.parametrize("method", ["tabs", "bore"])
+@pytest.mark.parametrize("margin", [None, 0.0, 4.0, 9.0, 14.0])
+def test_every_mill_that_is_chosen_is_used(method, margin):
+    of = part(lobes(9, 30.0, 6.0, 400, 1.5), bore(12), thickness=6)
+    wanted = CamSettings.model_validate({"hold": {"method": method}, "stock": {"margin": margin}})
+    if margin == 0.0 and method == "tabs":
+        with pytest.raises(DesignError, match="no frame"):
+            choose_tools(of, wanted, LIBRARY)
+        return
+    job, found = lay_out(of, wanted, LIBRARY)
+    assert "cam.tool-unused" not in [finding.code for finding in found]
+    assert {section.tool.name for section in plan(job).sections} == {tool.name for tool in job.tools}
 
 
 def test_a_mill_too_wide_for_the_frame_is_not_used():

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import shapely
@@ -61,27 +62,34 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
     for detail in job.details:
         _try(found, partial(plan_detail, job, detail))
     if not found:
-        found += _corners(job, zones) + _unused(job, zones)
+        idle = _idle(job, zones)
+        found += _corners(job, zones)
+        if settings.tools:
+            found += [_unused(job, mill) for mill in idle]
+        else:
+            # Of the chosen cutters a wider one has turned out to be as good.
+            job = replace(job, tools=tuple(tool for tool in job.tools if tool not in idle))
     return job, found + _travel(job) + _remarks(job)
 
 
-def _unused(job: Job, zones: list[Zone]) -> list[Finding]:
-    """The listed mills that nothing in the part is for."""
+def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
+    """The mills that nothing in the part is for."""
     boring = [plan_bore(job, bore).mill for bore in bores(job)]
     milling: list[list[Tool]] = [[*roughers(zone.mills, zone.finisher), *zone.last_mills] for zone in zones]
     used = {mill.name for mill in boring if mill is not None}
     used |= {mill.name for mills in milling for mill in mills}
-    return [
-        Finding(
-            "cam.tool-unused",
-            Severity.WARNING,
-            "cam.tools",
-            f"{mill.name} has nothing to do in {job.part.name}: {_why_idle(job, mill)}",
-            remedy="take it out of cam.tools",
-        )
-        for mill in job.mills
-        if mill.name not in used and job.part.material in mill.cutting
-    ]
+    used |= {mill.name for mill in grooves(job).values()}
+    return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
+
+
+def _unused(job: Job, mill: Tool) -> Finding:
+    return Finding(
+        "cam.tool-unused",
+        Severity.WARNING,
+        "cam.tools",
+        f"{mill.name} has nothing to do in {job.part.name}: {_why_idle(job, mill)}",
+        remedy="take it out of cam.tools",
+    )
 
 
 def _why_idle(job: Job, mill: Tool) -> str:

@@ -155,11 +155,10 @@ def _floor_mills(every: Job) -> list[Tool]:
 
 
 def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
-    """The mills for an outside: with tabs only those whose channel leaves a frame."""
-    open_ = every.settings.stock == Stock() and not isinstance(every.part, Nest)
-    if every.settings.hold.method != "tabs" or open_:
-        return mills
-    return roughing_mills(every, mills, part, framed=True)
+    """The mills for an outside: as in planning those whose channel leaves a frame, if there are any."""
+    if every.settings.stock == Stock() and not isinstance(every.part, Nest):
+        return mills  # the stock is made large enough for them
+    return roughing_mills(every, mills, part, framed=every.settings.hold.method == "tabs")
 
 
 def _between(
