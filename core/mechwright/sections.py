@@ -47,7 +47,9 @@ class Section:
     shape: "shapely.Polygon | shapely.MultiPolygon"
 
 
-def plan_view(feature: Feature, tolerance: float = TOLERANCES.flatten) -> "shapely.Polygon":
+def plan_view(
+    feature: Feature, tolerance: float = TOLERANCES.flatten
+) -> "shapely.Polygon | shapely.MultiPolygon":
     """A feature seen from above: what it takes, or what an outside profile surrounds.
 
     A recess comes as it is drawn, with all that reaches beyond the plate.
@@ -65,8 +67,10 @@ def plan_view(feature: Feature, tolerance: float = TOLERANCES.flatten) -> "shape
         case Pocket():
             islands = [shapely.Polygon(loop.flatten(tolerance)) for loop in feature.islands]
             outside = shapely.Polygon(feature.boundary.flatten(tolerance))
-            view: shapely.Polygon = outside.difference(shapely.union_all(islands))
-            return view
+            # Overlays leave specks of lines beside what they are asked for.
+            view = shapely.get_parts(shapely.difference(outside, shapely.union_all(islands)))
+            pieces = [piece for piece in view if piece.geom_type == "Polygon"]
+            return pieces[0] if len(pieces) == 1 else shapely.MultiPolygon(pieces)
 
 
 def blind(part: Part) -> tuple[Feature, ...]:

@@ -260,8 +260,8 @@ class Outcome:
         return [check.message for one in self.made for check in one.proof.failures]
 
 
-def run(operation: str, seed: int) -> Outcome:
-    """One random part with random cutters, settings and control."""
+def run(operation: str, seed: int, **changes: object) -> Outcome:
+    """One random part with random cutters, settings and control; changes go into its settings."""
     rng = np.random.default_rng(seed)
     drawn = OPERATIONS[operation](rng)
     control = str(rng.choice(CONTROLS))
@@ -275,6 +275,7 @@ def run(operation: str, seed: int) -> Outcome:
         "ramp_angle": float(rng.choice([1.0, 3.0, 10.0])),
         "hold": {"tabs": int(rng.integers(2, 5)), "tab_height": float(rng.choice([0.5, 1.0]))},
         **drawn.settings,
+        **changes,
     }
     post = host().post(control)
     made: list[Machined] = []

@@ -7,8 +7,12 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from planning_parts import job, lobes, part
+from planning_simulation import motions
 
+from mechwright.part import Profile
 from mechwright_cam.buffers import THINNING, buffered
+from mechwright_cam.planning import plan
 
 # An opening with a bulge; with a distance of 2.5, GEOS 3.14 leaves a ring that is 1.9 from its walls.
 BULGE = [(4.957, 0.818), (-3.0197, -4.2554), (-1.7939, 1.7778), (-1.7, 2.07), (-1.554, 2.314), (-1.31, 2.58)]
@@ -85,3 +89,50 @@ def test_the_middle_of_an_opening_that_is_just_wide_enough_stays(seed, share):
 def test_all_pieces_of_a_shape_are_shrunk():
     pieces = [shapely.box(0, 0, 5, 5), shapely.box(8, 0, 13, 5)]
     assert buffered(shapely.MultiPolygon(pieces), -1, QUAD).area == pytest.approx(18)
+
+
+def off(shape, distance):
+    """How far the edge of the grown or shrunk shape is from where it should be, at the worst."""
+    found = buffered(shape, distance, 90)
+    edge = shapely.points(shapely.get_coordinates(shapely.segmentize(shapely.boundary(found), 0.5)))
+    return float(np.abs(shapely.distance(edge, shapely.boundary(shape)) - abs(distance)).max(initial=0.0))
+
+
+def test_short_edges_before_a_long_one_are_no_straight_line():
+    """GEOS 3.14 goes straight from the end of the bar to the far side of the rim, 8 mm above it in between."""
+    rim = shapely.Polygon(lobes(2, 26, 8, 2500).flatten())
+    shape = shapely.union(rim, shapely.box(20, -2, 40, 2))
+    assert off(shape, 8.0) < 0.0005
+    true = shapely.union(
+        *(shapely.buffer(one, 8.0, quad_segs=90) for one in (rim, shapely.box(20, -2, 40, 2)))
+    )
+    assert buffered(shape, 8.0, 90).area == pytest.approx(true.area, abs=0.05)
+
+
+@given(
+    points=st.sampled_from([300, 900, 2500]),
+    count=st.integers(2, 8),
+    depth=st.floats(0.5, 9),
+    bars=st.lists(st.tuples(*[st.floats(-28, 28)] * 2, st.floats(1, 4), st.floats(1, 9)), max_size=3),
+    distance=st.sampled_from([1.0, 3.0, 8.0, -0.5, -3.0]),
+)
+def test_edges_are_at_the_distance_however_dense_the_points(points, count, depth, bars, distance):
+    rim = shapely.Polygon(lobes(count, 24, depth, points).flatten())
+    shape = shapely.union_all([rim, *(shapely.box(x, y, x + w, y + h) for x, y, w, h in bars)])
+    assert off(shape, distance) < 2.5e-4 * abs(distance) + 0.0005
+
+
+def test_a_dense_rim_with_tabs_is_cut_all_round():
+    rim = lobes(2, 26, 8, 2500)
+    plate = part(rim, machined=(Profile("outside", rim, "outside", 0.0, 6.0),))
+    of = job(plate, "mill-16")
+    cuts = [
+        m.points[:, :2]
+        for m in motions(plan(of), 0.2)
+        if m.kind in {"feed", "arc"} and m.points[-1, 2] < -5.5
+    ]
+    wall = shapely.points(shapely.get_coordinates(shapely.segmentize(of.target.exterior, 0.5)))
+    tabs = shapely.union_all([tab.shape for tab in of.tabs])
+    wall = wall[shapely.distance(wall, tabs) > 9]
+    ways = shapely.multilinestrings([shapely.linestrings(way) for way in cuts])
+    assert (shapely.distance(wall, ways) - 8).max() < 0.005

@@ -4,9 +4,11 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from random_parts import OPERATIONS, Outcome, named, run, without
+
+from mechwright_cam.toolpath.contour import LEFT
 
 EXAMPLES = {"adaptive": 2, "slot": 3}
 """The slow ones; every other operation has five."""
@@ -57,6 +59,37 @@ def test_a_program_without_one_feature_is_not_proven(operation: str) -> None:
                 found = {check.name for check in proof.failures}
                 assert found & {"leftover", "depth", "details"}, (name, found)
     assert looked or operation == "outside"
+
+
+TABLES = st.fixed_dictionaries(
+    {
+        "inner_tolerance": st.sampled_from([0.0, 0.001, 0.003]),
+        "outer_tolerance": st.sampled_from([0.003, 0.004, 0.008]),
+        "lines_per_arc": st.sampled_from([1, 3, 100]),
+    }
+)
+
+
+@settings(max_examples=12)
+@given(
+    operation=st.sampled_from(sorted(OPERATIONS)),
+    seed=st.integers(0, 10**9),
+    compensation=st.sampled_from(["computer", "control", "wear"]),
+    path=TABLES,
+)
+@example("adaptive", 11, "wear", {"inner_tolerance": 0.003, "outer_tolerance": 0.004})
+@example("outside", 10, "wear", {"inner_tolerance": 0.0})
+def test_any_accuracy_and_compensation_is_proven_or_refused(operation, seed, compensation, path):
+    outcome = run(operation, seed, compensation=compensation, path=path)
+    if outcome.control == "grbl" and compensation != "computer":
+        assert "Grbl 1.1 has no cutter compensation" in outcome.refusal or "cam." in outcome.refusal
+        return
+    check(outcome)
+    for one in outcome.made:
+        inner, most = (getattr(one.job.settings.path, f"{side}_tolerance") for side in ("inner", "outer"))
+        decimals = 0.0015
+        assert one.proof.gouge_max_mm <= inner + decimals
+        assert one.proof.leftover_reachable_max_mm <= most + LEFT + decimals
 
 
 def test_refusals_are_rare_and_cuts_are_many() -> None:

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover
+from random_parts import run
 
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line, Loop, circle
@@ -299,3 +300,10 @@ def test_any_recesses_are_cut_or_refused(seed):
         return
     proof = prove(LinuxCncPost().write(program), made)
     assert proof.ok, [check.message for check in proof.failures]
+
+
+def test_a_slot_is_cut_whatever_specks_overlays_leave():
+    """Overlaying this slot with no island leaves a line of 4e-16 mm, which GEOS then stumbles over."""
+    outcome = run("slot", 304)
+    assert outcome.made
+    assert not outcome.failures

@@ -12,7 +12,8 @@ import shapely
 
 from mechwright.errors import GeometryError
 from mechwright.motion import Array
-from mechwright.part import Bore, Feature, Instance, Part, Pocket, Profile
+from mechwright.part import Instance, Part, Profile
+from mechwright.sections import plan_view
 from mechwright.tolerances import TOLERANCES
 
 CHORD = 0.0015
@@ -171,20 +172,6 @@ def _circle_centre(points: Array) -> Array:
     return centre
 
 
-def inside_of(feature: Feature) -> shapely.Geometry:
-    """The plan view of an opening, or of what an outside profile surrounds, in the part's coordinates."""
-    match feature:
-        case Bore():
-            radius = feature.diameter / 2
-            quarter = int(np.ceil(np.pi / (4 * np.arccos(max(0.0, 1 - TOLERANCES.flatten / radius))))) + 1
-            return shapely.Point(feature.centre).buffer(radius, quad_segs=quarter)
-        case Profile():
-            return shapely.Polygon(feature.loop.flatten())
-        case Pocket():
-            islands = [shapely.Polygon(loop.flatten()) for loop in feature.islands]
-            return shapely.Polygon(feature.boundary.flatten()).difference(shapely.union_all(islands))
-
-
 @lru_cache(maxsize=128)
 def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
     """The layers of a plate in its body, from the top down.
@@ -211,7 +198,7 @@ def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
         shape: shapely.Geometry = part.outline.polygon()
         for feature in partial:
             if feature.top < (upper + lower) / 2 < feature.top + feature.depth:
-                inside = inside_of(feature)
+                inside = plan_view(feature)
                 outside = isinstance(feature, Profile) and feature.side == "outside"
                 shape = shape.intersection(inside) if outside else shape.difference(inside)
         base = instance.z + thickness

@@ -17,6 +17,8 @@ from mechwright_cam.toolpath.path import rounded
 
 SAME_RADIUS = TOLERANCES.leftover / 2
 """A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
+REACH_SHARE = 1.5
+"""Of the tolerance for stock left on walls, what a larger cutter may leave in their corners besides."""
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
@@ -88,9 +90,9 @@ def roughers(mills: Sequence[Tool], finest: Tool) -> list[Tool]:
 def same_reach(path: PathSettings) -> float:
     """A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm.
 
-    It is what is left of the permitted leftover when the path has used its tolerance.
+    It is what is left of the permitted leftover beside the path's tolerance, and in proportion to that.
     """
-    return TOLERANCES.leftover - path.outer_tolerance
+    return min(TOLERANCES.leftover - path.outer_tolerance, REACH_SHARE * path.outer_tolerance)
 
 
 def finishing_choice(

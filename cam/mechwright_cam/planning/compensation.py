@@ -23,7 +23,7 @@ from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
-from mechwright_cam.job import Job
+from mechwright_cam.job import LEAST_TURN, Job
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.contour_writer import ContourWriter, touching
 from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
@@ -52,7 +52,8 @@ def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
     ToolError
         A groove that the mill fills, or walls of a round-ended mill.
     DesignError
-        Ramped tabs: their slopes are planned for the way of the cutter's centre, which D moves.
+        Ramped tabs: their slopes are planned for the way of the cutter's centre, which D moves. Next to no
+        stock to leave: the channel around a part is no wider than the cutter that roughs it.
     """
     if job.settings.compensation == "computer":
         return
@@ -60,6 +61,12 @@ def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
         raise DesignError(
             f"cam.hold.tab_shape: ramped tabs of part {job.part.name} are not cut with compensation = "
             f'"{job.settings.compensation}"; use "rectangular" tabs, or compensation = "computer"'
+        )
+    leave = job.settings.stock_to_leave
+    if zone.channel is not None and leave < LEAST_TURN:
+        raise DesignError(
+            f"cam.stock_to_leave: {leave:g} mm leave no room to move {mill.name} by D in the channel around "
+            f'part {job.part.name}; use at least {LEAST_TURN:g} mm, or compensation = "computer"'
         )
     why = "fills it" if zone.snug else "has a round end" if mill.nose > 0 else ""
     if why:

@@ -99,7 +99,9 @@ def plan_bore(job: Job, bore: Bore) -> BorePlan:
     depth = -bottom_of(job, bore.top, bore.depth)
     out = through(job, bore.top + bore.depth)
     usable = usable_mills(job, depth)
-    able = usable if out else [tool for tool in usable if tool.nose == 0]
+    # D does not bring a wall to size that the end of the cutter makes.
+    round_too = out and job.settings.compensation == "computer"
+    able = usable if round_too else [tool for tool in usable if tool.nose == 0]
     mill = boring_mill([tool for tool in able if enters(tool, bore.diameter, job.settings)], bore.diameter)
     if mill is not None:
         drill = starting_drill(job, bore.diameter, depth) if out else None

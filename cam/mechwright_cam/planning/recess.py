@@ -16,6 +16,7 @@ from functools import lru_cache
 
 import shapely
 
+from mechwright import sections
 from mechwright.errors import DesignError
 from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
@@ -46,15 +47,10 @@ class Recess:
 
 def plan_view(feature: Feature) -> shapely.Geometry:
     """What an inside feature takes, seen from above, as it is drawn."""
-    match feature:
-        case Bore():
-            radius = feature.diameter / 2
-            return shapely.Point(feature.centre).buffer(radius, quad_segs=corners(radius, ROUGH / 20))
-        case Profile():
-            return shapely.Polygon(feature.loop.flatten())
-        case Pocket():
-            islands = [shapely.Polygon(island.flatten()) for island in feature.islands]
-            return shapely.Polygon(feature.boundary.flatten()).difference(shapely.union_all(islands))
+    if isinstance(feature, Bore):
+        radius = feature.diameter / 2
+        return shapely.Point(feature.centre).buffer(radius, quad_segs=corners(radius, ROUGH / 20))
+    return sections.plan_view(feature)
 
 
 def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -> Recess:

@@ -156,8 +156,12 @@ def outer_walls(job: Job) -> list[list[Zone]]:
                 f"{feature.top:g} mm and not at the underside; only outsides through the plate can be cut"
             )
         part = shapely.Polygon(feature.loop.flatten())
+        own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
+        able = usable_mills(job, -job.floor)
+        if own and own[0].ramped:
+            able = _flat_mills(job, able)
         # A mill too wide for the frame is as good as none, for finishing as well.
-        mills = roughing_mills(job, usable_mills(job, -job.floor), part)
+        mills = roughing_mills(job, able, part)
         mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
         clear, channel = _channel(job, part, mills[0])
         last = last_mills(mills, part, path)
@@ -178,7 +182,6 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         if shapely.is_empty(clear):
             continue  # all of its edges are those of the stock
         top = -feature.top
-        own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
         if own:
             # Rounded upwards: a decimal too low would already cut the tabs.
             height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
@@ -197,6 +200,17 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
         walls.append(zones)
     return walls
+
+
+def _flat_mills(job: Job, mills: list[Tool]) -> list[Tool]:
+    """The flat end mills: the round end of another would go into the slopes of ramped tabs."""
+    flat = [mill for mill in mills if mill.nose == 0]
+    if not flat:
+        raise DesignError(
+            f"cam.hold.tab_shape: ramped tabs of part {job.part.name} are for flat end mills, and "
+            f'{mills[-1].name} has a round end; list a flat one, or use "rectangular" tabs'
+        )
+    return flat
 
 
 def roughing_mills(

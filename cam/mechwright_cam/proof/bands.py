@@ -6,6 +6,7 @@ from itertools import pairwise
 import shapely
 
 from mechwright.part import Bore, Feature, Pocket, Profile
+from mechwright.sections import plan_view
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, quarter
@@ -31,17 +32,11 @@ class Band:
 
 def inside_of(feature: Feature) -> Shape:
     """The plan view of an opening, or of what an outside profile surrounds."""
-    match feature:
-        case Bore():
-            radius = feature.diameter / 2
-            round_hole: Shape = shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
-            return round_hole
-        case Profile():
-            return shapely.Polygon(feature.loop.flatten())
-        case Pocket():
-            islands = [shapely.Polygon(loop.flatten()) for loop in feature.islands]
-            pocket: Shape = shapely.Polygon(feature.boundary.flatten()).difference(shapely.union_all(islands))
-            return pocket
+    if isinstance(feature, Bore):
+        radius = feature.diameter / 2
+        round_hole: Shape = shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
+        return round_hole
+    return plan_view(feature)
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:

@@ -35,6 +35,8 @@ LEFT = 0.003
 """So much stays, mm, in a slight inside corner of the ring that is rounded: a third of the leftover limit."""
 SHORTEST = 0.01
 """Shorter lines and arcs are left out, mm: printed with three decimals they would have any direction."""
+TRIED = 2
+"""Neighbours share a heading where that takes a run aside by so many tolerances, at a guess that is high."""
 ON_EDGE = 4
 """Places on each edge of a run that are looked at."""
 ON_FILLET = 9
@@ -159,14 +161,14 @@ def _headings(bends: list[Bend], closed: bool, tolerance: float) -> tuple[list[f
     """The heading at the start and at the end of each; neighbours share it, unless they meet in a corner.
 
     The longer one of two knows its direction better. To bend a run of length l by an angle a at its end takes
-    it a l / 8 aside: where that is more than the tolerance, there is a corner.
+    it a l / 8 aside at most: where that is much more than the tolerance, there is a corner.
     """
     start = [bend.heading(bend.start) for bend in bends]
     end = [bend.heading(bend.end) for bend in bends]
     for number in range(0 if closed else 1, len(bends)):
         turn = wrapped(start[number] - end[number - 1])
         one, two = (math.dist(bend.start, bend.end) for bend in (bends[number - 1], bends[number]))
-        if abs(turn) * min(one, two) / 8 > tolerance:
+        if abs(turn) * min(one, two) / 8 > TRIED * tolerance:
             continue
         share = two**2 / max(one**2 + two**2, sys.float_info.min)
         start[number] = end[number - 1] = end[number - 1] + share * turn
