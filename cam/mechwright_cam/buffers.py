@@ -88,7 +88,8 @@ def _with_stops(shape: Any, distance: float) -> Any:
     dense, owner = _stopped(points, owner, left, SHORT * abs(distance))
     if len(dense) == len(points):
         return shape
-    pieces = shapely.polygons(shapely.linearrings(dense, indices=owner), indices=part)
+    number = np.unique(part, return_inverse=True)[1]  # not all parts need be polygons
+    pieces = shapely.polygons(shapely.linearrings(dense, indices=owner), indices=number)
     others = [piece for piece in shapely.get_parts(shape).tolist() if piece.geom_type != "Polygon"]
     return shapely.geometrycollections([*pieces, *others]) if others else _joined(pieces)
 

@@ -103,6 +103,10 @@ def test_short_edges_before_a_long_one_are_no_straight_line():
     rim = shapely.Polygon(lobes(2, 26, 8, 2500).flatten())
     shape = shapely.union(rim, shapely.box(20, -2, 40, 2))
     assert off(shape, 8.0) < 0.0005
+    mixed = shapely.geometrycollections([shapely.LineString([(60, 0), (70, 0)]), shape])
+    assert buffered(mixed, 8.0, 90).area == pytest.approx(
+        buffered(shape, 8.0, 90).area + 160 + 64 * math.pi, abs=0.05
+    )
     true = shapely.union(
         *(shapely.buffer(one, 8.0, quad_segs=90) for one in (rim, shapely.box(20, -2, 40, 2)))
     )
