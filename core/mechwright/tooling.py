@@ -243,16 +243,24 @@ Compensation = Literal["computer", "control", "wear"]
 the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
 
 
+DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
+"""Most that a wall may be asked to be too deep, mm: what chords of outlines leave of the permitted gouge."""
+LEAST_OFF = 2 * (TOLERANCES.outline + TOLERANCES.flatten)
+"""Least that may stay on a wall, mm: less would leave chords of outline and offset, and the fit, no room."""
+MOST_OFF = TOLERANCES.leftover - TOLERANCES.arc_fit
+"""Most that may, mm: the corners of a larger cutter need the rest of the permitted leftover."""
+
+
 class PathSettings(Parameters):
     """How exact the finished walls are, and what their paths are made of."""
 
     inner_tolerance: Millimetres = Field(
-        TOLERANCES.outline, ge=0, le=0.0045, description="Deepest that finishing may cut into a wall."
+        TOLERANCES.outline, ge=0, le=DEEPEST_INTO, description="Deepest that finishing may cut into a wall."
     )
     outer_tolerance: Millimetres = Field(
         2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
-        ge=0.003,
-        le=0.008,
+        ge=LEAST_OFF,
+        le=MOST_OFF,
         description="Most that finishing may leave on a wall; at least inner_tolerance.",
     )
     lines_per_arc: int = Field(
@@ -264,8 +272,7 @@ class PathSettings(Parameters):
         if self.outer_tolerance < self.inner_tolerance:
             raise ValueError(
                 f"outer_tolerance {self.outer_tolerance:g} is below inner_tolerance "
-                f"{self.inner_tolerance:g}; "
-                "paths stay off walls, so give it at least as much"
+                f"{self.inner_tolerance:g}; paths stay off walls, so give it at least as much"
             )
         return self
 

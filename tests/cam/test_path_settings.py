@@ -8,12 +8,13 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from planning_parts import LIBRARY, lobes, part, rounded_box
+from planning_parts import LIBRARY, bore, lobes, part, plate, rounded_box
 from planning_simulation import motions
 from pydantic import ValidationError
 from random_pockets import case
 
 from mechwright.design import load
+from mechwright.errors import DesignError
 from mechwright.geometry import Loop
 from mechwright.host import host
 from mechwright.part import Pocket, Profile
@@ -22,6 +23,8 @@ from mechwright.tooling import CamSettings, PathSettings
 from mechwright_cam.job import make_job
 from mechwright_cam.pipeline import dialect_of
 from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning.holes import plan_bore
+from mechwright_cam.planning.zones import bores, inner_zones
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 from mechwright_cam.reach import closing
@@ -134,6 +137,26 @@ def test_slots_are_entered_where_the_path_has_room(outer, enters):
     program, _, _ = checked(of)
     deep = any(abs(p[0]) < 0.1 and 4 < p[1] < 10 for m in motions(program) for p in m.points if p[2] < 0)
     assert deep is enters
+
+
+def test_tighter_walls_take_no_coarser_mill():
+    """Fillets of 2.985 mm keep 6 um from a mill of 6 mm: too much as it comes, and more so if less may stay."""
+    recess = Pocket("recess", rounded_box(30, 20, 2.985), (), 0.0, 2.0)
+    for zone in ((0.001, 0.004), (0.0, 0.003)):
+        wanted = CamSettings.model_validate({"path": path(*zone)})
+        of = make_job(plate(machined=(recess,)), wanted, [LIBRARY.get("mill-6"), LIBRARY.get("mill-4")])
+        (found,) = inner_zones(of)
+        assert found.finisher.name == "mill-4"
+
+
+def test_round_ends_are_for_neither_ramped_tabs_nor_compensated_bores():
+    bull = LIBRARY.get("bull-6-r1")
+    ramped = CamSettings.model_validate({"hold": {"tab_shape": "ramped", "tabs": 2, "tab_height": 0.5}})
+    with pytest.raises(DesignError, match="ramped tabs of part plate are for flat end mills, and bull-6-r1"):
+        plan(make_job(plate(), ramped, [bull]))
+    bored = CamSettings.model_validate({"compensation": "wear"})
+    hole = make_job(plate(bore(14)), bored, [bull, LIBRARY.get("mill-5"), LIBRARY.get("spot-6")])
+    assert plan_bore(hole, bores(hole)[0]).mill.name == "mill-5"
 
 
 @settings(max_examples=6)

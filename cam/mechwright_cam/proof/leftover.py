@@ -45,13 +45,6 @@ Paths and polygons are no better, and may be a micron too deep as outlines may: 
 narrower slot would cut more off both walls. Without it a slot up to 3 µm wider than the cutter would count as
 left over; with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
 """
-
-
-def play(job: Job) -> float:
-    """Air on either side of a cutter where it can enter, mm: more where paths keep farther off the walls."""
-    return max(PLAY, job.settings.path.bias)
-
-
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
 may be off."""
@@ -72,6 +65,11 @@ BESIDE = 0.1
 """How far from its expected place a finishing path is looked for first, mm; found or not, the proof holds."""
 COARSE = 0.002
 """Accuracy of areas that are not reported, mm: a fifth of the leftover limit."""
+
+
+def play(job: Job) -> float:
+    """Air on either side of a cutter where it can enter, mm: more where paths keep farther off the walls."""
+    return max(PLAY, job.settings.path.bias)
 
 
 @dataclass(frozen=True, slots=True)
