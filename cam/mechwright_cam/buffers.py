@@ -60,6 +60,9 @@ def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
     [False, True]
     """
     if not isinstance(shape, np.ndarray):
+        if distance < 0 and shape.geom_type == "GeometryCollection":
+            # Overlays leave specks of lines; shrunk they are gone, and with them there is no boundary.
+            shape = _joined(np.array([p for p in shapely.get_parts(shape) if p.geom_type == "Polygon"]))
         shape = _with_corners(_with_stops(shape, distance), distance)
     grown = shapely.buffer(shape, distance, quad_segs=quad_segs)
     if isinstance(shape, np.ndarray):
@@ -150,7 +153,7 @@ def _with_corners(shape: Any, distance: float) -> Any:
     pieces = [_dotted(piece, distance > 0) for piece in shapely.get_parts(shape).tolist()]
     if all(piece.geom_type == "Polygon" for piece in pieces):
         return _joined(np.array(pieces, dtype=object))
-    return shapely.geometrycollections(pieces)  # grown only: of mixed shapes nothing is left when they shrink
+    return shapely.geometrycollections(pieces)
 
 
 def _dotted(piece: Any, inside: bool) -> Any:

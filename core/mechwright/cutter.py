@@ -18,12 +18,16 @@ from typing import Any
 import numpy as np
 
 from mechwright.motion import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 
 POINTED = frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL, ToolKind.CHAMFER})
 """Tools with a cone at the end."""
 BLUNT = 179.9
 """A cone of this full angle, degrees, is as good as flat; of half of 180 there is no tangent."""
+
+SAME_RADIUS = TOLERANCES.leftover / 2
+"""A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
 
 TINY = 1e-9
 """A corner of a smaller radius is none, mm."""
@@ -92,6 +96,11 @@ def cutter(tool: Tool) -> Cutter:
         slope = math.tan(math.radians(min(tool.point_angle, BLUNT) / 2))
         return Cutter(tool.radius, tip=tool.tip_diameter / 2, slope=slope)
     return Cutter(tool.radius, nose=tool.nose)
+
+
+def makes_floor(tool: Tool, floor_radius: float) -> bool:
+    """Whether a mill leaves the fillet that a floor is to have, mm."""
+    return floor_radius > 0 and abs(tool.nose - floor_radius) <= SAME_RADIUS
 
 
 def cusp(tool: Tool, step: float) -> float:

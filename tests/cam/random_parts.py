@@ -17,9 +17,10 @@ from mechwright.findings import errors
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.host import host
 from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.job import Job
+from mechwright_cam.library import Library
 from mechwright_cam.pipeline import Machined, _after, dialect_of
 from mechwright_cam.planning import plan
 from mechwright_cam.proof import Proof, prove
@@ -28,6 +29,34 @@ from mechwright_cam.setups import lay_out_setups
 Rng = np.random.Generator
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
+SHAPES = {
+    "bull-3-r0.3": (3, 0.3),
+    "bull-4-r1.5": (4, 1.5),
+    "bull-10-r2": (10, 2),
+    "ball-2": (2, 1),
+    "ball-4": (4, 2),
+}
+"""More round mills than the library has: diameter and corner radius, mm."""
+
+
+def _more_mills() -> Library:
+    """The library, and mills of more shapes in numbers that are free."""
+    mills = []
+    for number, (name, (diameter, nose)) in enumerate(SHAPES.items(), 150):
+        like = LIBRARY.get("ball-6" if 2 * nose == diameter else "bull-6-r1")
+        radius = {} if like.kind is ToolKind.BALL else {"corner_radius": nose}
+        wanted = {
+            "name": name,
+            "number": number,
+            "diameter": diameter,
+            "flute_length": 4 * diameter,
+            **radius,
+        }
+        mills.append(Tool.model_validate({**like.model_dump(exclude_unset=True), **wanted}))
+    return Library((*LIBRARY, *mills))
+
+
+CUTTERS = _more_mills()
 THREADS = {"m3": (3.0, 0.5), "m4": (4.0, 0.7), "m5": (5.0, 0.8), "m6": (6.0, 1.0), "m8": (8.0, 1.25)}
 
 
@@ -58,6 +87,8 @@ class Drawn:
 
     part: Part
     settings: dict[str, object]
+    mills: tuple[str, ...] = ()
+    """Mills that it cannot be made without."""
     kinds: frozenset[ToolKind] = frozenset()
     """Kinds of cutter that the operation needs beside end mills."""
 
@@ -147,6 +178,39 @@ def groove(rng: Rng) -> Drawn:
     return Drawn(plate(rng, [Pocket("groove", loop, (), 0.0, depth)], rim, thick), {})
 
 
+def open_profile(rng: Rng) -> Drawn:
+    """A groove on an open path, or a step beside it."""
+    size, thick = _size(rng)
+    depth = round(float(rng.uniform(0.05, 0.8)) * thick, 2)
+    width = float(rng.choice([2.0, 3.0, 4.0, 6.0, 10.0, rng.uniform(2, 12)]))
+    reach, bend = float(rng.choice([0.5, 1.5])) * size, float(rng.uniform(13, 0.9 * size))
+    first = Line((-reach, 0.0), (0.0, 0.0))
+    turn = rng.uniform(0.3, 2.0) * rng.choice([-1.0, 1.0])
+    arc = Arc((0.0, math.copysign(bend, turn)), bend, -math.copysign(math.pi / 2, turn), turn)
+    along = (math.cos(turn), math.sin(turn))
+    last = Line(arc.end, (arc.end[0] + reach * along[0], arc.end[1] + reach * along[1]))
+    up, angle = float(rng.uniform(-0.3, 0.3)) * size, float(rng.uniform(0, 6))
+    path = tuple(piece.moved(0.0, up, angle) for piece in (first, arc, last))
+    side = str(rng.choice(["on", "left", "right"]))
+    cut = OpenProfile("strip", 0.0, depth, path=path, side=side, width=width)
+    how = {"clearing": str(rng.choice(["contour", "adaptive"]))}
+    return Drawn(plate(rng, [cut], rounded_box(2 * size, 1.8 * size, 4), thick), how)
+
+
+def fillet(rng: Rng) -> Drawn:
+    """A recess whose floor has a fillet."""
+    size, thick = _size(rng)
+    maker = rng.choice([tool.name for tool in CUTTERS if 0 < tool.nose < 0.8 * thick])
+    radius = CUTTERS.get(str(maker)).nose
+    depth = round(float(rng.uniform(radius, 0.85 * thick)) + 0.005, 2)
+    recess = Pocket("recess", polygon(rng, rng.uniform(6, 0.75 * size)), (), 0.0, depth, radius)
+    features: list[Feature] = [recess]
+    if rng.random() < 0.3:
+        features.append(Bore("hole", (0.0, 0.0), 3.0, 0.0, thick))
+    rim = rounded_box(2 * size, 1.8 * size, 4)
+    return Drawn(plate(rng, features, rim, thick), {}, (str(maker),), frozenset({ToolKind.DRILL}))
+
+
 def face(rng: Rng) -> Drawn:
     size, thick = _size(rng)
     depth = round(float(rng.uniform(0.1, 0.3)) * thick, 2)
@@ -169,7 +233,7 @@ def holes(rng: Rng) -> Drawn:
         depth = round(float(rng.uniform(0.3, 0.8)) * thick, 2) if blind else thick
         features.append(Bore(f"hole-{number}", (x, float(rng.uniform(-5, 5))), diameter, 0.0, depth))
     rim = rounded_box(2 * size + 16, 1.2 * size, 5)
-    return Drawn(plate(rng, features, rim, thick), {}, frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL}))
+    return Drawn(plate(rng, features, rim, thick), {}, (), frozenset({ToolKind.DRILL, ToolKind.SPOT_DRILL}))
 
 
 def thread(rng: Rng) -> Drawn:
@@ -180,7 +244,7 @@ def thread(rng: Rng) -> Drawn:
     cut = Thread(name, at, diameter, pitch, round(float(rng.uniform(0.4, 1.0)) * thick, 2))
     core = Bore("core", at, cut.core, 0.0, thick)
     part = plate(rng, [core], rounded_box(2 * size, 1.2 * size, 5), thick, (cut,))
-    return Drawn(part, {}, frozenset({ToolKind.THREAD_MILL, ToolKind.DRILL}))
+    return Drawn(part, {}, (), frozenset({ToolKind.THREAD_MILL, ToolKind.DRILL}))
 
 
 def chamfer(rng: Rng) -> Drawn:
@@ -193,7 +257,7 @@ def chamfer(rng: Rng) -> Drawn:
         features: list[Feature] = [Profile("window", window, "inside", 0.0, thick)]
         edge = Chamfer("edge", window, "inside", width)
         part = plate(rng, features, rounded_box(2 * size, 1.6 * size, 5), thick, (edge,))
-    return Drawn(part, {}, frozenset({ToolKind.CHAMFER}))
+    return Drawn(part, {}, (), frozenset({ToolKind.CHAMFER}))
 
 
 def engrave(rng: Rng) -> Drawn:
@@ -204,7 +268,7 @@ def engrave(rng: Rng) -> Drawn:
     strokes = lettering(letters or "A", rng.uniform(2.5, 6), (0.0, 0.0), rng.uniform(0, 3))
     mark = Engraving("mark", strokes, round(float(rng.uniform(0.1, 0.3)), 2), 0.6)
     part = plate(rng, [], rounded_box(2 * size + 10, 2 * size, 6), thick, (mark,))
-    return Drawn(part, {}, frozenset({ToolKind.CHAMFER}))
+    return Drawn(part, {}, (), frozenset({ToolKind.CHAMFER}))
 
 
 def second_side(rng: Rng) -> Drawn:
@@ -228,6 +292,8 @@ OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
     "adaptive": adaptive,
     "slot": slots,
     "groove": groove,
+    "open-profile": open_profile,
+    "fillet": fillet,
     "face": face,
     "holes": holes,
     "thread": thread,
@@ -237,13 +303,16 @@ OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
 }
 
 
-def cutters(rng: Rng, kinds: frozenset[ToolKind]) -> list[str]:
-    """Names of random end mills and of all cutters of the other kinds; none: let them be chosen."""
+def cutters(rng: Rng, drawn: Drawn) -> list[str]:
+    """Names of random mills and of all cutters of the other kinds; none: let them be chosen."""
     if rng.random() < 0.5:
         return []
-    mills = [tool.name for tool in LIBRARY if tool.kind is ToolKind.END_MILL]
-    others = [tool.name for tool in LIBRARY if tool.kind in kinds]
-    return [*rng.choice(mills, int(rng.integers(1, 4)), replace=False).tolist(), *others]
+    mills = [tool.name for tool in CUTTERS if tool.kind is ToolKind.END_MILL]
+    rounds = [tool.name for tool in CUTTERS if tool.kind in (ToolKind.BULL_NOSE, ToolKind.BALL)]
+    others = [tool.name for tool in CUTTERS if tool.kind in drawn.kinds]
+    flat = rng.choice(mills, int(rng.integers(0, 4)), replace=False).tolist()
+    more = rng.choice(rounds, int(rng.integers(not flat, 3)), replace=False).tolist()
+    return [*flat, *dict.fromkeys([*more, *drawn.mills]), *others]
 
 
 @dataclass(frozen=True)
@@ -267,7 +336,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
     control = str(rng.choice(CONTROLS))
     wanted = {
         "control": control,
-        "tools": cutters(rng, drawn.kinds),
+        "tools": cutters(rng, drawn),
         "climb": bool(rng.integers(2)),
         "origin": str(rng.choice(["axis", "corner", "centre"])),
         "stock_to_leave": float(rng.choice([0.0, 0.1, 0.2, 0.5])),
@@ -281,7 +350,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
     made: list[Machined] = []
     try:
         cam = CamSettings.model_validate(wanted)
-        jobs, found = lay_out_setups(drawn.part, cam, LIBRARY)
+        jobs, found = lay_out_setups(drawn.part, cam, CUTTERS)
         if errors(found):
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:

@@ -1,12 +1,14 @@
 """Grooves as wide as a mill: its centre runs on the groove's centre line, and both walls are cut at once."""
 
+import math
+
 import numpy as np
 
 from mechwright.part import OpenProfile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
-from mechwright_cam.planning.choice import ROOMY, usable_mills
+from mechwright_cam.planning.choice import ROOMY, radius_in, usable_mills
 from mechwright_cam.planning.grooves import to_and_fro
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zones import bottom_of
@@ -37,7 +39,14 @@ def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
     mills = usable_mills(job, -bottom)
     if job.settings.clearing == "adaptive" and mills[-1].diameter <= ROOMY * feature.width:
         return None
-    return next((mill for mill in mills if -TOLERANCES.noise <= feature.width - mill.diameter <= PLAY), None)
+    high = math.inf if bottom == job.floor else feature.depth
+    gaps = [(feature.width - 2 * radius_in(mill, high), mill) for mill in mills]
+    fit = [mill for gap, mill in gaps if -TOLERANCES.noise <= gap <= PLAY]
+    best = min(fit, key=lambda mill: mill.nose, default=None)
+    # A mill with a sharper nose makes more of the floor.
+    if best is not None and any(gap > 0 and mill.nose < best.nose for gap, mill in gaps):
+        return None
+    return best
 
 
 def grooves(job: Job) -> dict[str, Tool]:

@@ -1,11 +1,13 @@
 """Which of a job's end mills does what."""
 
+import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 import shapely
 
+from mechwright.cutter import cutter, makes_floor
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
@@ -15,8 +17,6 @@ from mechwright_cam.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.toolpath.offsets import polygons
 from mechwright_cam.toolpath.path import rounded
 
-SAME_RADIUS = TOLERANCES.leftover / 2
-"""A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
 REACH_SHARE = 1.5
 """Of the tolerance for stock left on walls, what a larger cutter may leave in their corners besides."""
 ROOMY = 0.7
@@ -52,31 +52,40 @@ def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool
     return plain or mills
 
 
-def makes_floor(tool: Tool, floor_radius: float) -> bool:
-    """Whether a mill leaves the fillet that a floor is to have."""
-    return floor_radius > 0 and abs(tool.nose - floor_radius) <= SAME_RADIUS
+def radius_in(mill: Tool, height: float) -> float:
+    """Radius of a mill at a height above its tip, mm: that of a nose which is higher is smaller."""
+    return float(cutter(mill).radius_at(height)) if mill.nose > height else mill.radius
 
 
 def last_mills(
-    mills: Sequence[Tool], keep: shapely.Geometry, path: PathSettings, near: shapely.Geometry | None = None
+    mills: Sequence[Tool],
+    keep: shapely.Geometry,
+    path: PathSettings,
+    near: shapely.Geometry | None = None,
+    height: float = math.inf,
 ) -> list[Tool]:
-    """The mills that finish a wall, one after the other: the finest, and before a round one a flat one.
+    """The mills that finish a wall of a height, mm, one after the other: from the sharpest to the finest.
 
-    A flat end mill leaves no fillet on the floor. Where a round one reaches further into corners it comes
-    after it.
+    A flat end mill leaves no fillet on the floor, and a small nose a small one. Where a rounder mill reaches
+    further into corners it comes after it.
     """
-    flat = [mill for mill in mills if mill.nose == 0]
-    if not flat or len(flat) == len(mills):
-        return [finishing_choice(mills, keep, path, near)]
-    first, best = (finishing_choice(some, keep, path, near) for some in (flat, mills))
-    return [first] if best.radius >= first.radius else [first, best]
+    last: list[Tool] = []
+    for nose in sorted({mill.nose for mill in mills}):
+        best = finishing_choice([mill for mill in mills if mill.nose <= nose], keep, path, near, height)
+        if not last or radius_in(best, height) < radius_in(last[-1], height):
+            last.append(best)
+    return last
 
 
-def roughers(mills: Sequence[Tool], finest: Tool) -> list[Tool]:
-    """The mills that rough before the finest: the wider ones, and round ones as wide, whose edges last.
+def roughers(mills: Sequence[Tool], last: Sequence[Tool]) -> list[Tool]:
+    """The mills that rough before the last ones: the wider ones, and round ones as wide, whose edges last.
 
-    Before a ball every other mill roughs, for a ball takes long to make a floor.
+    Before a ball every other mill roughs, for a ball takes long to make a floor; and before one of the last
+    that has no room for chips, and is not among ``mills``, all of them.
     """
+    finest = last[-1]
+    if any(mill not in mills for mill in last):
+        return list(mills)
     is_ball = finest.nose == finest.radius
     return [
         mill
@@ -96,13 +105,18 @@ def same_reach(path: PathSettings) -> float:
 
 
 def finishing_choice(
-    mills: Sequence[Tool], keep: shapely.Geometry, path: PathSettings, near: shapely.Geometry | None = None
+    mills: Sequence[Tool],
+    keep: shapely.Geometry,
+    path: PathSettings,
+    near: shapely.Geometry | None = None,
+    height: float = math.inf,
 ) -> Tool:
     """The largest mill that leaves on the walls of ``keep`` no more than the finest, the last one.
 
-    Only the walls ``near`` a shape count, if one is given.
+    Only the walls ``near`` a shape count, if one is given; they are ``height`` mm high.
     """
-    return mills[_largest_as_good(keep, tuple(mill.radius for mill in mills), path, near)]
+    mills = sorted(mills, key=lambda mill: -radius_in(mill, height))
+    return mills[_largest_as_good(keep, tuple(radius_in(mill, height) for mill in mills), path, near)]
 
 
 @lru_cache(maxsize=64)
@@ -128,6 +142,15 @@ def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
     line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)
     (x, y), _ = line.coords
     return (rounded(x), rounded(y)), float(line.length)
+
+
+def with_sharper(mills: list[Tool], roomy: list[Tool], enters: Callable[[Tool], bool]) -> list[Tool]:
+    """The mills that may finish: roomy ones, and those with sharper noses that just enter.
+
+    What is roughed leaves them little to cut, and they level the fillets of the others.
+    """
+    sharpest = min(mill.nose for mill in roomy)
+    return [*(mill for mill in mills if mill.nose < sharpest and enters(mill)), *roomy]
 
 
 def roomy_mills(mills: list[Tool], opening: shapely.Geometry) -> list[Tool]:

@@ -133,21 +133,22 @@ class Roughing:
         self.fit = COARSE_FIT if coarse else fit_tolerance(zone.path)
         self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
         self.before = zone.left, zone.over
-        self.foot = tool.radius if zone.through else float(cutter(tool).radius_at(CUSP))
+        self.radius = zone.radius_of(tool)
+        self.foot = self.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
         fine = min(self.step, 2 * TIGHT * self.foot)
         self.smooth = ridges or fine >= MANY * self.step
         if self.smooth:
             self.step = fine
         self.blocked = self._blocked(0)
-        self.room = zone.room(tool.radius, SLACK)
+        self.room = zone.room(self.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
-        self.wide = self.foot if self.smooth else tool.radius
+        self.wide = self.foot if self.smooth else self.radius
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
         self.over = zone.over + min(OVERLAP, self.sliver / 2)
         # On a floor with ridges nothing may be taken for cut that is not.
-        self.touch = self.foot if ridges else tool.radius
-        self.reach = grow(self.free, self.foot if ridges else tool.radius + self.over, ROUGH)
+        self.touch = self.foot if ridges else self.radius
+        self.reach = grow(self.free, self.foot if ridges else self.radius + self.over, ROUGH)
         take = shapely.intersection(zone.left if only is None else only, self.reach)
         if zone.channel is not None and not coarse:
             take = shapely.intersection(take, grow(zone.channel, -FRAME, ROUGH))
@@ -157,10 +158,10 @@ class Roughing:
 
     def _blocked(self, order: int) -> shapely.Geometry:
         """Where the centre must not be on the ring of this order."""
-        radius = self.tool.radius + order * self.step
+        ring = order * self.step
         if self.coarse:
-            return self.zone.rough_keep(self.allowance, radius)
-        return grow(self.zone.keep, max(self.allowance, self.zone.path.bias) + radius)
+            return self.zone.blocked(self.tool, ring, self.allowance)
+        return self.zone.blocked(self.tool, max(self.allowance, self.zone.path.bias) + ring)
 
     def serves(self, zone: Zone) -> bool:
         """Whether another layer of the same recess, with the same stock in it, is cut alike."""
@@ -190,14 +191,22 @@ class Roughing:
         if self.ridges:
             zone.ridges = shapely.difference(zone.ridges, self.reach)
             return
-        if self.foot < self.tool.radius:
-            taken = shapely.intersection(zone.left, self.reach)
+        self._take(self.reach)
+        zone.over = self.over
+
+    def commit_core(self) -> None:
+        """The same for a cut that is only for its core: what it cuts elsewhere does not count."""
+        self._take(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius)))
+
+    def _take(self, reach: shapely.Geometry) -> None:
+        zone = self.zone
+        if self.foot < self.radius:
+            taken = shapely.intersection(zone.left, reach)
             if self.smooth:
                 taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
             zone.ridges = shapely.union(zone.ridges, taken)
             zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
-        zone.left = shapely.difference(zone.left, self.reach)
-        zone.over = self.over
+        zone.left = shapely.difference(zone.left, reach)
 
     @cached_property
     def cavities(self) -> list[Cavity]:
@@ -208,7 +217,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.standing, self.tool.radius + self.zone.over - CLEAR, ROUGH)
+        near = grow(self.zone.standing, self.radius + self.zone.over - CLEAR, ROUGH)
         near = prepared(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -238,7 +247,7 @@ class Roughing:
         self, paths: list[Path], core: shapely.Polygon, near: shapely.Geometry, free: shapely.Geometry
     ) -> Cavity:
         """Find out which runs may be entered from the one before without lifting the cutter."""
-        radius, stock = self.tool.radius, None
+        radius, stock = self.radius, None
         swept: shapely.Geometry = shapely.Polygon()
         starts = np.array([path.start for path in paths])
         is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
@@ -262,7 +271,7 @@ class Roughing:
         return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start))
 
     def _pieces(self) -> list[Piece]:
-        radius = self.tool.radius
+        radius = self.radius
         self.room = prepared(self.room)
         found: list[Piece] = []
         blocked, core = self.blocked, self.core

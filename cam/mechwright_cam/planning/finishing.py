@@ -24,8 +24,8 @@ class Finishing:
 
     def __init__(self, zone: Zone, settings: CamSettings, tool: Tool) -> None:
         self.zone, self.settings, self.tool = zone, settings, tool
-        radius = self.tool.radius
-        self.blocked = grow(zone.keep, radius + zone.path.bias)
+        self.radius = radius = zone.radius_of(tool)
+        self.blocked = zone.blocked(tool, zone.path.bias)
         self.room = zone.room(radius, finishing=True)
         if zone.tabs is not None:
             # Along a tab only as far as the finishing of the wall needs it.
@@ -35,7 +35,7 @@ class Finishing:
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
         # Leads touch the path they lead to: between that and the wall they may be as wrong as it.
-        self.free = shapely.difference(grow(self.room, CLEAR + beyond, ROUGH), grow(zone.keep, radius))
+        self.free = shapely.difference(grow(self.room, CLEAR + beyond, ROUGH), zone.blocked(tool, 0.0))
         self.room, self.near, self.free = map(prepared, (self.room, self.near, self.free))
 
     def write(self, pen: Pen) -> None:
@@ -58,8 +58,9 @@ class Finishing:
     def _pieces(self) -> list[Piece]:
         found = []
         for ring in rings(self.blocked, self.settings.climb):
-            radius = self.tool.radius
-            dense = densified(into_wedges(ring, self.zone.keep, radius, self.zone.path.bias), radius / 4)
+            if not self.zone.above:
+                ring = into_wedges(ring, self.zone.keep, self.radius, self.zone.path.bias)
+            dense = densified(ring, self.radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)
             found.extend(pieces(dense, everywhere, everywhere, self.room, 0))
         return found

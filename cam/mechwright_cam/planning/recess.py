@@ -13,6 +13,7 @@ around
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import shapely
 
@@ -33,6 +34,10 @@ FILM = 1e-6
 """Area over circumference of what only rounding of numbers can leave, mm."""
 LONG = 2.0
 """Circumference from which on something as thin is a skin, mm."""
+
+
+Layer = tuple[float, shapely.Geometry]
+"""What stands above a recess: its height over the recess's floor, mm, and its plan view."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +90,27 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
     around = shapely.union_all([part for part in free if shapely.intersects(part, must)])
     return Recess(must, keep, around, True)
+
+
+def standing_above(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, ...]:
+    """What stands above the top of a feature, ``near`` mm around it at most, in layers."""
+    heights = sorted(
+        {0.0, feature.top, *(z for f in job.features for z in (f.top, f.top + f.depth) if z < feature.top)}
+    )
+    floor, around = feature.top + feature.depth, grow(plan_view(feature), near, ROUGH)
+    layers = []
+    for top, bottom in pairwise(heights):
+        gone = [
+            plan_view(other)
+            for other in job.features
+            if not (isinstance(other, Profile) and other.side == "outside")
+            and other.top <= top + LEVEL
+            and other.top + other.depth >= bottom - LEVEL
+        ]
+        wall = _without_skin(shapely.difference(job.target, shapely.union_all(gone)))
+        if shapely.intersects(wall, around):
+            layers.append((floor - top, wall))
+    return tuple(layers)
 
 
 def _check_alone(job: Job, feature: Pocket, shape: shapely.Geometry) -> None:

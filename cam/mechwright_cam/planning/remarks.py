@@ -7,6 +7,7 @@ from functools import partial
 
 import shapely
 
+from mechwright.cutter import SAME_RADIUS
 from mechwright.errors import MechwrightError, ToolError
 from mechwright.findings import Finding, Severity
 from mechwright.materials import HSS_SPEED
@@ -18,7 +19,7 @@ from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.centre_lines import grooves
-from mechwright_cam.planning.choice import SAME_RADIUS, long_enough, roughers
+from mechwright_cam.planning.choice import long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import plan_bore
 from mechwright_cam.planning.rates import rates
@@ -75,7 +76,7 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
 def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
     """The mills that nothing in the part is for."""
     boring = [plan_bore(job, bore).mill for bore in bores(job)]
-    milling: list[list[Tool]] = [[*roughers(zone.mills, zone.finisher), *zone.last_mills] for zone in zones]
+    milling: list[list[Tool]] = [[*roughers(zone.mills, zone.last_mills), *zone.last_mills] for zone in zones]
     used = {mill.name for mill in boring if mill is not None}
     used |= {mill.name for mills in milling for mill in mills}
     used |= {mill.name for mill in grooves(job).values()}

@@ -6,6 +6,7 @@ from functools import partial
 
 import shapely
 
+from mechwright.cutter import cutter
 from mechwright.errors import ToolError
 from mechwright.program import Move
 from mechwright.tolerances import TOLERANCES
@@ -13,7 +14,7 @@ from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.planning.cavity import write_cavities
 from mechwright_cam.planning.choice import entry_place, roughers
-from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, Roughing
+from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
 from mechwright_cam.planning.congruent import Copies
 from mechwright_cam.planning.finishing import Finishing
@@ -21,7 +22,7 @@ from mechwright_cam.planning.floors import layers, over_openings
 from mechwright_cam.planning.grooves import groove
 from mechwright_cam.planning.pen import Pen
 from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import HEAVY, Zone
+from mechwright_cam.planning.zone import CUSP, HEAVY, Zone
 from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
 from mechwright_cam.toolpath.offsets import grow, opened, polygons
@@ -67,9 +68,8 @@ class Walls:
         lined up in the order of machining.
         """
         allowance = self.job.settings.stock_to_leave
-        finest = zones[0].finisher
         found = [cut for zone in zones for cut in self._cleared(zone, mills)]
-        for mill in roughers(mills, finest):
+        for mill in roughers(mills, zones[0].last_mills):
             zones[0].rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
             cuts = together(partial(self._roughing, mill=mill, allowance=allowance), zones)
             # The layers share their cutters: the tallest one decides.
@@ -86,7 +86,7 @@ class Walls:
         cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills)]
         cleared = [mill for _, mill, _ in cuts]
         above: dict[str, Roughing] = {}
-        for mill in roughers(zone.mills, finest):
+        for mill in roughers(zone.mills, zone.last_mills):
             found = [self._roughing(rough, mill, allowance) for rough in roughs]
             if found[0].share >= WORTH_A_TOOL:
                 cuts += [self._rough(cut) for cut in found]
@@ -131,7 +131,8 @@ class Walls:
         from mechwright_cam.planning.adaptive import HELIX
 
         widest = max(entry_place(part)[1] for part in polygons(zone.clear))
-        fit = [m for m in mills if m.radius >= zone.finisher.radius and HELIX * m.diameter <= 2 * widest]
+        large = [m for m in mills if m.radius >= zone.finisher.radius or zone.finisher not in mills]
+        fit = [m for m in large if HELIX * m.diameter <= 2 * widest]
         return fit[0] if fit else zone.finisher
 
     def _roughing(self, zone: Zone, mill: Tool, allowance: float) -> Roughing:
@@ -196,7 +197,7 @@ class Walls:
         plain = settings.compensation == "computer"
         finishing = Finishing(zone, settings, mill) if plain else CompensatedFinishing(zone, self.job, mill)
         moves = self.moves(mill, finishing.write, depth=deep, over=zone.slopes)
-        if not moves:
+        if not moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; "
                 "list a smaller end mill"
@@ -208,7 +209,7 @@ class Walls:
         settings = self.job.settings
         step = mill.cutting[self.job.part.material].step_down * mill.diameter
         moves = self.moves(mill, lambda pen: groove(zone, settings, pen, step), depth=_pass(zone, mill, step))
-        if not moves:
+        if not moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {self.job.part.name}; draw it as "
                 f"wide as the mill, {mill.diameter:g} mm, or wider"
@@ -220,7 +221,9 @@ class Walls:
         if shapely.is_empty(zone.ridges):
             return []
         data = mill.cutting[self.job.part.material]
-        allowance = zone.allowance_for(mill, self.job.settings.stock_to_leave)
+        # The next ring towards the wall is that of finishing.
+        ring = 2 * TIGHT * float(cutter(mill).radius_at(CUSP))
+        allowance = zone.allowance_for(mill, min(self.job.settings.stock_to_leave, ring))
         cut = Roughing(
             zone, mill, allowance, data.step_over, self.job.settings.climb, only=zone.ridges, ridges=True
         )
@@ -248,8 +251,7 @@ class Walls:
             write = partial(cut.write, step_down=data.step_down * mill.diameter)
             moves = self.moves(mill, write, over=zone.slopes)
             cuts.append((f"{zone.name}: {what}", mill, moves))
-            near = grow(cut.core, cut.sliver + mill.radius)
-            zone.left = shapely.difference(zone.left, shapely.intersection(cut.reach, near))
+            cut.commit_core()
         return cuts
 
     def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:

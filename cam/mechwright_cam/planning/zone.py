@@ -12,6 +12,7 @@ room
     Where the centre of a cutter may be, apart from the distance to ``keep``.
 """
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Literal
@@ -22,6 +23,8 @@ from mechwright.cutter import cutter
 from mechwright.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import PathSettings, Tool
+from mechwright_cam.planning.choice import radius_in
+from mechwright_cam.planning.recess import Layer
 from mechwright_cam.tabs import Tab
 from mechwright_cam.toolpath.offsets import (
     CHORD,
@@ -83,8 +86,10 @@ class Zone:
     """Ramped tabs between these heights: the cutter goes over them."""
     below: bool = False
     """Whether the cut ends below the underside of the plate."""
-    before: Tool | None = None
-    """A flat end mill that finishes before the finisher, which is a finer round one."""
+    before: tuple[Tool, ...] = ()
+    """Mills with sharper corners that finish before the finisher, which is a finer round one."""
+    above: tuple[Layer, ...] = ()
+    """Walls that stand above a recess shallower than the noses of its mills."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
     snug: bool = False
@@ -136,6 +141,29 @@ class Zone:
         """How deep a mill goes, z in mm: out of the plate with all of its rounded corner."""
         return self.bottom - mill.nose if self.below else self.bottom
 
+    @property
+    def wall_height(self) -> float:
+        """Height of the walls over the floor, mm; inf where the mills go out below with their noses."""
+        return math.inf if self.feature is None or self.below else self.feature.depth
+
+    def radius_of(self, mill: Tool) -> float:
+        """Radius of a mill at the top of the wall, mm: above that a high nose is wider than it cuts."""
+        return radius_in(mill, self.wall_height)
+
+    def blocked(self, mill: Tool, away: float, allowance: float | None = None) -> shapely.Geometry:
+        """Where the centre of a mill must not be, ``away`` mm and what it is wide there off what must stay.
+
+        With an ``allowance`` for roughing: that much stays on the walls besides, which are thinned.
+        """
+        radius = self.radius_of(mill) + away
+        near = grow(self.keep, radius) if allowance is None else self.rough_keep(allowance, radius)
+        if not self.above or self.radius_of(mill) == mill.radius:
+            return near
+        more = away + (allowance or 0.0)
+        return shapely.union_all(
+            [near, *(grow(wall, radius_in(mill, height) + more) for height, wall in self.above)]
+        )
+
     def allowance_for(self, mill: Tool, allowance: float) -> float:
         """What a mill leaves on the wall, mm, so that a fillet stays at its foot.
 
@@ -151,12 +179,12 @@ class Zone:
     @property
     def last_mills(self) -> tuple[Tool, ...]:
         """The mills that finish, one after the other."""
-        return (self.finisher,) if self.before is None else (self.before, self.finisher)
+        return (*self.before, self.finisher)
 
     @property
     def reach_radius(self) -> float:
         """Radius of the finisher as far as it reaches into corners, mm."""
-        return self.finisher.radius - (SNUG if self.snug else 0.0)
+        return self.radius_of(self.finisher) - (SNUG if self.snug else 0.0)
 
     def leave_ridges(self, mill: Tool, cleared: shapely.Geometry) -> None:
         """Note what a round mill leaves on the floor of a region that it has cleared closely."""

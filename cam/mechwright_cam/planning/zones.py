@@ -6,6 +6,7 @@ from functools import partial
 
 import shapely
 
+from mechwright.cutter import makes_floor
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
@@ -15,11 +16,12 @@ from mechwright_cam.nest import Nest
 from mechwright_cam.planning.choice import (
     finishing_choice,
     last_mills,
-    makes_floor,
+    radius_in,
     roomy_mills,
     usable_mills,
+    with_sharper,
 )
-from mechwright_cam.planning.recess import Recess, reached_share, recess
+from mechwright_cam.planning.recess import Layer, Recess, reached_share, recess, standing_above
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
 from mechwright_cam.reach import roughly_swollen
@@ -49,6 +51,8 @@ LEAST_SHARE = 0.02
 """A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
 
 
+SCRATCH = 1e-4
+"""A mill with a sharper nose that reaches so much of a feature levels it there, if only at its mouth."""
 ENTERED = 0.5
 """Below this share of a groove a mill has only come in at its open ends."""
 FILLED = 0.9
@@ -76,16 +80,22 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             last, snug = floor_mills(job, feature, mills, shapes)
             mills = last if snug else roomy_mills(mills, shapes.must)
         else:
-            if reached_share(shapes, mills[-1].radius + path.bias) < LEAST_SHARE:
+            high = math.inf if through(job, feature.top + feature.depth) else feature.depth
+
+            def reached(mill: Tool, shapes: Recess = shapes, high: float = high) -> float:
+                return reached_share(shapes, radius_in(mill, high) + path.bias)
+
+            if max(map(reached, mills)) < LEAST_SHARE:
                 raise ToolError(
                     f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
                     f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
                 )
-            mills = roomy_mills(mills, shapes.must)
-            last = last_mills(mills, shapes.keep, path, shapes.must if shapes.open else None)
+            able, mills = mills, roomy_mills(mills, shapes.must)
+            last = with_sharper(able, mills, lambda mill: reached(mill) >= SCRATCH)
+            last = last_mills(last, shapes.keep, path, shapes.must if shapes.open else None, high)
         finisher = last[-1]
-        if shapes.open:  # once more, to run out no further than the finishing cutter needs
-            run_out = finisher.diameter + job.settings.stock_to_leave + HEAVY
+        if shapes.open:  # once more, to run out no further than the finishing cutters need
+            run_out = max(mill.diameter for mill in last) + job.settings.stock_to_leave + HEAVY
             shapes = recess(job, feature, run_out, bottom)
         zone = Zone(
             feature.name,
@@ -101,14 +111,23 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             shapes.must if shapes.open else None,
             path=path,
             below=bottom == job.floor,
-            before=last[0] if len(last) > 1 else None,
+            before=tuple(last[:-1]),
             floor_radius=radius,
             snug=snug,
+            above=_above(job, feature, [*mills, *last]),
         )
         if shapes.open:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
         zones.append(zone)
     return zones
+
+
+def _above(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:
+    """What stands above a feature that is shallower than a nose of its mills."""
+    round_ = [mill for mill in mills if mill.nose > feature.depth]
+    if not round_ or feature.top == 0:
+        return ()
+    return standing_above(job, feature, max(mill.diameter for mill in round_))
 
 
 def floor_mills(
@@ -176,7 +195,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
             through=True,
             path=path,
             channel=channel,
-            before=last[0] if len(last) > 1 else None,
+            before=tuple(last[:-1]),
         )
         zones: list[Zone] = []
         if shapely.is_empty(clear):

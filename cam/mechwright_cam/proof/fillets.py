@@ -100,7 +100,8 @@ class Fillet:
         away = shapely.distance(self.walls, lines) - shape.radius + shape.nose
         up = pieces.low - self.floor + shape.nose
         f = self.radius
-        room = np.where((away < f) & (up < f), f - np.hypot(f - away, f - up), np.minimum(away, up))
+        # Elsewhere the wall or the floor is nearest, which are looked at for themselves.
+        room = np.where((away < f) & (up < f), f - np.hypot(f - away, f - up), np.inf)
         depth = np.minimum(shape.nose - room, overlap)
         worst = int(np.argmax(depth))
         if depth[worst] <= 0:

@@ -13,22 +13,23 @@ A bore has no such corners: it is cut to its wall (``bores``), or the program is
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import shapely
 
 from mechwright.motion import Array
-from mechwright.part import Bore, OpenProfile, Profile
+from mechwright.part import Bore, Feature, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS, PathSettings
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.grooves import along, entered
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow, swept
+from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
 from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
@@ -45,9 +46,6 @@ Paths and polygons are no better, and may be a micron too deep as outlines may: 
 narrower slot would cut more off both walls. Without it a slot up to 3 µm wider than the cutter would count as
 left over; with ``flatten`` alone the narrow ends of recesses would still prove, but such slots would not.
 """
-ENTERED = 2 * (TOLERANCES.flatten + ROUND)
-"""A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings
-may be off."""
 TAB_SLACK = 0.5
 """A tab may come out this much higher than planned, mm: the cutter is lifted over it with room to spare, and
 the tab is cut off by hand."""
@@ -100,8 +98,14 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
     # With round cutters or floors every height is another question, else one cross-section asks but once.
     alike = not (reach.noses or round_floors)
+    floors = []
+    if reach.noses:
+        floors = [(-(one.top + one.depth), floor_of(one, job)) for one in _recesses(job)]
     free = Surroundings(
-        [(band.top, _entered(band.keep, smallest, job, band)) for band in every], round_floors
+        [(band.top, entered(band.keep, smallest, play(job), job, band)) for band in every],
+        -job.thickness,
+        floors,
+        round_floors,
     )
     rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
@@ -112,20 +116,21 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         level = band.bottom + (0.0 if underside else TOLERANCES.leftover)
         groups = sweeps.at(height, level)
         key = id(band.keep)
-        tips = [one.bottom for one in every[place:]]
-        reached = rests[key] if alike and key in rests else reach.rest(free, place, level, tips)
+        reached = rests[key] if alike and key in rests else reach.rest(free, place, level)
         if key not in lowest:
             rests[key], lowest[key] = reached, (band, groups)
         beside = [_tabs_at(job, one, slack) for one in every]
         aside = None
         if beside[place]:
             held = [
-                (b.top, _entered(shapely.union_all([b.keep, *t]), smallest, job, b))
+                (b.top, entered(shapely.union_all([b.keep, *t]), smallest, play(job), job, b))
                 for b, t in zip(every, beside, strict=True)
             ]
-            reached = reach.rest(Surroundings(held, round_floors), place, level, tips)
+            reached = reach.rest(replace(free, layers=held), place, level)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
+        if reach.noses:
+            reached = along(reached, play(job), job, band, mills, level)
         # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
         narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
         thick, where = 0.0, None
@@ -133,8 +138,8 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
             within = unseen.get(key) if alike else None
             thick, where = _on_walls(reached, within, aside, job, groups, narrow)
         unseen[key] = aside
-        floors = _on_floors(reached, band, job, groups)
-        for depth, spot in ((min(thick, 2 * smallest), where), floors):
+        uncut = _on_floors(reached, band, job, groups)
+        for depth, spot in ((min(thick, 2 * smallest), where), uncut):
             if spot is not None and depth > worst:
                 worst, at, bore = depth, (*spot, band.bottom), None
     beyond = []
@@ -146,25 +151,20 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     return Remains(worst, at, tuple(beyond), bore)
 
 
-def _entered(keep: Shape, reach: float, job: Job, band: Band) -> Shape:
-    """What stays in a band, with the grooves wider that are made for a cutter that reaches so far, mm.
-
-    A cutter with the play of others would find no way into a groove of its own width. The stock on the
-    groove's walls is measured from walls that lie as much further out, and all the more is asked of it.
-    """
-    for feature in job.features:
-        inside = feature.top < -(band.top + band.bottom) / 2 < feature.top + feature.depth
-        if isinstance(feature, OpenProfile) and feature.side == "on" and inside:
-            lack = reach - feature.width / 2
-            if -ENTERED < lack <= play(job) + NEAR:
-                keep = shapely.difference(keep, grow(floor_of(feature, job), lack + ENTERED))
-    return keep
+def _recesses(job: Job) -> list[Feature]:
+    """The features that end in the plate: each has a floor."""
+    return [
+        feature
+        for feature in job.features
+        if feature.top + feature.depth < job.thickness - NEAR
+        and not (isinstance(feature, Profile) and feature.side == "outside")
+    ]
 
 
 def _above_floors(job: Job, reach: Reach) -> list[float]:
     """Heights from which on round mills are as wide as they get above the floors."""
-    floors = {feature.top + feature.depth for feature in job.features}
-    return [nose - floor for nose in reach.noses for floor in floors if floor < job.thickness - NEAR]
+    floors = {feature.top + feature.depth for feature in _recesses(job)}
+    return [nose - floor for nose in reach.noses for floor in floors]
 
 
 def _tabs_at(job: Job, band: Band, slack: float) -> list[Shape]:
@@ -251,11 +251,8 @@ def _on_floors(
     # A floor has to be cleared all over; the waste of a through opening drops out.
     floors = [
         floor_of(feature, job)
-        for feature in job.features
-        if feature.top + feature.depth < job.thickness - NEAR
-        and not (isinstance(feature, Profile) and feature.side == "outside")
-        and -feature.top >= band.top - NEAR
-        and -(feature.top + feature.depth) <= band.bottom + NEAR
+        for feature in _recesses(job)
+        if -feature.top >= band.top - NEAR and -(feature.top + feature.depth) <= band.bottom + NEAR
     ]
     if not floors:
         return 0.0, None

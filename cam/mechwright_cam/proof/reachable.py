@@ -10,8 +10,9 @@ rest
 
 A cutter whose tip is at t may stand where at the top of every layer above t it is as far from what stays as
 it is wide there. At the height z it then sweeps discs as wide as it is at z - t. A flat end mill does most
-with its tip at z, and leaves the closing of the layer. A round one leaves less if it can go deeper, past the
-edge of a floor or below the underside, so all heights of tips count that lead somewhere.
+with its tip at z, and leaves the closing of the layer. A round one leaves less if it can go deeper: on the
+floors, wherever it meets them, and below the underside. Heights in between do not count, at which its narrow
+end would go round corners step by step: that is no milling of walls.
 """
 
 from collections.abc import Sequence
@@ -20,20 +21,27 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.cutter import cutter
+from mechwright.cutter import cutter, makes_floor
 from mechwright.tooling import Tool
 from mechwright_cam.proof.fillets import Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
+from mechwright_cam.toolpath.offsets import polygons
 
 Layer = tuple[float, Shape]
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What has to stay: layers from the top of the plate down, and the fillets of floors."""
+    """What has to stay: layers from the top of the plate down, the fillets of floors, and the floors.
+
+    ``floors`` are the heights z, mm, of the floors on which a tip may stand, with their plan views;
+    ``underside`` is that of the plate.
+    """
 
     layers: Sequence[Layer]
+    underside: float
+    floors: Sequence[Layer] = ()
     fillets: Sequence[Fillet] = ()
 
 
@@ -66,34 +74,53 @@ class Reach:
         """Radius of the narrowest mill at a height above its tip, mm."""
         return min(float(cutter(tool).radius_at(height)) for tool in self.mills)
 
-    def rest(self, around: Surroundings, place: int, height: float, tips: Sequence[float]) -> Shape:
-        """What stays at ``height``, z in mm, in the layer of index ``place``.
-
-        ``tips`` are the heights at which floors lie below, the layer's own bottom first.
-        """
-        layer = around.layers[place][1]
+    def rest(self, around: Surroundings, place: int, height: float) -> Shape:
+        """What stays at ``height``, z in mm, in the layer of index ``place``."""
+        top, layer = around.layers[place]
         solid = [one for one in (fillet.solid(height) for fillet in around.fillets) if not one.is_empty]
         keep = shapely.union_all([layer, *solid]) if solid else layer
         found: Shape | None = closing(keep, self.flat) if np.isfinite(self.flat) else None
         for tool in self.mills:
             if tool.nose == 0 or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
-            for tip in (*tips, min(tips) - tool.nose):
-                left = shapely.union(keep, self._rest_of(tool, around, height, tip))
+            for tip in (around.underside, around.underside - tool.nose):
+                blocked = self._blocked(tool, around, tip)
+                left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
                 found = left if found is None else shapely.intersection(found, left)
+            for floor, view in around.floors:
+                if floor < top - NEAR:
+                    free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
+                    gone = grow(free, self._swept(tool, height - floor))
+                    found = shapely.union(keep, shapely.difference(found, gone))
         assert found is not None  # noqa: S101 - there is a mill
-        return found
+        return self._with_made(found, around, place, height)
 
-    def _rest_of(self, tool: Tool, around: Surroundings, height: float, tip: float) -> Shape:
-        """What one cutter leaves that works with its tip at one height."""
-        shape = cutter(tool)
+    def _with_made(self, rest: Shape, around: Surroundings, place: int, height: float) -> Shape:
+        """In a recess with a fillet what those mills leave that make it: others would leave terraces."""
+        for fillet in around.fillets:
+            makers = [tool for tool in self.mills if makes_floor(tool, fillet.radius)]
+            others = len(makers) < len(self.mills)
+            if makers and others and fillet.floor <= height < -fillet.feature.top:
+                left = Reach(makers, self.play).rest(around, place, height)
+                if not shapely.covers(left, fillet.inside):  # else they do not come in at all
+                    kept = polygons(shapely.intersection(left, fillet.inside))
+                    rest = shapely.union_all([rest, *kept])
+        return rest
+
+    def _swept(self, tool: Tool, height: float) -> float:
+        """How far a cutter sweeps around its axis at a height above its tip, and its play, mm."""
+        return float(cutter(tool).radius_at(height)) + self.play
+
+    def _blocked(self, tool: Tool, around: Surroundings, tip: float) -> Shape:
+        """Where the axis of a cutter must not be with its tip at one height."""
         blocked: dict[int, tuple[float, Shape]] = {}
         for top, keep in around.layers:
             if top > tip + NEAR:
-                away = float(shape.radius_at(top - tip)) + self.play
+                away = self._swept(tool, top - tip)
                 blocked[id(keep)] = max(away, blocked.get(id(keep), (0.0, keep))[0]), keep
         shapes = [grow(keep, away) for away, keep in blocked.values()]
         for fillet in around.fillets:
             off = stay(tool.nose, fillet.radius, tip - fillet.floor)
             shapes.append(grow(fillet.walls, tool.radius + off + self.play))
-        return grow(shapely.union_all(shapes), -float(shape.radius_at(height - tip)) - self.play)
+        whole: Shape = shapely.union_all(shapes)
+        return whole
