@@ -5,79 +5,32 @@ import math
 import numpy as np
 import pytest
 import shapely
-from height_map import Simulation, cutters, read
+from height_map import read
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from random_pockets import rounded
+from round_parts import (
+    LIBRARY,
+    OUTSIDE,
+    PLATE,
+    POCKET,
+    THICK,
+    box,
+    cut,
+    failed,
+    laid,
+    made,
+    operations,
+    stadium,
+)
 
 from mechwright.errors import DesignError, ToolError
 from mechwright.findings import Severity
-from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.geometry import Loop, Outline, circle
+from mechwright.part import Bore, Part, Pocket
 from mechwright.tooling import CamSettings, CuttingData, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library, load_library
-from mechwright_cam.planning import choose_tools, lay_out, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.planning import lay_out, plan
+from mechwright_cam.proof import prove
 from mechwright_cam.proof.fillets import fillets, stay
-
-LIBRARY = load_library()
-WIDE, HIGH, THICK = 50.0, 36.0, 8.0
-PLATE = Loop.polygon(
-    [(-WIDE / 2, -HIGH / 2), (WIDE / 2, -HIGH / 2), (WIDE / 2, HIGH / 2), (-WIDE / 2, HIGH / 2)]
-)
-
-
-def box(x: float, y: float, corner: float) -> Loop:
-    return rounded(np.array([(-x, -y), (x, -y), (x, y), (-x, y)]), [corner] * 4)
-
-
-def stadium(half: float, radius: float) -> Loop:
-    right, left = (half, 0.0), (-half, 0.0)
-    return Loop(
-        (
-            Line((-half, -radius), (half, -radius)),
-            Arc(right, radius, -math.pi / 2, math.pi),
-            Line((half, radius), (-half, radius)),
-            Arc(left, radius, math.pi / 2, math.pi),
-        )
-    )
-
-
-def laid(*features: Feature, tools: tuple[str, ...] = (), library: Library = LIBRARY, **cam: object) -> Job:
-    """A plate; as large as its stock if nothing is cut around it."""
-    holes = [f for f in features if isinstance(f, Bore) and f.top == 0 and f.depth == THICK]
-    inner = tuple(Loop((circle(hole.centre, hole.diameter / 2),)).reversed() for hole in holes)
-    part = Part("plate", Outline(PLATE, inner), THICK, "aluminium", machined=features)
-    if not any(isinstance(feature, Profile) for feature in features):
-        cam = {"stock": {"margin": 0}, **cam}
-    wanted = CamSettings.model_validate({"tools": tools, **cam})
-    return make_job(part, wanted, choose_tools(part, wanted, library))
-
-
-def made(job: Job) -> tuple[str, Proof]:
-    text = LinuxCncPost().write(plan(job))
-    return text, prove(text, job)
-
-
-def cut(text: str, job: Job, pitch: float = 0.2) -> Simulation:
-    simulation = Simulation(job.stock, job.thickness, pitch)
-    simulation.run(read(text), cutters(job))
-    assert simulation.complaints == []
-    return simulation
-
-
-def failed(proof: Proof) -> list[str]:
-    return [check.name for check in proof.checks.values() if not check.passed]
-
-
-def operations(text: str) -> list[str]:
-    return [line[12:-1] for line in text.splitlines() if line.startswith("(operation: ")]
-
-
-POCKET = Pocket("pocket", box(14, 9, 4), (), 0.0, 4.0)
-OUTSIDE = Profile("outside", PLATE, "outside", 0.0, THICK)
 
 
 def round_pocket(radius: float, corner: float = 4.0) -> Pocket:

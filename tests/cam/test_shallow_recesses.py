@@ -1,0 +1,189 @@
+"""Round-ended mills where their noses do not fit in whole, or where sharper mills go as well."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from height_map import read
+from round_parts import LIBRARY, OUTSIDE, box, cut, failed, laid, made, operations, stadium
+
+from mechwright.cutter import cutter
+from mechwright.geometry import Arc, Line, Loop, circle
+from mechwright.part import OpenProfile, Pocket
+from mechwright.tooling import Tool
+from mechwright_cam.planning import plan
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+DEPTHS = (0.3, 0.6, 0.68, 0.9, 0.99, 1.05, 1.5, 2.0)
+SQUARE = Loop.polygon([(-15, -12), (15, -12), (15, 12), (-15, 12)])
+
+
+def like(other: str, **changes: object) -> Tool:
+    """A cutter of the library, changed."""
+    return Tool.model_validate({**LIBRARY.get(other).model_dump(exclude_unset=True), **changes})
+
+
+FINE = like("bull-6-r1", name="bull-4-r1.5", number=150, diameter=4, corner_radius=1.5)
+MORE = LIBRARY.extended((FINE,))
+
+
+@pytest.mark.parametrize("tools", [("bull-6-r1",), ("ball-6",), ("mill-16", "bull-6-r1")], ids="-".join)
+@pytest.mark.parametrize("depth", DEPTHS)
+def test_the_mouth_of_a_shallow_recess_is_to_size(depth: float, tools: tuple[str, ...]) -> None:
+    """At the top of the wall the mill is √(c² - (c - t)²) wide beyond its flat, and so near it goes."""
+    job = laid(Pocket("recess", SQUARE, (), 0.0, depth), OUTSIDE, tools=tools)
+    text, proof = made(job)
+    assert failed(proof) == []
+    shape = cutter(LIBRARY.get(tools[-1]))
+    wide = float(shape.radius_at(depth))
+    foot = float(shape.radius_at(0.01))
+    # In a corner the mill stands so far off both walls.
+    assert proof.unreachable_max_mm == pytest.approx(wide - foot / math.sqrt(2), abs=0.005)
+    mouth = shapely.Polygon(SQUARE.flatten())
+    simulation = cut(text, job)
+    reached = mouth.buffer(-wide).buffer(wide).buffer(-0.02)
+    assert len(simulation.left(reached, -0.002)) == 0
+    assert len(simulation.left(mouth.buffer(-wide).buffer(foot - 0.05), 0.012 - depth)) == 0
+
+
+def test_a_mill_that_keeps_its_full_radius_off_a_shallow_wall_leaves_stock() -> None:
+    shallow = Pocket("recess", SQUARE, (), 0.0, 0.3)
+    job = laid(shallow, tools=("bull-6-r1",))
+    lack = 3 - float(cutter(LIBRARY.get("bull-6-r1")).radius_at(0.3))
+    assert lack == pytest.approx(0.2859, abs=1e-4)
+    small = Loop.polygon(
+        [(-15 + lack, -12 + lack), (15 - lack, -12 + lack), (15 - lack, 12 - lack), (-15 + lack, 12 - lack)]
+    )
+    text, _ = made(laid(Pocket("recess", small, (), 0.0, 0.3), tools=("bull-6-r1",)))
+    found = prove(text, job).checks["leftover"]
+    assert not found.passed
+    assert found.value == pytest.approx(math.sqrt(2) * lack, abs=0.01)  # in the corners
+
+
+def test_a_higher_wall_beside_a_shallow_recess_holds_the_mill_off() -> None:
+    """The lower recess shares a wall with the upper one: there the mill is wider, at the plate's top."""
+    upper = Pocket("upper", SQUARE, (), 0.0, 2.0)
+    lower = Pocket("lower", Loop.polygon([(-15, -12), (0, -12), (0, 12), (-15, 12)]), (), 2.0, 0.3)
+    for tools in (("bull-6-r1",), ("ball-6",)):
+        job = laid(upper, lower, tools=tools)
+        text, proof = made(job)
+        assert failed(proof) == []
+        wide = float(cutter(LIBRARY.get(tools[0])).radius_at(2.3))
+        low = np.concatenate([move.points for move in read(text)])
+        low = low[low[:, 2] < -2.29]
+        assert low[:, 0].min() == pytest.approx(wide - 15, abs=0.003)
+
+
+@pytest.mark.parametrize("wide", [8, 10])
+def test_a_mill_without_room_for_chips_levels_what_a_bull_nose_leaves(wide: int) -> None:
+    tight = Pocket("recess", Loop((circle((0, 0), 5.17),)), (), 0.0, 2.0)
+    job = laid(tight, OUTSIDE, tools=(f"mill-{wide}", "bull-6-r1"))
+    text, proof = made(job)
+    assert failed(proof) == []
+    assert proof.unreachable == ()
+    own = [s.tool.name for s in plan(job).sections for o in s.operations if o.name.startswith("recess")]
+    assert own[0] == "bull-6-r1"
+    assert own[-1] == f"mill-{wide}"
+    assert operations(text)[0] == "recess: rough"
+
+
+def test_the_sharpest_noses_finish_before_the_finest_mills() -> None:
+    recess = Pocket("recess", box(12, 8, 2.1), (), 0.0, 4.0)
+    job = laid(recess, tools=("mill-12", "bull-6-r1", "bull-4-r1.5"), library=MORE)
+    text, proof = made(job)
+    assert failed(proof) == []
+    last = [s.tool.name for s in plan(job).sections for o in s.operations if o.name.endswith("finish")]
+    assert last == ["mill-12", "bull-6-r1", "bull-4-r1.5"]
+    assert operations(text).count("recess: level the floor") >= 1
+
+
+def test_a_flat_mill_levels_the_mouths_of_a_groove_that_it_does_not_enter() -> None:
+    groove = Pocket("groove", Loop.polygon([(-30, -3), (30, -3), (30, 3), (-30, 3)]), (), 0.0, 3.0)
+    job = laid(groove, tools=("mill-12", "bull-4-r1.5"), library=MORE)
+    text, proof = made(job)
+    assert failed(proof) == []
+    used = {s.tool.name for s in plan(job).sections for o in s.operations if o.name.startswith("groove")}
+    assert used == {"mill-12", "bull-4-r1.5"}
+    # Where a disc of 12 mm comes in from the end of a groove of 6 mm, h = 6 - √(36 - 9) deep.
+    deep = 6 - math.sqrt(27)
+    corner = shapely.box(25 - 0.5 * deep, -0.3, 25, 0.3)
+    assert len(cut(text, job).left(corner, -2.995)) == 0
+
+
+@pytest.mark.parametrize("leave", [0.0, 0.2, 0.5])
+def test_a_ball_leaves_no_ridge_between_wall_and_floor(leave: float) -> None:
+    """In places too narrow for the allowance, and beside walls with more of it than the ball is wide there."""
+    recess = Pocket("recess", stadium(9, 3.4), (), 0.0, 2.5)
+    job = laid(recess, OUTSIDE, tools=("ball-6",), stock_to_leave=leave)
+    text, proof = made(job)
+    assert failed(proof) == []
+    foot = float(cutter(LIBRARY.get("ball-6")).radius_at(0.01))
+    floor = shapely.Polygon(recess.boundary.flatten()).buffer(foot - 3.0 - 0.02)
+    assert len(cut(text, job, 0.05).left(floor, -2.489)) == 0
+
+
+def test_a_finer_mill_of_another_feature_need_not_go_into_the_corners_above_a_fillet() -> None:
+    """It would leave terraces there; the mill with the fillet's radius makes wall and floor in one."""
+    fillet = Pocket("recess", box(14, 9, 1.0), (), 0.0, 4.0, 3.0)
+    job = laid(fillet, OUTSIDE, tools=("ball-6", "mill-3"))
+    _, proof = made(job)
+    assert failed(proof) == []
+    last = [s.tool.name for s in plan(job).sections for o in s.operations if o.name == "recess: finish"]
+    assert last == ["ball-6"]
+    # Of one that none has cut the proof is not content.
+    empty = Pocket("recess", box(14, 9, 1.0), (), 0.0, 0.02)
+    shallow, _ = made(laid(empty, OUTSIDE, tools=("ball-6", "mill-3")))
+    assert "leftover" in failed(prove(shallow, job))
+
+
+def test_a_nose_higher_than_its_fillet_may_touch_the_wall() -> None:
+    """Above a recess shallower than its nose a bull nose is wider than it cuts, which is no cut into the wall."""
+    recess = Pocket("recess", box(14, 9, 6), (), 0.0, 1.8, 1.5)
+    blunt = like("bull-6-r1", name="bull-10-r2", number=151, diameter=10, corner_radius=2)
+    job = laid(recess, tools=("bull-10-r2", "bull-4-r1.5"), library=MORE.extended((blunt,)), stock_to_leave=0)
+    _, proof = made(job)
+    assert failed(proof) == []
+    assert proof.checks["gouge"].value < 0.005
+
+
+class TestGrooves:
+    """Open grooves made by a round mill in one."""
+
+    @staticmethod
+    def groove(depth: float, width: float, far: float = 30.0) -> OpenProfile:
+        bend = Arc((0.0, 20.0), 20.0, -math.pi / 2, 0.5)
+        ahead = (bend.end[0] + far * math.cos(0.5), bend.end[1] + far * math.sin(0.5))
+        path = (Line((-far, 0.0), (0.0, 0.0)), bend, Line(bend.end, ahead))
+        return OpenProfile("groove", 0.0, depth, path=path, side="on", width=width)
+
+    @pytest.mark.parametrize("far", [8.0, 40.0], ids=["closed", "open"])
+    @pytest.mark.parametrize(("depth", "width"), [(4.0, 6.0), (0.5, 6.0), (0.5, 2 * math.sqrt(9 - 2.5**2))])
+    def test_a_ball_makes_it_as_wide_as_it_is_drawn(self, depth: float, width: float, far: float) -> None:
+        """Only in one where its diameter, or its width at the top of a shallow groove, is that of the groove."""
+        job = laid(self.groove(depth, width, far), tools=("ball-6",))
+        text, proof = made(job)
+        assert failed(proof) == []
+        in_one = operations(text) == ["groove: slot"]
+        assert in_one == (width == pytest.approx(2 * float(cutter(LIBRARY.get("ball-6")).radius_at(depth))))
+        left = cut(text, job).left(
+            shapely.Polygon(self.groove(depth, width, far).boundary.flatten()).buffer(-0.05), -0.01
+        )
+        assert len(left) == 0
+
+    def test_a_sharper_mill_that_gets_in_makes_its_floor(self) -> None:
+        job = laid(self.groove(4.0, 6.0), tools=("ball-6", "mill-4"))
+        _, proof = made(job)
+        assert failed(proof) == []
+        assert proof.unreachable_max_mm < 0.05
+        used = {s.tool.name for s in plan(job).sections for o in s.operations if o.name.startswith("groove")}
+        assert "mill-4" in used
+        # The ball alone would leave its round floor where the other goes.
+        alone = plan(laid(self.groove(4.0, 6.0), tools=("ball-6",)))
+        mark = Pocket("mark", box(4, 4, 3).moved(-16, 11, 0), (), 0.0, 1.0)
+        marked = plan(laid(mark, tools=("mill-4",)))
+        both = replace(marked, sections=(*alone.sections, *marked.sections))
+        job = laid(self.groove(4.0, 6.0), mark, tools=("ball-6", "mill-4"))
+        assert "leftover" in failed(prove(LinuxCncPost().write(both), job))
