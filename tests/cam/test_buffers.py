@@ -91,6 +91,12 @@ def test_all_pieces_of_a_shape_are_shrunk():
     assert buffered(shapely.MultiPolygon(pieces), -1, QUAD).area == pytest.approx(18)
 
 
+def test_specks_of_lines_beside_a_shape_do_not_keep_it_from_shrinking():
+    mixed = shapely.geometrycollections([shapely.LineString([(60, 0), (70, 0)]), shapely.box(0, 0, 4, 4)])
+    assert buffered(mixed, -0.5, QUAD).area == pytest.approx(9)
+    assert buffered(shapely.geometrycollections([shapely.Point(0, 0)]), -0.5, QUAD).is_empty
+
+
 def off(shape, distance):
     """How far the edge of the grown or shrunk shape is from where it should be, at the worst."""
     found = buffered(shape, distance, 90)

@@ -1,6 +1,7 @@
 """The deviation along walls: known offsets, a planted cut, corners, and the picture of all that."""
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -10,6 +11,7 @@ from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
 from mechwright.geometry import Loop, Outline
 from mechwright.part import Part, Pocket, Profile
+from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import interpret
 from mechwright_cam.planning import plan
 from mechwright_cam.posts import LinuxCncPost
@@ -119,6 +121,15 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
     assert "cut into the part" not in page.split("<h2>What the proof found</h2>")[1].split("<table>")[1]
     bare = setup_html([(of, program, {"ok": True})])
     assert "The walls after the program" in page
+    asked = "cut at most {} mm too deep and to leave at most\n{} mm"
+    assert asked.format(0.001, 0.004) in page
+    wide = replace(
+        of,
+        settings=CamSettings.model_validate({"path": {"inner_tolerance": 0.003, "outer_tolerance": 0.008}}),
+    )
+    assert asked.format(0.003, 0.008) in setup_html(
+        [(wide, program, {"ok": True})], deviations={program.name: view}
+    )
     assert "The walls after the program" not in bare
 
 

@@ -11,8 +11,8 @@ rest
 A cutter whose tip is at t may stand where at the top of every layer above t it is as far from what stays as
 it is wide there. At the height z it then sweeps discs as wide as it is at z - t. A flat end mill does most
 with its tip at z, and leaves the closing of the layer. A round one leaves less if it can go deeper: on the
-floors, wherever it meets them, and below the underside. Heights in between do not count, at which its narrow
-end would go round corners step by step: that is no milling of walls.
+floors, wherever it meets them, and below the underside with all of its nose. Heights in between, at which its
+narrow end would go round corners step by step, do not count: that is no milling of walls.
 """
 
 from collections.abc import Sequence
@@ -83,10 +83,10 @@ class Reach:
         for tool in self.mills:
             if tool.nose == 0 or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
-            for tip in (around.underside, around.underside - tool.nose):
-                blocked = self._blocked(tool, around, tip)
-                left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
-                found = left if found is None else shapely.intersection(found, left)
+            tip = around.underside - tool.nose
+            blocked = self._blocked(tool, around, tip)
+            left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
+            found = left if found is None else shapely.intersection(found, left)
             for floor, view in around.floors:
                 if floor < top - NEAR:
                     free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
