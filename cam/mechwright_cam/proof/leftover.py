@@ -91,15 +91,16 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     if not mills:
         return Remains(worst, at, (), bore)
     air = play(job) + job.wear_margin
-    reach, round_floors = Reach(mills, air), fillets(job)
+    reach, round_floors = Reach(mills, air, -job.floor), fillets(job)
     smallest, widest = min(t.radius for t in mills) + air, max(t.diameter for t in mills)
     slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
     extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
     every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
-    # With round cutters or floors every height is another question, else one cross-section asks but once.
-    alike = not (reach.noses or round_floors)
+    # With round or short cutters, or round floors, every height is another question, else one cross-section
+    # asks but once.
+    alike = reach.plain and not round_floors
     floors = []
-    if reach.noses:
+    if not reach.plain:
         floors = [(-(one.top + one.depth), floor_of(one, job)) for one in _recesses(job)]
     free = Surroundings(
         [(band.top, entered(band.keep, smallest, play(job), job, band)) for band in every],
@@ -117,6 +118,8 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         groups = sweeps.at(height, level)
         key = id(band.keep)
         reached = rests[key] if alike and key in rests else reach.rest(free, place, level)
+        if reach.noses:
+            reached = along(reached, play(job), job, band, mills, level)
         if key not in lowest:
             rests[key], lowest[key] = reached, (band, groups)
         beside = [_tabs_at(job, one, slack) for one in every]
@@ -127,10 +130,10 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
                 for b, t in zip(every, beside, strict=True)
             ]
             reached = reach.rest(replace(free, layers=held), place, level)
+            if reach.noses:
+                reached = along(reached, play(job), job, band, mills, level)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
             aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
-        if reach.noses:
-            reached = along(reached, play(job), job, band, mills, level)
         # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
         narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
         thick, where = 0.0, None

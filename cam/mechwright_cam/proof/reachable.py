@@ -23,7 +23,7 @@ import shapely
 
 from mechwright.cutter import cutter, makes_floor
 from mechwright.tooling import Tool
-from mechwright_cam.proof.fillets import Fillet, stay
+from mechwright_cam.proof.fillets import SKIN, Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.toolpath.offsets import polygons
@@ -55,15 +55,26 @@ class Reach:
         All of them, one at least.
     play
         Air on either side without which a cutter does not enter, mm.
+    through
+        How deep cuts through the plate are, mm: a cutter counts as far down as its flutes reach.
     """
 
     mills: Sequence[Tool]
     play: float
+    through: float
 
     @property
     def flat(self) -> float:
-        """Radius of the smallest flat end mill with its play, mm; inf if there is none."""
-        return min((tool.radius + self.play for tool in self.mills if tool.nose == 0), default=np.inf)
+        """Radius of the smallest flat end mill that cuts through, with its play, mm; inf if there is none."""
+        return min((tool.radius + self.play for tool in self.mills if self._is_plain(tool)), default=np.inf)
+
+    @property
+    def plain(self) -> bool:
+        """Whether all are flat end mills that cut through the plate, so that what stays is a closing."""
+        return all(map(self._is_plain, self.mills))
+
+    def _is_plain(self, tool: Tool) -> bool:
+        return tool.nose == 0 and _cuts(tool, self.through)
 
     @property
     def noses(self) -> tuple[float, ...]:
@@ -79,20 +90,26 @@ class Reach:
         top, layer = around.layers[place]
         solid = [one for one in (fillet.solid(height) for fillet in around.fillets) if not one.is_empty]
         keep = shapely.union_all([layer, *solid]) if solid else layer
-        found: Shape | None = closing(keep, self.flat) if np.isfinite(self.flat) else None
+        if np.isfinite(self.flat):
+            found = closing(keep, self.flat)
+        else:  # all that could stay, and more
+            shapes = [layer, *(view for _, view in around.floors)]
+            found = shapely.box(
+                *grow(shapely.union_all(shapes), 2 * max(tool.diameter for tool in self.mills)).bounds
+            )
         for tool in self.mills:
-            if tool.nose == 0 or (tool.radius + self.play >= self.flat and not around.fillets):
+            if self._is_plain(tool) or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
-            tip = around.underside - tool.nose
-            blocked = self._blocked(tool, around, tip)
-            left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
-            found = left if found is None else shapely.intersection(found, left)
+            if _cuts(tool, self.through + tool.nose):
+                tip = around.underside - tool.nose
+                blocked = self._blocked(tool, around, tip)
+                left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
+                found = shapely.intersection(found, left)
             for floor, view in around.floors:
-                if floor < top - NEAR:
+                if floor < top - NEAR and _cuts(tool, -floor):
                     free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
                     gone = grow(free, self._swept(tool, height - floor))
                     found = shapely.union(keep, shapely.difference(found, gone))
-        assert found is not None  # noqa: S101 - there is a mill
         return self._with_made(found, around, place, height)
 
     def _with_made(self, rest: Shape, around: Surroundings, place: int, height: float) -> Shape:
@@ -101,9 +118,10 @@ class Reach:
             makers = [tool for tool in self.mills if makes_floor(tool, fillet.radius)]
             others = len(makers) < len(self.mills)
             if makers and others and fillet.floor <= height < -fillet.feature.top:
-                left = Reach(makers, self.play).rest(around, place, height)
+                left = Reach(makers, self.play, self.through).rest(around, place, height)
                 if not shapely.covers(left, fillet.inside):  # else they do not come in at all
-                    kept = polygons(shapely.intersection(left, fillet.inside))
+                    # A skin into the wall, or rounding leaves a crack between the two.
+                    kept = polygons(shapely.intersection(left, grow(fillet.inside, SKIN)))
                     rest = shapely.union_all([rest, *kept])
         return rest
 
@@ -124,3 +142,8 @@ class Reach:
             shapes.append(grow(fillet.walls, tool.radius + off + self.play))
         whole: Shape = shapely.union_all(shapes)
         return whole
+
+
+def _cuts(tool: Tool, depth: float) -> bool:
+    """Whether the flutes of a mill reach so deep, mm."""
+    return tool.flute_length >= depth - NEAR
