@@ -19,10 +19,11 @@ from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
 from mechwright.part import Profile
+from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.nest import Nest
 from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.offsets import filled
+from mechwright_cam.toolpath.offsets import filled, opened
 
 if TYPE_CHECKING:
     from mechwright_cam.job import Job
@@ -197,7 +198,8 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
         if shapely.contains_properly(part, inner):
             ends = (-depth, _outer_end(job, part, tab, 2 * half))
             shape = _rectangle(place, tab.width + slopes, ends)
-            openings = shapely.difference(part, job.target)
+            # Outline and wall may differ by rounding, which makes no opening.
+            openings = opened(shapely.difference(part, job.target), TOLERANCES.flatten)
             bridge = shapely.difference(shapely.intersection(shape, shapely.box(*job.stock)), openings)
             return Tab(_piece_at(bridge, place), tab.top, tab.width, tab.slope, tab.at, tab.along, ends)
         depth *= DEEPER

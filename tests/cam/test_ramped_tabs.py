@@ -212,3 +212,16 @@ def test_any_outline_with_ramped_tabs_is_cut_or_refused(count, depth, height, an
     assert proof.ok, [check.message for check in proof.failures]
     shapes = [tab.shape for tab in made.tabs]
     assert shapely.union_all(shapes).area == pytest.approx(sum(shape.area for shape in shapes))
+
+
+def test_an_outline_that_differs_from_the_wall_by_rounding_does_not_cut_tabs_off():
+    rim = Loop.polygon([(-30, -20), (28, -24), (33, 19), (-27, 22)])
+    for by in (0.0, 3e-10):
+        of = job(
+            part(rim.moved(by, -by, 0.0), machined=(Profile("outside", rim, "outside", 0.0, 6.0),)),
+            "mill-8",
+            hold={**RAMPED, "tabs": 3},
+        )
+        inside = shapely.Polygon(rim.flatten())
+        assert all(shapely.intersection(tab.shape, inside).area > tab.width for tab in of.tabs)
+        proven(of)

@@ -125,6 +125,23 @@ def test_a_ball_leaves_no_ridge_between_wall_and_floor(leave: float) -> None:
     assert len(cut(text, job, 0.05).left(floor, -2.489)) == 0
 
 
+def test_cusps_of_bounded_engagement_are_levelled_all_over_the_floor() -> None:
+    """In the middle of the helix and between its passes, too, far from what stays at the walls."""
+    recess = Pocket("recess", box(11, 9, 3), (), 0.0, 4.0)
+    fine = like("mill-2", name="mill-1.5", number=152, diameter=1.5, flute_length=8)
+    library = MORE.extended((fine,))
+    for last in ("mill-1.5", "bull-4-r1.5"):
+        tools = tuple(dict.fromkeys(("bull-4-r1.5", last)))
+        job = laid(
+            recess, tools=tools, library=library, clearing="adaptive", floor_to_leave=0, engagement=110
+        )
+        text, proof = made(job)
+        assert failed(proof) == []
+        assert operations(text)[0] == "recess: clear"
+        inside = shapely.Polygon(recess.boundary.flatten()).buffer(-1.6)
+        assert len(cut(text, job, 0.1).left(inside, -3.99)) == 0
+
+
 def test_a_finer_mill_of_another_feature_need_not_go_into_the_corners_above_a_fillet() -> None:
     """It would leave terraces there; the mill with the fillet's radius makes wall and floor in one."""
     fillet = Pocket("recess", box(14, 9, 1.0), (), 0.0, 4.0, 3.0)

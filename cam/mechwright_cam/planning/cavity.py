@@ -30,6 +30,14 @@ class Cavity:
     passes: tuple[Pass, ...]
     cleared: shapely.Geometry
 
+    def swept(self, radius: float) -> shapely.Geometry:
+        """What a disc sweeps on all ways, links apart."""
+        turn = circle(self.centre, self.helix, self.begin, True)
+        ways = [path.points(radius / 4) for path in (turn, *(one.path for one in self.passes))]
+        return shapely.union_all(
+            shapely.buffer([shapely.LineString(way) for way in ways], radius, quad_segs=8)
+        )
+
 
 def write_cavities(
     cavities: list[Cavity], pen: Pen, top: float, bottom: float, step_down: float, climb: bool

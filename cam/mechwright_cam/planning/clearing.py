@@ -288,18 +288,13 @@ class Roughing:
                 blocked = self._blocked(order)
                 wanted = grow(core, self.touch, ROUGH)
             wanted = prepared(wanted)
-            some = False
             for ring in rings(blocked, self.climb, self.chord):
                 dense = densified(ring, radius / 2)
                 x, y = dense.T
                 inside = shapely.contains_xy(near, x, y)
                 if not inside.any():
                     continue
-                new = pieces(dense, shapely.contains_xy(wanted, x, y), inside, self.room, order)
-                found.extend(new)
-                some = some or bool(new)
-            if order and not some:
-                return found
+                found.extend(pieces(dense, shapely.contains_xy(wanted, x, y), inside, self.room, order))
             order += 1
 
     def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Array]:

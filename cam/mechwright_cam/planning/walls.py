@@ -25,7 +25,7 @@ from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import CUSP, HEAVY, Zone
 from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
-from mechwright_cam.toolpath.offsets import grow, opened, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, grow, opened, polygons
 
 Cut = tuple[str, Tool, tuple[Move, ...]]
 """Name, cutter and moves of an operation."""
@@ -83,7 +83,7 @@ class Walls:
         finest, allowance = zone.finisher, self.job.settings.stock_to_leave
         upper, floor = layers(zone, leave)
         roughs, (floor,) = over_openings(self.job, upper), over_openings(self.job, floor)
-        cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills)]
+        cuts = [cut for rough in roughs for cut in self._cleared(rough, zone.mills, floored=True)]
         cleared = [mill for _, mill, _ in cuts]
         above: dict[str, Roughing] = {}
         for mill in roughers(zone.mills, zone.last_mills):
@@ -152,8 +152,11 @@ class Walls:
             zone.begun = True
         return f"{zone.name}: {what}", mill, moves
 
-    def _cleared(self, zone: Zone, mills: list[Tool]) -> list[Cut]:
-        """What bounded engagement can rough, deep and fast; the rest is for the contour passes."""
+    def _cleared(self, zone: Zone, mills: list[Tool], *, floored: bool = False) -> list[Cut]:
+        """What bounded engagement can rough, deep and fast; the rest is for the contour passes.
+
+        If the zone is ``floored`` a pass over all of its floor comes afterwards.
+        """
         settings = self.job.settings
         if settings.clearing != "adaptive" or zone.kind == "outside" or zone.snug:
             return []
@@ -175,7 +178,11 @@ class Walls:
             limit if settings.chip_thinning else math.pi / 2,
             _pass(zone, mill, depth),
         )
-        zone.leave_ridges(mill, reached)
+        foot = float(cutter(mill).radius_at(CUSP))
+        closely = grow(reached, foot - mill.radius, ROUGH)
+        if not floored and mill.nose > 0:
+            closely = shapely.intersection(closely, shapely.union_all([c.swept(foot) for c in cavities]))
+        zone.leave_ridges(mill, reached, closely)
         zone.left = shapely.difference(zone.left, reached)
         zone.begun = True
         return [(f"{zone.name}: clear", mill, moves)]

@@ -19,7 +19,6 @@ from typing import Literal
 
 import shapely
 
-from mechwright.cutter import cutter
 from mechwright.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import PathSettings, Tool
@@ -186,13 +185,10 @@ class Zone:
         """Radius of the finisher as far as it reaches into corners, mm."""
         return self.radius_of(self.finisher) - (SNUG if self.snug else 0.0)
 
-    def leave_ridges(self, mill: Tool, cleared: shapely.Geometry) -> None:
-        """Note what a round mill leaves on the floor of a region that it has cleared closely."""
+    def leave_ridges(self, mill: Tool, cleared: shapely.Geometry, closely: shapely.Geometry) -> None:
+        """Note what a round mill leaves on the floor of a region that it has cleared, in parts closely."""
         if mill.nose > 0 and not self.through:
-            foot = float(cutter(mill).radius_at(CUSP))
-            self.ridges = shapely.union(
-                self.ridges, shapely.difference(cleared, grow(cleared, foot - mill.radius, ROUGH))
-            )
+            self.ridges = shapely.union(self.ridges, shapely.difference(cleared, closely))
             self.ridge_height = max(self.ridge_height, min(mill.nose, self.height))
 
     def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
