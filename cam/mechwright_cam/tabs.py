@@ -18,7 +18,8 @@ import shapely
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.motion import Array
-from mechwright.part import Profile
+from mechwright.part import Feature, Profile
+from mechwright.sections import plan_view
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.nest import Nest
@@ -145,7 +146,8 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float) -> list[T
     ring = shapely.LinearRing(feature.loop.flatten())
     width = hold.tab_width or _tab_width(feature, hold.tabs, slopes)
     places = _tab_places(feature, ring, hold.tabs, width, slopes)
-    shifts = SHIFTS if slopes and not feature.tab_sites else 1
+    low = _lower_floors(job)
+    shifts = SHIFTS if (slopes or low) and not feature.tab_sites else 1
     refusal: DesignError | None = None
     best: list[Tab] = []
     for shift in range(shifts):
@@ -159,6 +161,7 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float) -> list[T
                 tab = Tab(shape, hold.tab_height - job.thickness, width, slope, place[:2], place[2], ends)
                 tabs.append(_sunk(job, feature, tab, slopes) if slopes else tab)
             _check_apart(feature, tabs)
+            _check_floors(job, low, tabs)
         except DesignError as error:
             refusal = refusal or error
             continue
@@ -237,6 +240,31 @@ def _check_apart(feature: Profile, tabs: list[Tab]) -> None:
                 raise DesignError(
                     f"cam.hold.tabs: {len(tabs)} ramped tabs meet on {feature.name}; use fewer, steeper "
                     "(tab_angle) or lower ones (tab_height)"
+                )
+
+
+def _lower_floors(job: "Job") -> list[Feature]:
+    """The recesses whose floors lie lower than the tops of tabs."""
+    height = job.settings.hold.tab_height
+    return [
+        feature
+        for feature in job.features
+        if not (isinstance(feature, Profile) and feature.side == "outside")
+        and TOLERANCES.noise < job.thickness - feature.top - feature.depth < height - TOLERANCES.noise
+    ]
+
+
+def _check_floors(job: "Job", low: list[Feature], tabs: list[Tab]) -> None:
+    """No tab may stand up in a recess."""
+    for feature in low:
+        floor = plan_view(feature)
+        for tab in tabs:
+            if shapely.intersects(floor, tab.shape):
+                left = job.thickness - feature.top - feature.depth
+                raise DesignError(
+                    f"cam.hold.tab_height: a tab of {tab.top + job.thickness:g} mm at X{tab.at[0]:.1f} "
+                    f"Y{tab.at[1]:.1f} would stand up in {feature.name}, which leaves {left:g} mm of part "
+                    f"{job.part.name}; use at most {left:g} mm, or another number of tabs"
                 )
 
 

@@ -1,0 +1,45 @@
+"""Where tabs stand beside recesses that reach the rim."""
+
+import pytest
+import shapely
+from planning_parts import job, part, rounded_box
+
+from mechwright.errors import DesignError
+from mechwright.geometry import Loop
+from mechwright.part import Pocket, Profile
+from mechwright.sections import plan_view
+from mechwright_cam.planning import plan
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+RIM = rounded_box(60, 40, 4)
+
+
+def stepped(deep, **hold):
+    """A plate of 6 mm with a step at the place of its rim where the first tab would stand."""
+    step = Pocket("step", Loop.polygon([(16, -30), (36, -30), (36, -14), (16, -14)]), (), 0.0, deep)
+    whole = part(RIM, machined=(step, Profile("outside", RIM, "outside", 0.0, 6.0)))
+    return step, job(whole, "mill-6", hold=hold)
+
+
+@pytest.mark.parametrize("shape", ["rectangular", "ramped"])
+def test_tabs_move_on_where_they_would_stand_up_in_a_recess(shape):
+    hold = {"tabs": 2, "tab_shape": shape}
+    _, shallow = stepped(4.0, tab_height=1.0, **hold)
+    step, deep = stepped(5.5, tab_height=1.0, **hold)
+    assert shapely.intersects(plan_view(step), shallow.tabs[0].shape) or shape == "ramped"
+    assert not any(shapely.intersects(plan_view(step), tab.shape) for tab in deep.tabs)
+    for of in (shallow, deep):
+        proof = prove(LinuxCncPost().write(plan(of)), of)
+        assert proof.ok, [check.message for check in proof.failures]
+
+
+def test_where_all_of_the_rim_is_low_the_height_is_named():
+    face = Pocket("face", rounded_box(80, 60, 1), (), 0.0, 5.2)
+    whole = part(RIM, machined=(face, Profile("outside", RIM, "outside", 0.0, 6.0)))
+    with pytest.raises(
+        DesignError, match=r"cam\.hold\.tab_height: .* would stand up in face, .* use at most 0\.8 mm"
+    ):
+        job(whole, "mill-6", hold={"tab_height": 1.0})
+    low = job(whole, "mill-6", hold={"tab_height": 0.8})
+    assert prove(LinuxCncPost().write(plan(low)), low).ok
