@@ -278,10 +278,13 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     pictures = {item.program.name: simulated_view(seen[item.program.name], item.job) for item in made}
     deviations = {item.program.name: walls_view(walls[item.program.name], item.job) for item in made}
     named = {"suffix": post.suffix, "tool_table": table, "design": design.path.name}
+    files = {item.program.name: list(item.files) for item in made}
     for sheet in sheets:
-        page = setup_html([sheet], **named, pictures=pictures, deviations=deviations, summary=SUMMARY)
+        page = setup_html(
+            [sheet], **named, pictures=pictures, deviations=deviations, summary=SUMMARY, files=files
+        )
         output.add(sheet[1].name + SHEET, page)
-    output.add(SUMMARY, summary_html(sheets, name=design.name, **named))
+    output.add(SUMMARY, summary_html(sheets, name=design.name, **named, files=files))
     return findings
 
 

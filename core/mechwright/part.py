@@ -134,6 +134,7 @@ class OpenProfile(Pocket):
     def __post_init__(self) -> None:
         from mechwright.geometry.strip import strip
 
+        super().__post_init__()
         half = self.width / 2
         left, right = {"on": (half, half), "left": (self.width, 0.0), "right": (0.0, self.width)}[self.side]
         try:

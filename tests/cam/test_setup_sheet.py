@@ -214,7 +214,7 @@ def test_clamp_and_its_stop():
 
 @pytest.mark.parametrize(("offset", "number"), [("G54", 1), ("G57", 4), ("G59", 6), ("G59.3", 9)])
 def test_work_offset_is_set_once_and_every_tool_measured(offset, number):
-    made = steps(job(work_offset=offset), [4, 7, 9], file_name="wheel.nc", deepest=-12.4)
+    made = steps(job(work_offset=offset), [4, 7, 9], file_names=["wheel.nc"], deepest=-12.4)
     titles = [step.title for step in made]
     assert titles == [
         "Clamp the stock",
@@ -249,7 +249,7 @@ def test_origin_words():
     for origin, words in (("corner", "lower left corner"), ("centre", "centre of the stock")):
         text = read(sheet(job(origin=origin), program(), PROOF)).text
         assert f"X0 Y0 the {words}" in text
-    corner = " ".join(steps(job(origin="corner"), [4], file_name="", deepest=0.0)[1].lines)
+    corner = " ".join(steps(job(origin="corner"), [4], file_names=[""], deepest=0.0)[1].lines)
     assert "X reads −r" in corner
 
 

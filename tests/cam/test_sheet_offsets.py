@@ -1,6 +1,7 @@
 """The setup sheet: offsets to type in, tools by hand, and where no clamp may be."""
 
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -20,7 +21,8 @@ def page(control: str, **settings: object) -> str:
     made = machine(
         job(plate(bore(12.0)), "drill-8", "mill-6", control=control, **settings), host().post(control)
     )
-    return setup_html([(made.job, made.program, made.proof.as_dict())])
+    files = {made.program.name: list(made.files)}
+    return setup_html([(made.job, made.program, made.proof.as_dict())], files=files)
 
 
 def test_offsets_that_are_known_stand_on_the_sheet() -> None:
@@ -49,6 +51,24 @@ def test_tools_are_changed_and_touched_off_by_hand_on_grbl() -> None:
     assert "run them in order" in page("grbl", post={"tool_change": "files"})
     lengths = {"lengths": {"mill-6": 77.5, "drill-8": 101.0}}
     assert "are in the program (G43.1)" in page("grbl", measured=lengths)
+
+
+def test_every_file_of_a_program_is_named_and_timed() -> None:
+    found = page("grbl", post={"tool_change": "files"})
+    names = re.findall(r"plate-\d-t\d+\.nc", found.partition("Load ")[2].partition("one after the other")[0])
+    assert len(names) >= 2
+    assert [name[6] for name in names] == [str(number) for number in range(1, len(names) + 1)]
+    assert f"{names[0]} to {names[-1]}" in found
+    assert "plate.nc" not in found
+    assert "Before each file load the tool" in found
+    assert "At each stop" not in found
+    assert "Do not touch it again" not in found
+    # Each operation has its time: it is that of the tool that cuts, not of the next file's.
+    table = found.partition("<h2>Operations</h2>")[2].partition("</table>")[0]
+    assert "–" not in re.sub(r"<tr class=.stop.*", "", table)
+    one = page("grbl")
+    assert "Load plate.nc" in one
+    assert "At each stop load the tool" in one
 
 
 def test_no_clamp_where_cutters_run() -> None:

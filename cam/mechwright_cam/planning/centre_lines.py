@@ -33,7 +33,7 @@ def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
     ToolError
         No mill reaches the groove's bottom.
     """
-    if feature.side != "on":
+    if feature.side != "on" or feature.floor_radius > 0:
         return None
     bottom = bottom_of(job, feature.top, feature.depth)
     mills = usable_mills(job, -bottom)

@@ -28,12 +28,14 @@ def long_enough(tool: Tool, depth: float) -> bool:
     return tool.flute_length >= depth - TOLERANCES.noise
 
 
-def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool]:
+def usable_mills(
+    job: Job, depth: float, floor_radius: float = 0.0, enters: Callable[[Tool], bool] = lambda _: True
+) -> list[Tool]:
     """Mills that cut the job's material to ``depth``, largest first; raises ToolError if none.
 
     A cut through the plate goes deeper by the corner radius of a bull nose, so that the wall is straight down
     to the underside. A ball makes no flat floor in good time: it counts only for a floor of its own radius,
-    or where there is nothing else.
+    or where there is nothing else that ``enters``.
     """
     material = job.part.material
     knows = [tool for tool in job.mills if material in tool.cutting]
@@ -49,7 +51,7 @@ def usable_mills(job: Job, depth: float, floor_radius: float = 0.0) -> list[Tool
             f"{longest.name}, has a flute length of {longest.flute_length:g} mm; list a longer one"
         )
     plain = [tool for tool in mills if tool.nose < tool.radius or makes_floor(tool, floor_radius)]
-    return plain or mills
+    return plain if any(map(enters, plain)) else mills
 
 
 def radius_in(mill: Tool, height: float) -> float:

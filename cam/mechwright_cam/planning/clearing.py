@@ -29,6 +29,7 @@ from mechwright_cam.toolpath.offsets import (
     CHORD,
     ROUGH,
     Piece,
+    areas,
     densified,
     fit_tolerance,
     grow,
@@ -149,7 +150,7 @@ class Roughing:
         # On a floor with ridges nothing may be taken for cut that is not.
         self.touch = self.foot if ridges else self.radius
         self.reach = grow(self.free, self.foot if ridges else self.radius + self.over, ROUGH)
-        take = shapely.intersection(zone.left if only is None else only, self.reach)
+        take = areas(shapely.intersection(zone.left if only is None else only, self.reach))
         if zone.channel is not None and not coarse:
             take = shapely.intersection(take, grow(zone.channel, -FRAME, ROUGH))
         self.core = buffered(take, -self.sliver, 2)
@@ -189,24 +190,24 @@ class Roughing:
         """Take what this cut removes out of what is left."""
         zone = self.zone
         if self.ridges:
-            zone.ridges = shapely.difference(zone.ridges, self.reach)
+            zone.ridges = areas(shapely.difference(zone.ridges, self.reach))
             return
         self._take(self.reach)
         zone.over = self.over
 
     def commit_core(self) -> None:
         """The same for a cut that is only for its core: what it cuts elsewhere does not count."""
-        self._take(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius)))
+        self._take(areas(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius))))
 
     def _take(self, reach: shapely.Geometry) -> None:
         zone = self.zone
         if self.foot < self.radius:
-            taken = shapely.intersection(zone.left, reach)
+            taken = areas(shapely.intersection(zone.left, reach))
             if self.smooth:
-                taken = shapely.difference(taken, grow(self.free, self.foot, ROUGH))
-            zone.ridges = shapely.union(zone.ridges, taken)
+                taken = areas(shapely.difference(taken, grow(self.free, self.foot, ROUGH)))
+            zone.ridges = areas(shapely.union(zone.ridges, taken))
             zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
-        zone.left = shapely.difference(zone.left, reach)
+        zone.left = areas(shapely.difference(zone.left, reach))
 
     @cached_property
     def cavities(self) -> list[Cavity]:

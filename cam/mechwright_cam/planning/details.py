@@ -9,7 +9,8 @@ import shapely
 
 from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError, ToolError
-from mechwright.part import Bore
+from mechwright.part import Bore, Profile
+from mechwright.sections import plan_view
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
@@ -67,7 +68,7 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
     region = shapely.Polygon(detail.loop.flatten())
     # Around the rim the tip must stay above the tabs.
     tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
-    held = False
+    held, floor = False, _floor_below(job, detail, region)
     for tool in _tools(job, ToolKind.CHAMFER):
         if abs(tool.point_angle - 90) > TOLERANCES.noise:
             continue
@@ -78,6 +79,8 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
                 continue
             if -(detail.width + below) < tabs:
                 held = True
+                continue
+            if -(detail.width + below) < floor - TOLERANCES.noise:
                 continue
             if detail.side == "outside":
                 blocked = grow(region, offset)
@@ -96,10 +99,30 @@ def _chamfer(job: Job, detail: Chamfer) -> DetailPlan:
             f"cam.hold.tab_height: the chamfer {detail.name} of {detail.width:g} mm in part {job.part.name} "
             f"would cut into the tabs, whose upper side is at Z{tabs:g}; make the tabs lower"
         )
+    if detail.width + BELOW[-1] > -floor + TOLERANCES.noise:
+        raise DesignError(
+            f"part {job.part.name}: the chamfer {detail.name} of {detail.width:g} mm would cut the floor "
+            f"{-floor:g} mm below its edge, for its tip goes {BELOW[-1]:g} mm deeper; make it "
+            f"{max(-floor - BELOW[-1], 0):g} mm at most"
+        )
     raise ToolError(
         f"cam.tools: no chamfer mill of 90 degrees cuts {detail.name} of {detail.width:g} mm in part "
         f"{job.part.name}; list one that goes {detail.width + BELOW[-1]:g} mm deep and into its corners"
     )
+
+
+def _floor_below(job: Job, detail: Chamfer, region: shapely.Polygon) -> float:
+    """The highest floor inside an edge that is chamfered, z in mm; -inf without any."""
+    if detail.side == "outside":
+        return -math.inf
+    floors = [
+        -(feature.top + feature.depth)
+        for feature in job.features
+        if not (isinstance(feature, Profile) and feature.side == "outside")
+        and feature.top + feature.depth < job.thickness - TOLERANCES.noise
+        and shapely.intersects(plan_view(feature), grow(region, -TOLERANCES.leftover))
+    ]
+    return max(floors, default=-math.inf)
 
 
 def _within(ring: object, region: shapely.Polygon) -> bool:
@@ -118,6 +141,20 @@ def _around(pen: Pen, paths: list[Path], z: float) -> None:
 
 
 def _engraving(job: Job, detail: Engraving) -> DetailPlan:
+    strokes = shapely.multilinestrings(
+        [shapely.LineString(stroke) for stroke in detail.strokes if len(stroke) > 1]
+    )
+    for feature in job.features:
+        outside = isinstance(feature, Profile) and feature.side == "outside"
+        if (
+            not outside
+            and feature.top <= TOLERANCES.noise
+            and shapely.intersects(plan_view(feature), strokes)
+        ):
+            raise DesignError(
+                f"part {job.part.name}: the engraving {detail.name} runs over {feature.name}, where nothing "
+                "stands; engravings go on the top face: place it elsewhere, or make it smaller"
+            )
     for tool in reversed(_tools(job, ToolKind.CHAMFER)):
         line = 2 * spread(tool, detail.depth)
         if NARROWER * detail.width <= line <= detail.width + TOLERANCES.noise and line <= tool.diameter:

@@ -152,9 +152,13 @@ def _without_skin(keep: shapely.Geometry) -> shapely.Geometry:
 
     The tip of a sharp wedge is as thin, but short. Choice, findings and plan ask for the same shapes.
     """
-    thin = polygons(shapely.difference(keep, opened(keep, SKIN / 2)))
+    thin = shapely.get_parts(shapely.difference(keep, opened(keep, SKIN / 2))).tolist()
     skin = [part for part in thin if part.length > LONG or part.area < FILM * part.length]
-    return shapely.difference(keep, shapely.multipolygons(skin)) if skin else keep
+    if not skin:
+        return keep
+    # What is thinner than numbers can tell has come out as lines.
+    bodies = [part if part.area > 0 else shapely.buffer(part, FILM, quad_segs=1) for part in skin]
+    return shapely.union_all(polygons(shapely.difference(keep, shapely.union_all(bodies))))
 
 
 def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:

@@ -31,7 +31,7 @@ from mechwright_cam.planning.slots import fills_a_slot
 from mechwright_cam.planning.zones import bores, bottom_of, floor_mills, roughing_mills, through
 from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
-from mechwright_cam.toolpath.offsets import ROUGH, grow, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, polygons
 
 Fits = Callable[[Tool], bool]
 """Whether a mill may be used."""
@@ -76,6 +76,8 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
+    for outline in outlines_of(part):
+        outline.polygon()  # one that cuts itself is refused before anything is grown around it
     mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
@@ -214,9 +216,10 @@ def _worthwhile(
     """The mills down to ``least``, mm, and finer ones only as far as they fit into what is left."""
     coarse = [mill for mill in mills if mill.diameter >= least] or list(mills[:1])
     for finer in mills[len(coarse) :]:
-        left = shapely.difference(closing(keep, coarse[-1].radius), keep)
+        # On a grid, for a closing may touch itself, on which exact overlays fail.
+        left = shapely.difference(closing(keep, coarse[-1].radius), keep, grid_size=ROUGH)
         if near is not None:
-            left = shapely.intersection(left, near)
+            left = areas(shapely.intersection(areas(left), areas(near)))
         if not shapely.is_empty(grow(left, -FITS * finer.radius, ROUGH)):
             coarse.append(finer)
     return coarse

@@ -25,7 +25,7 @@ from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zone import CUSP, HEAVY, Zone
 from mechwright_cam.tabs import Tab
 from mechwright_cam.threads import together
-from mechwright_cam.toolpath.offsets import ROUGH, grow, opened, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, opened, polygons
 
 Cut = tuple[str, Tool, tuple[Move, ...]]
 """Name, cutter and moves of an operation."""
@@ -264,7 +264,7 @@ class Walls:
     def _heavy(self, zone: Zone, mill: Tool) -> shapely.Geometry:
         """What is left in front of a wall that is too thick for the finishing cut."""
         allowance = self.job.settings.stock_to_leave
-        thick = shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY))
+        thick = areas(shapely.difference(zone.left, zone.rough_keep(allowance + HEAVY)))
         if zone.tabs is not None:
             # The corners at the tabs are as low as the tabs: no load worth a pass.
             thick = shapely.difference(thick, grow(zone.tabs, mill.radius + allowance))

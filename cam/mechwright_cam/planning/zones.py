@@ -27,6 +27,7 @@ from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
 from mechwright_cam.reach import roughly_swollen
 from mechwright_cam.toolpath.offsets import (
     ROUGH,
+    areas,
     filled,
     grow,
     polygons,
@@ -51,6 +52,8 @@ LEAST_SHARE = 0.02
 """A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
 
 
+CORNER = 0.5
+"""What a mill leaves in a corner of 40 degrees or more is nowhere wider than this share of its diameter."""
 SCRATCH = 1e-4
 """A mill with a sharper nose that reaches so much of a feature levels it there, if only at its mouth."""
 ENTERED = 0.5
@@ -78,6 +81,8 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
         snug = False
         if radius > 0:
             last, snug = floor_mills(job, feature, mills, shapes)
+            if not snug:
+                _check_passages(job, feature, last[-1], shapes)
             mills = last if snug else roomy_mills(mills, shapes.must)
         else:
             high = math.inf if through(job, feature.top + feature.depth) else feature.depth
@@ -85,6 +90,8 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             def reached(mill: Tool, shapes: Recess = shapes, high: float = high) -> float:
                 return reached_share(shapes, radius_in(mill, high) + path.bias)
 
+            if max(map(reached, mills)) < LEAST_SHARE:
+                mills = usable_mills(job, -bottom, enters=lambda mill: reached(mill) >= LEAST_SHARE)
             if max(map(reached, mills)) < LEAST_SHARE:
                 raise ToolError(
                     f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
@@ -120,6 +127,20 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
         zones.append(zone)
     return zones
+
+
+def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Recess) -> None:
+    """Refuse a floor with a fillet that its mill does not reach, but for corners, where finer mills do."""
+    radius = maker.radius + job.settings.path.bias
+    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
+    beyond = areas(shapely.difference(shapes.must, reach))
+    missed = not shapely.is_empty(grow(beyond, -CORNER * maker.radius, ROUGH))
+    finer = any(mill.radius < maker.radius for mill in job.mills)
+    if reached_share(shapes, radius) < ENTERED or (missed and finer):
+        raise ToolError(
+            f"cam.tools: {maker.name} makes the floor of {feature.name} of part {job.part.name}, but parts "
+            "of it are narrower; list a narrower mill of this corner radius, or make its floor_radius smaller"
+        )
 
 
 def _above(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:

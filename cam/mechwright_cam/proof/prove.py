@@ -263,7 +263,9 @@ def _operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
     out = []
     for (first, name), last in zip(named, edges[1:], strict=True):
         if last > first:
-            tool = int(run.tool[last - 1])
+            # After the last cut the next file may already have named its tool.
+            cuts = np.flatnonzero(run.cutting[first:last])
+            tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])
             out.append(
                 OperationTime(
                     name,

@@ -26,9 +26,14 @@ from mechwright.tooling import Tool
 from mechwright_cam.proof.fillets import SKIN, Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
-from mechwright_cam.toolpath.offsets import polygons
+from mechwright_cam.toolpath.offsets import areas, polygons
 
 Layer = tuple[float, Shape]
+
+SERVED = 0.02
+"""A mill that reaches less of a floor than this does not make it: it only scratches at its mouth."""
+CORNER = 0.5
+"""What a mill leaves in a corner of 40 degrees or more is nowhere wider than this share of its diameter."""
 
 
 @dataclass(frozen=True)
@@ -100,29 +105,53 @@ class Reach:
         for tool in self.mills:
             if self._is_plain(tool) or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
-            if _cuts(tool, self.through + tool.nose):
+            others = [one for one in self.mills if not _is_ball(one)] if _is_ball(tool) else []
+            if _cuts(tool, self.through + tool.nose) and not any(
+                _cuts(one, self.through + one.nose) for one in others
+            ):
                 tip = around.underside - tool.nose
                 blocked = self._blocked(tool, around, tip)
                 left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
                 found = shapely.intersection(found, left)
             for floor, view in around.floors:
                 if floor < top - NEAR and _cuts(tool, -floor):
+                    if others and self._served(others, around, floor, view, tool):
+                        continue
                     free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
                     gone = grow(free, self._swept(tool, height - floor))
                     found = shapely.union(keep, shapely.difference(found, gone))
-        return self._with_made(found, around, place, height)
+        return areas(self._with_made(areas(found), around, place, height))
+
+    def _served(
+        self, others: Sequence[Tool], around: Surroundings, floor: float, view: Shape, ball: Tool
+    ) -> bool:
+        """Whether other mills make a floor, so that a ball, which makes none in good time, need not."""
+        if any(abs(one.floor - floor) < NEAR and makes_floor(ball, one.radius) for one in around.fillets):
+            return False
+        for tool in others:
+            if _cuts(tool, -floor):
+                free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
+                if shapely.intersection(grow(free, tool.radius), view).area >= SERVED * view.area:
+                    return True
+        return False
 
     def _with_made(self, rest: Shape, around: Surroundings, place: int, height: float) -> Shape:
-        """In a recess with a fillet what those mills leave that make it: others would leave terraces."""
+        """In a recess with a fillet the corners that those mills leave which make it.
+
+        Others would leave terraces there. A passage is no corner, nor is what no such mill enters.
+        """
         for fillet in around.fillets:
             makers = [tool for tool in self.mills if makes_floor(tool, fillet.radius)]
             others = len(makers) < len(self.mills)
             if makers and others and fillet.floor <= height < -fillet.feature.top:
                 left = Reach(makers, self.play, self.through).rest(around, place, height)
-                if not shapely.covers(left, fillet.inside):  # else they do not come in at all
-                    # A skin into the wall, or rounding leaves a crack between the two.
-                    kept = polygons(shapely.intersection(left, grow(fillet.inside, SKIN)))
-                    rest = shapely.union_all([rest, *kept])
+                # A skin into the wall, or rounding leaves a crack between the two.
+                more = shapely.intersection(left, grow(fillet.inside, SKIN))
+                wide = CORNER * min(tool.radius for tool in makers)
+                beyond = polygons(shapely.difference(more, rest))
+                passages = [piece for piece in beyond if not grow(piece, -wide).is_empty]
+                kept = polygons(shapely.difference(more, shapely.union_all(passages)))
+                rest = shapely.union_all([rest, *kept])
         return rest
 
     def _swept(self, tool: Tool, height: float) -> float:
@@ -138,10 +167,16 @@ class Reach:
                 blocked[id(keep)] = max(away, blocked.get(id(keep), (0.0, keep))[0]), keep
         shapes = [grow(keep, away) for away, keep in blocked.values()]
         for fillet in around.fillets:
+            if tip >= fillet.floor + fillet.radius - NEAR:
+                continue  # above it, layers say where the walls are
             off = stay(tool.nose, fillet.radius, tip - fillet.floor)
             shapes.append(grow(fillet.walls, tool.radius + off + self.play))
         whole: Shape = shapely.union_all(shapes)
         return whole
+
+
+def _is_ball(tool: Tool) -> bool:
+    return tool.nose == tool.radius
 
 
 def _cuts(tool: Tool, depth: float) -> bool:

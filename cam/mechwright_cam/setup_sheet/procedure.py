@@ -34,7 +34,7 @@ def steps(
     job: Job,
     tools: Sequence[int],
     *,
-    file_name: str,
+    file_names: Sequence[str],
     deepest: float,
     reach: tuple[float, float, float, float] | None = None,
     offsets: Sequence[DOffset] = (),
@@ -47,8 +47,8 @@ def steps(
         What is set up.
     tools
         T numbers in the order of use.
-    file_name
-        The program's file.
+    file_names
+        The program's file, or several in order.
     deepest
         Lowest z that any tool reaches, mm.
     reach
@@ -62,14 +62,14 @@ def steps(
     return [
         _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
         _second_plane(job, offset) if over else _plane(job, offset),
-        _height(offset),
+        *([] if by_hand and not _measured(job, tools) else [_height(offset)]),
         *(
             [_touch_off(job, tools)]
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
         ),
         *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
-        _run(job, offset, file_name),
+        _run(job, offset, file_names),
     ]
 
 
@@ -143,23 +143,29 @@ def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> 
     return Step(step.title, (*step.lines, line))
 
 
+def _measured(job: Job, tools: Sequence[int]) -> bool:
+    """Whether the lengths of all tools stand in the program."""
+    return set(tools) <= {tool.number for tool in job.tools if tool.length is not None}
+
+
 def _touch_off(job: Job, tools: Sequence[int]) -> Step:
     listed = ", ".join(f"T{tool}" for tool in tools)
-    known = {tool.number for tool in job.tools if tool.length is not None}
-    if set(tools) <= known:
+    files = job.settings.post.tool_change == "files"
+    if _measured(job, tools):
         lines = [
             f"The lengths of {listed} are in the program (G43.1), as measured against the spindle nose.",
             "Check each by hand before the first cut: G43.1 with its length, then the tip over the stock.",
         ]
     else:
+        when = "Before each file" if files else "At each stop"
         lines = [
-            f"The control keeps no lengths: {listed} are touched off one by one. At each stop load the tool, "
-            f"bring its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so "
-            "that Z reads h.",
+            f"The control keeps no lengths: {listed} are touched off one by one. {when} load the tool, bring "
+            f"its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so that "
+            "Z reads h.",
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
-    if job.settings.post.tool_change == "files":
-        lines.append("There is a file for each tool: touch off before each, and run them in order.")
+    if files:
+        lines.append("There is a file for each change of tool: run them in order.")
     return Step("Tools by hand", tuple(lines))
 
 
@@ -261,9 +267,15 @@ def _check(offset: str, tools: Sequence[int]) -> Step:
     )
 
 
-def _run(job: Job, offset: str, file_name: str) -> Step:
+def _in_order(file_names: Sequence[str]) -> str:
+    if len(file_names) == 1:
+        return file_names[0]
+    return f"{', '.join(file_names[:-1])} and {file_names[-1]}, one after the other"
+
+
+def _run(job: Job, offset: str, file_names: Sequence[str]) -> Step:
     lines = [
-        f"Load {file_name}. Single block and low feed override until the first cut looks right. "
+        f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
         f"{offset} must be the active offset.",
     ]
     if quantity(job) > 1:

@@ -28,6 +28,7 @@ def setup_html(
     pictures: Mapping[str, str] | None = None,
     deviations: Mapping[str, str] | None = None,
     summary: str = "",
+    files: Mapping[str, Sequence[str]] | None = None,
 ) -> str:
     """The setup sheets of some programs.
 
@@ -49,6 +50,8 @@ def setup_html(
         Program name to the picture of the deviation along its walls, the same.
     summary
         The page of the whole job, which a sheet then leads to.
+    files
+        Program name to the names of its files in order, without their ending; by default one of its own name.
 
     Returns
     -------
@@ -59,7 +62,7 @@ def setup_html(
     template = pages.get_template("sheet.html")
     sheets = []
     for job, program, proof in programs:
-        sheet = _sheet(job, program, proof or {}, program.name + suffix)
+        sheet = _sheet(job, program, proof or {}, file_names(program, suffix, files))
         sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
         sheet["deviation"] = Markup((deviations or {}).get(program.name, ""))  # noqa: S704 - ours as well
         sheet["places"] = facts.place_rows(proof or {})
@@ -69,7 +72,17 @@ def setup_html(
     return pages.get_template("page.html").render(sheets=sheets, titles=titles, summary=summary)
 
 
-def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str) -> dict[str, Any]:
+def file_names(program: Program, suffix: str, files: Mapping[str, Sequence[str]] | None) -> list[str]:
+    """The names of a program's files in order; see :func:`setup_html`."""
+    return [name + suffix for name in (files or {}).get(program.name, [program.name])]
+
+
+def span(names: Sequence[str]) -> str:
+    """Names of files in few words."""
+    return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
+
+
+def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
     """What the template of one sheet shows."""
     traced = trace(program)
     tools = facts.tool_rows(job, program, traced, proof)
@@ -91,7 +104,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         "steps": steps(
             job,
             [row.tool.number for row in tools],
-            file_name=file_name,
+            file_names=names,
             deepest=deepest,
             reach=facts.reach(traced),
             offsets=tuple(offsets.values()),
@@ -102,7 +115,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], file_name: str)
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         "side": Markup(side_view(job, program, deepest)),  # noqa: S704
-        "file_name": file_name,
+        "file_name": span(names),
     }
 
 

@@ -8,7 +8,7 @@ from mechwright.tooling import Tool
 from mechwright_cam.job import Job
 from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.procedure import quantity
-from mechwright_cam.setup_sheet.sheet import environment
+from mechwright_cam.setup_sheet.sheet import environment, file_names, span
 from mechwright_cam.trace import trace
 
 SHEET = ".setup.html"
@@ -25,12 +25,16 @@ def summary_html(
     suffix: str = ".nc",
     tool_table: str = "",
     design: str = "",
+    files: Mapping[str, Sequence[str]] | None = None,
 ) -> str:
     """The page of a whole job; it leads to the sheet of each program.
 
     Parameters are those of :func:`mechwright_cam.setup_sheet.setup_html`; ``name`` is that of the job.
     """
-    rows = [_row(job, program, proof or {}, suffix) for job, program, proof in programs]
+    rows = [
+        _row(job, program, proof or {}, file_names(program, suffix, files))
+        for job, program, proof in programs
+    ]
     verdicts = [row["verdict"] for row in rows]
     times = [row["all_seconds"] for row in rows if row["all_seconds"] is not None]
     return (
@@ -48,7 +52,7 @@ def summary_html(
     )
 
 
-def _row(job: Job, program: Program, proof: Mapping[str, Any], suffix: str) -> dict[str, Any]:
+def _row(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
     x0, y0, x1, y1 = job.stock
     seconds = proof.get("time_estimate_s")
     count = quantity(job)
@@ -56,7 +60,8 @@ def _row(job: Job, program: Program, proof: Mapping[str, Any], suffix: str) -> d
         "part": job.part.name,
         "side": job.side,
         "sheet": program.name + SHEET,
-        "file_name": program.name + suffix,
+        "file_names": names,
+        "file_name": span(names),
         "quantity": count,
         "stock": f"{x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g}",
         "material": job.part.material,

@@ -253,7 +253,13 @@ def _sharpened(bends: list[Bend | None], closed: bool) -> list[Bend]:
 def _without_crumbs(bends: list[Bend], closed: bool) -> list[Bend]:
     """Lines and arcs without those too short to print; the neighbours of one meet, or it would bend them."""
     while True:
-        alive = [n for n, b in enumerate(bends) if math.dist(b.start, b.end) >= SHORTEST or b.sweep > math.pi]
+        # Ends of an arc all the way round meet, but then there is no other.
+        round_ = closed and len(bends) <= 2
+        alive = [
+            n
+            for n, b in enumerate(bends)
+            if math.dist(b.start, b.end) >= SHORTEST or (round_ and b.sweep > math.pi)
+        ]
         if len(alive) == len(bends):
             return bends
         # Where they meet they are shorter than before.

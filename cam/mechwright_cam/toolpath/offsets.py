@@ -54,6 +54,13 @@ def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> 
     return buffered(shape, distance, corners(abs(distance), tolerance))
 
 
+def areas(shape: shapely.Geometry) -> shapely.Geometry:
+    """The shape without the lines and points that overlays leave, and which others fail on."""
+    if shape.geom_type in ("Polygon", "MultiPolygon"):
+        return shape
+    return shapely.union_all(polygons(shape))
+
+
 def opened(shape: shapely.Geometry, width: float) -> shapely.Geometry:
     """The shape without what is thinner than twice ``width``."""
     return buffered(buffered(shape, -width, 2), width, 2)
