@@ -178,6 +178,29 @@ def groove(rng: Rng) -> Drawn:
     return Drawn(plate(rng, [Pocket("groove", loop, (), 0.0, depth)], rim, thick), {})
 
 
+def rim(rng: Rng) -> Drawn:
+    """A recess over a straight edge of a plate at any angle, and often another one of another kind."""
+    size, thick = _size(rng)
+    angle = float(rng.uniform(0, math.tau))
+    plate_rim = Loop.polygon([(-size, -size), (size, -size), (size, 0.8 * size), (-size, 0.8 * size)])
+    depth = round(float(rng.uniform(0.05, 0.8)) * thick, 2)
+    wide = float(rng.uniform(5, 0.4 * size))
+    over = polygon(rng, wide, float(rng.uniform(-0.3, 0.3)) * size, -size + float(rng.uniform(0, 0.6)) * wide)
+    drawn = [Pocket("over", over, (), 0.0, depth)]
+    maker: tuple[str, ...] = ()
+    if rng.random() < 0.5:
+        low = round(float(rng.uniform(0.3, 0.8)) * thick, 2)
+        radius = 0.0
+        if rng.random() < 0.4:
+            tool = CUTTERS.get(
+                str(rng.choice([t.name for t in CUTTERS if 0 < t.nose < low] or ["bull-3-r0.3"]))
+            )
+            radius, maker = min(tool.nose, low), (tool.name,)
+        drawn.append(Pocket("inner", polygon(rng, 0.35 * size, 0.0, 0.35 * size), (), 0.0, low, radius))
+    turned: list[Feature] = [replace(f, boundary=f.boundary.moved(0.0, 0.0, angle)) for f in drawn]
+    return Drawn(plate(rng, turned, plate_rim.moved(0.0, 0.0, angle), thick), {}, maker)
+
+
 def open_profile(rng: Rng) -> Drawn:
     """A groove on an open path, or a step beside it."""
     size, thick = _size(rng)
@@ -292,6 +315,7 @@ OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
     "adaptive": adaptive,
     "slot": slots,
     "groove": groove,
+    "rim": rim,
     "open-profile": open_profile,
     "fillet": fillet,
     "face": face,
