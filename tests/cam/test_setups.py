@@ -256,7 +256,7 @@ def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
         two = replace(part(hole, CORNER), outline=outline)
         jobs, found = lay_out_setups(two, cam(second_side={"locate": locate, "flip": "x"}), LIBRARY)
         assert not errors(found)
-        made = steps(jobs[1], [3], file_name="bracket-underside.nc", deepest=-3.0)
+        made = steps(jobs[1], [3], file_names=["bracket-underside.nc"], deepest=-3.0)
         said = " ".join([step.title for step in made] + [line for step in made for line in step.lines])
         assert "Turn the plate over about the X axis: its front edge goes to the rear" in said
         assert words in said, said
