@@ -77,6 +77,18 @@ def test_a_higher_wall_beside_a_shallow_recess_holds_the_mill_off() -> None:
         assert low[:, 0].min() == pytest.approx(wide - 15, abs=0.003)
 
 
+def test_a_shallow_groove_lowers_the_wall_of_a_deeper_recess() -> None:
+    """Below the groove the wall is lower than the nose, beside it higher: the mill goes as near as each lets it."""
+    recess = Pocket("recess", box(6, 6, 2.2), (), 0.0, 2.1)
+    groove = Pocket(
+        "groove", Loop.polygon([(-40, -3.3), (0, -3.3), (0, 3.3), (-40, 3.3)]).moved(-1, 0, 0.1), (), 0.0, 0.9
+    )
+    ball = like("ball-6", name="ball-4", number=153, diameter=4)
+    job = laid(recess, groove, tools=("ball-4",), library=MORE.extended((ball,)))
+    _, proof = made(job)
+    assert failed(proof) == []
+
+
 @pytest.mark.parametrize("wide", [8, 10])
 def test_a_mill_without_room_for_chips_levels_what_a_bull_nose_leaves(wide: int) -> None:
     tight = Pocket("recess", Loop((circle((0, 0), 5.17),)), (), 0.0, 2.0)

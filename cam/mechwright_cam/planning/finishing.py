@@ -58,7 +58,7 @@ class Finishing:
     def _pieces(self) -> list[Piece]:
         found = []
         for ring in rings(self.blocked, self.settings.climb):
-            if not self.zone.above:
+            if len(self.zone.walls) < 2 or self.radius == self.tool.radius:
                 ring = into_wedges(ring, self.zone.keep, self.radius, self.zone.path.bias)
             dense = densified(ring, self.radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)

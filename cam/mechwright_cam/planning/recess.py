@@ -24,7 +24,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
 from mechwright_cam.reach import opening_keep
 from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.offsets import ROUGH, corners, filled, grow, opened, polygons
+from mechwright_cam.toolpath.offsets import ROUGH, areas, corners, filled, grow, opened, polygons
 
 LEVEL = 1e-6
 """Heights nearer than this are one, mm: far below the last decimal of a program."""
@@ -32,6 +32,8 @@ SKIN = 2 * TOLERANCES.flatten
 """A boundary within this of the part's edge is on it, mm: what the chords of both may be off together."""
 FILM = 1e-6
 """Area over circumference of what only rounding of numbers can leave, mm."""
+SAME = 1e-6
+"""Layers that differ by less are one, mm²."""
 LONG = 2.0
 """Circumference from which on something as thin is a skin, mm."""
 
@@ -92,23 +94,31 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     return Recess(must, keep, around, True)
 
 
-def standing_above(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, ...]:
-    """What stands above the top of a feature, ``near`` mm around it at most, in layers."""
-    heights = sorted(
-        {0.0, feature.top, *(z for f in job.features for z in (f.top, f.top + f.depth) if z < feature.top)}
-    )
+def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, ...]:
+    """What stands around a recess up to the top of the plate, in layers from its floor up.
+
+    Only what is at most ``near`` mm from it counts.
+    """
     floor, around = feature.top + feature.depth, grow(plan_view(feature), near, ROUGH)
-    layers = []
-    for top, bottom in pairwise(heights):
-        gone = [
-            plan_view(other)
-            for other in job.features
-            if not (isinstance(other, Profile) and other.side == "outside")
-            and other.top <= top + LEVEL
-            and other.top + other.depth >= bottom - LEVEL
-        ]
-        wall = _without_skin(shapely.difference(job.target, shapely.union_all(gone)))
-        if shapely.intersects(wall, around):
+    beside = [
+        other
+        for other in job.features
+        if not (isinstance(other, Profile) and other.side == "outside")
+        and shapely.intersects(plan_view(other), around)
+    ]
+    plate = areas(shapely.intersection(job.target, around))
+    heights = {0.0, floor, *(z for one in beside for z in (one.top, one.top + one.depth) if z < floor)}
+    layers: list[Layer] = []
+    for bottom, top in pairwise(sorted(heights, reverse=True)):
+        if bottom - top > LEVEL:
+            gone = [
+                plan_view(other)
+                for other in beside
+                if other.top <= top + LEVEL and other.top + other.depth >= bottom - LEVEL
+            ]
+            wall = _without_skin(areas(shapely.difference(plate, shapely.union_all(gone))))
+            if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
+                wall = layers.pop()[1]
             layers.append((floor - top, wall))
     return tuple(layers)
 

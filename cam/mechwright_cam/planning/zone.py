@@ -12,7 +12,6 @@ room
     Where the centre of a cutter may be, apart from the distance to ``keep``.
 """
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Literal
@@ -87,8 +86,8 @@ class Zone:
     """Whether the cut ends below the underside of the plate."""
     before: tuple[Tool, ...] = ()
     """Mills with sharper corners that finish before the finisher, which is a finer round one."""
-    above: tuple[Layer, ...] = ()
-    """Walls that stand above a recess shallower than the noses of its mills."""
+    walls: tuple[Layer, ...] = ()
+    """What stands around a recess from its floor up, where round mills are to make it."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
     snug: bool = False
@@ -140,14 +139,9 @@ class Zone:
         """How deep a mill goes, z in mm: out of the plate with all of its rounded corner."""
         return self.bottom - mill.nose if self.below else self.bottom
 
-    @property
-    def wall_height(self) -> float:
-        """Height of the walls over the floor, mm; inf where the mills go out below with their noses."""
-        return math.inf if self.feature is None or self.below else self.feature.depth
-
     def radius_of(self, mill: Tool) -> float:
-        """Radius of a mill at the top of the wall, mm: above that a high nose is wider than it cuts."""
-        return radius_in(mill, self.wall_height)
+        """Radius of a mill at the top of the lowest wall, mm; above that a high nose is wider."""
+        return radius_in(mill, self.walls[0][0]) if self.walls else mill.radius
 
     def blocked(self, mill: Tool, away: float, allowance: float | None = None) -> shapely.Geometry:
         """Where the centre of a mill must not be, ``away`` mm and what it is wide there off what must stay.
@@ -156,12 +150,11 @@ class Zone:
         """
         radius = self.radius_of(mill) + away
         near = grow(self.keep, radius) if allowance is None else self.rough_keep(allowance, radius)
-        if not self.above or self.radius_of(mill) == mill.radius:
+        if self.radius_of(mill) == mill.radius:
             return near
         more = away + (allowance or 0.0)
-        return shapely.union_all(
-            [near, *(grow(wall, radius_in(mill, height) + more) for height, wall in self.above)]
-        )
+        higher = [grow(wall, radius_in(mill, height) + more) for height, wall in self.walls[1:]]
+        return shapely.union_all([near, *higher]) if higher else near
 
     def allowance_for(self, mill: Tool, allowance: float) -> float:
         """What a mill leaves on the wall, mm, so that a fillet stays at its foot.

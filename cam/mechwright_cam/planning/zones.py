@@ -21,7 +21,7 @@ from mechwright_cam.planning.choice import (
     usable_mills,
     with_sharper,
 )
-from mechwright_cam.planning.recess import Layer, Recess, reached_share, recess, standing_above
+from mechwright_cam.planning.recess import Layer, Recess, reached_share, recess, walls_of
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
 from mechwright_cam.reach import roughly_swollen
@@ -78,14 +78,14 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
         shapes = recess(job, feature, mills[0].diameter, bottom)
         if shapely.is_empty(shapes.must):
             raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
-        snug = False
+        walls, snug = _walls(job, feature, mills), False
         if radius > 0:
             last, snug = floor_mills(job, feature, mills, shapes)
             if not snug:
                 _check_passages(job, feature, last[-1], shapes)
             mills = last if snug else roomy_mills(mills, shapes.must)
         else:
-            high = math.inf if through(job, feature.top + feature.depth) else feature.depth
+            high = walls[0][0] if walls else math.inf
 
             def reached(mill: Tool, shapes: Recess = shapes, high: float = high) -> float:
                 return reached_share(shapes, radius_in(mill, high) + path.bias)
@@ -121,7 +121,7 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             before=tuple(last[:-1]),
             floor_radius=radius,
             snug=snug,
-            above=_above(job, feature, [*mills, *last]),
+            walls=walls,
         )
         if shapes.open:
             zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
@@ -143,12 +143,11 @@ def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Re
         )
 
 
-def _above(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:
-    """What stands above a feature that is shallower than a nose of its mills."""
-    round_ = [mill for mill in mills if mill.nose > feature.depth]
-    if not round_ or feature.top == 0:
+def _walls(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:
+    """What stands around a recess; nothing where its mills go out below, or all are flat."""
+    if through(job, feature.top + feature.depth) or all(mill.nose == 0 for mill in mills):
         return ()
-    return standing_above(job, feature, max(mill.diameter for mill in round_))
+    return walls_of(job, feature, 2 * max(mill.diameter for mill in mills if mill.nose > 0))
 
 
 def floor_mills(
