@@ -28,6 +28,11 @@ BLUNT = 179.9
 
 SAME_RADIUS = TOLERANCES.leftover / 2
 """A fillet may miss the radius that is asked for by so much, mm: at its middle that is less than half."""
+LEAST_SHARE = 0.02
+"""A mill that reaches less of a recess than this does not enter it: it only scratches at its mouth."""
+CORNER_SHARE = 0.5
+"""What a mill leaves in a corner of 40 degrees or more is nowhere wider than this share of its diameter:
+there (1 - sin 20°) / (1 + sin 20°) is as much."""
 
 TINY = 1e-9
 """A corner of a smaller radius is none, mm."""

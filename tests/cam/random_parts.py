@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from planning_parts import LIBRARY, rounded_box
-from random_pockets import rounded
+from random_shapes import Rng, polygon, ring, slot
 
 from mechwright.details import Chamfer, Engraving, Thread
 from mechwright.errors import MechwrightError
@@ -26,7 +26,6 @@ from mechwright_cam.planning import plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.setups import lay_out_setups
 
-Rng = np.random.Generator
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
 SHAPES = {
@@ -58,27 +57,6 @@ def _more_mills() -> Library:
 
 CUTTERS = _more_mills()
 THREADS = {"m3": (3.0, 0.5), "m4": (4.0, 0.7), "m5": (5.0, 0.8), "m6": (6.0, 1.0), "m8": (8.0, 1.25)}
-
-
-def polygon(rng: Rng, size: float, x: float = 0.0, y: float = 0.0) -> Loop:
-    """A star-shaped polygon about a place, some of its corners round, others sharp."""
-    count = int(rng.integers(3, 9))
-    angles = np.linspace(0, math.tau, count, endpoint=False) + rng.uniform(-0.25, 0.25, count)
-    far = size * rng.uniform(0.65, 1.0, count)
-    points = np.array((x, y)) + np.column_stack((far * np.cos(angles), far * np.sin(angles)))
-    return rounded(points, rng.uniform(0.3, 0.3 * size, count))
-
-
-def slot(rng: Rng, length: float, width: float, x: float, y: float, angle: float) -> Loop:
-    """A slot with round, or nearly square, ends."""
-    return rounded_box(length, width, width * rng.choice([0.5, 0.3, 0.1])).moved(x, y, angle)
-
-
-def ring(rng: Rng, inner: float, outer: float) -> Loop:
-    """A groove along a circle."""
-    first, sweep = rng.uniform(0, 6), rng.uniform(0.5, 3)
-    one, two = Arc((0, 0), outer, first, sweep), Arc((0, 0), inner, first + sweep, -sweep)
-    return Loop((one, Line(one.end, two.start), two, Line(two.end, one.start)))
 
 
 @dataclass(frozen=True)

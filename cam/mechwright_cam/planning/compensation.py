@@ -30,7 +30,7 @@ from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.contour import SHORTEST, contour_beside
+from mechwright_cam.toolpath.contour import contour_beside
 from mechwright_cam.toolpath.leads import middle_of_longest
 from mechwright_cam.toolpath.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.toolpath.path import Path, rounded
@@ -210,7 +210,7 @@ class CompensatedFinishing:
             fits = one & two & apart
             if fits.any():
                 best = middle_of_longest(fits)
-                before, after = contour.split(_whole(contour, float(at[best])))
+                before, after = contour.split(float(at[best]))
                 entered = after + before if after.cuts else contour
                 return (
                     entered,
@@ -309,13 +309,3 @@ class CompensatedFinishing:
             run.follow(part)
         run.follow(touching(path.end, two[1], heading_at(path, -1), self.side, out=True))
         run.off(two[2])
-
-
-def _whole(contour: Path, at: float) -> float:
-    """A place on a contour, mm, moved to the end of a line or arc if it is next to it.
-
-    Printed with three decimals a scrap of an arc could run all the way round.
-    """
-    ends = np.concatenate(([0.0], np.cumsum([cut.length for cut in contour.cuts])))
-    nearest = float(ends[np.argmin(np.abs(ends - at))])
-    return nearest if abs(nearest - at) < SHORTEST else at

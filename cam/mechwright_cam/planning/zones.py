@@ -6,7 +6,7 @@ from functools import partial
 
 import shapely
 
-from mechwright.cutter import makes_floor
+from mechwright.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
 from mechwright.errors import DesignError, ToolError
 from mechwright.part import Bore, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
@@ -48,12 +48,6 @@ def bottom_of(job: Job, top: float, depth: float) -> float:
     return job.floor if through(job, top + depth) else -(top + depth)
 
 
-LEAST_SHARE = 0.02
-"""A cutter that reaches less of a feature than this does not enter it: it only scratches at its mouth."""
-
-
-CORNER = 0.5
-"""What a mill leaves in a corner of 40 degrees or more is nowhere wider than this share of its diameter."""
 SCRATCH = 1e-4
 """A mill with a sharper nose that reaches so much of a feature levels it there, if only at its mouth."""
 ENTERED = 0.5
@@ -134,7 +128,7 @@ def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Re
     radius = maker.radius + job.settings.path.bias
     reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
     beyond = areas(shapely.difference(shapes.must, reach))
-    missed = not shapely.is_empty(grow(beyond, -CORNER * maker.radius, ROUGH))
+    missed = not shapely.is_empty(grow(beyond, -CORNER_SHARE * maker.radius, ROUGH))
     finer = any(mill.radius < maker.radius for mill in job.mills)
     if reached_share(shapes, radius) < ENTERED or (missed and finer):
         raise ToolError(

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.cutter import cutter, makes_floor
+from mechwright.cutter import CORNER_SHARE, LEAST_SHARE, cutter, makes_floor
 from mechwright.tooling import Tool
 from mechwright_cam.proof.fillets import SKIN, Fillet, stay
 from mechwright_cam.proof.paths import NEAR
@@ -29,11 +29,6 @@ from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.toolpath.offsets import areas, polygons
 
 Layer = tuple[float, Shape]
-
-SERVED = 0.02
-"""A mill that reaches less of a floor than this does not make it: it only scratches at its mouth."""
-CORNER = 0.5
-"""What a mill leaves in a corner of 40 degrees or more is nowhere wider than this share of its diameter."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +126,7 @@ class Reach:
         for tool in others:
             if _cuts(tool, -floor):
                 free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
-                if shapely.intersection(grow(free, tool.radius), view).area >= SERVED * view.area:
+                if shapely.intersection(grow(free, tool.radius), view).area >= LEAST_SHARE * view.area:
                     return True
         return False
 
@@ -147,7 +142,7 @@ class Reach:
                 left = Reach(makers, self.play, self.through).rest(around, place, height)
                 # A skin into the wall, or rounding leaves a crack between the two.
                 more = shapely.intersection(left, grow(fillet.inside, SKIN))
-                wide = CORNER * min(tool.radius for tool in makers)
+                wide = CORNER_SHARE * min(tool.radius for tool in makers)
                 beyond = polygons(shapely.difference(more, rest))
                 passages = [piece for piece in beyond if not grow(piece, -wide).is_empty]
                 kept = polygons(shapely.difference(more, shapely.union_all(passages)))
