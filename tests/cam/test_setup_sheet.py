@@ -197,7 +197,12 @@ def test_as_many_as_the_mechanism_needs():
     text = read(sheet(pair, program(), PROOF)).text
     assert "Make 2 Tools" in text
     assert "Make 2. A further plate against the same stops keeps G54 X and Y; set G54 Z again if" in text
+    assert "The length offsets stay." in text
     assert "Make 1 Tools" in read(sheet(job(), program(), PROOF)).text
+    by_hand = replace(pair, settings=pair.settings.model_copy(update={"control": "grbl"}))
+    text = read(sheet(by_hand, program(), PROOF)).text
+    assert "keeps G54 X and Y; touch off every tool again." in text
+    assert "The length offsets stay." not in text
 
 
 def test_clamp_and_its_stop():

@@ -59,17 +59,18 @@ def steps(
     offset = job.settings.work_offset
     over = job.side == "underside"
     by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
+    touched = by_hand and not _measured(job, tools)
     return [
         _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
         _second_plane(job, offset) if over else _plane(job, offset),
-        *([] if by_hand and not _measured(job, tools) else [_height(offset)]),
+        *([] if touched else [_height(offset)]),
         *(
             [_touch_off(job, tools)]
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
         ),
         *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
-        _run(job, offset, file_names),
+        _run(job, offset, file_names, touched=touched),
     ]
 
 
@@ -273,15 +274,19 @@ def _in_order(file_names: Sequence[str]) -> str:
     return f"{', '.join(file_names[:-1])} and {file_names[-1]}, one after the other"
 
 
-def _run(job: Job, offset: str, file_names: Sequence[str]) -> Step:
+def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> Step:
     lines = [
         f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
         f"{offset} must be the active offset.",
     ]
     if quantity(job) > 1:
+        again = (
+            "touch off every tool again."
+            if touched
+            else f"set {offset} Z again if its top is not as high as the last one. The length offsets stay."
+        )
         lines.append(
-            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; set "
-            f"{offset} Z again if its top is not as high as the last one. The length offsets stay."
+            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; {again}"
         )
     fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
     if fits:
