@@ -178,7 +178,7 @@ def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]
     return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
 
 
-def _after(first: Machined, job: Job, post: Post) -> Job:
+def second_setup(first: Machined, job: Job, post: Post) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
     cut = cut_away(first.proven, first.job, dialect_of(post))
     return replace(job, gone=carried(cut, first.job, job))
@@ -249,7 +249,8 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
         )
     made: list[Machined] = []
     for place, job in enumerate(jobs):
-        made.append(machine(_after(made[-1], job, post) if job.side == "underside" else job, post, place))
+        laid = second_setup(made[-1], job, post) if job.side == "underside" else job
+        made.append(machine(laid, post, place))
     nests = [job.part for job in jobs if isinstance(job.part, Nest)]
     for part in (*parts, *nests):
         output.add(f"{part.name}{drawing.suffix}", drawing.part(part))
@@ -327,7 +328,7 @@ def verify(
         (job,) = chosen
         if underside:  # on the plate as our own program for the first side leaves it
             post = _post(design, host or default_host())
-            job = _after(machine(jobs[0], post), job, post)
+            job = second_setup(machine(jobs[0], post), job, post)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library))
     tools = tuple(_measured(tool, cam) for tool in library.tools)

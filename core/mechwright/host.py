@@ -205,7 +205,7 @@ def load(points: list[tuple[str, EntryPoint]] | None = None, disabled: frozenset
     """
     found = Host()
     if points is None:
-        points, found.broken = _installed(distributions())
+        points, found.broken = hook_points(distributions())
     if disabled is None:
         disabled = frozenset(name.strip() for name in os.environ.get(DISABLE, "").split(",") if name.strip())
     for distribution, point in points:
@@ -220,7 +220,7 @@ def load(points: list[tuple[str, EntryPoint]] | None = None, disabled: frozenset
     return found
 
 
-def _installed(everything: Iterable[Distribution]) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
+def hook_points(everything: Iterable[Distribution]) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
     """The entry points of the group, built-in ones first, then by name; and what cannot be read."""
     points: dict[tuple[str, str, str], tuple[str, EntryPoint]] = {}
     broken = []

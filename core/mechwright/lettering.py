@@ -9,7 +9,7 @@ import math
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 
-_LETTERS = {
+LETTERS = {
     "0": "10 01 05 16 36 45 41 30 10/14 32",
     "1": "14 26 20",
     "2": "05 16 36 45 44 00 40",
@@ -86,17 +86,17 @@ def lettering(text: str, height: float, at: Point = (0.0, 0.0), angle: float = 0
     >>> len(lettering("M6-1", 3.5, (10.0, 0.0)))
     4
     """
-    unknown = sorted(set(text.upper()) - set(_LETTERS))
+    unknown = sorted(set(text.upper()) - set(LETTERS))
     if unknown:
         raise DesignError(
-            f"no letter {unknown[0]!r} to engrave; there are {''.join(sorted(_LETTERS)).strip()}"
+            f"no letter {unknown[0]!r} to engrave; there are {''.join(sorted(LETTERS)).strip()}"
         )
     scale = height / _HIGH
     width = (len(text) - 1) * _NEXT + _WIDE
     cos, sin = math.cos(angle), math.sin(angle)
     strokes = []
     for place, letter in enumerate(text.upper()):
-        for stroke in filter(None, _LETTERS[letter].split("/")):
+        for stroke in filter(None, LETTERS[letter].split("/")):
             points = []
             for node in stroke.split():
                 u = (int(node[0]) + place * _NEXT - width / 2) * scale

@@ -20,7 +20,7 @@ from mechwright.host import host
 from mechwright.lettering import lettering
 from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
-from mechwright_cam.pipeline import Machined, _after, machine
+from mechwright_cam.pipeline import Machined, machine, second_setup
 from mechwright_cam.setups import lay_out_setups
 
 FOLDER = Path(__file__).parents[1] / "golden" / "operations"
@@ -303,7 +303,7 @@ def made(operation: str, control: str) -> tuple[Machined, ...]:
         raise AssertionError(f"{operation}: {errors(found)[0]}")
     done: list[Machined] = []
     for place, job in enumerate(jobs):
-        done.append(machine(job if job.side == "top" else _after(done[-1], job, post), post, place))
+        done.append(machine(job if job.side == "top" else second_setup(done[-1], job, post), post, place))
     return tuple(done)
 
 

@@ -21,7 +21,7 @@ from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
-from mechwright_cam.pipeline import Machined, _after, dialect_of
+from mechwright_cam.pipeline import Machined, dialect_of, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.setups import lay_out_setups
@@ -356,7 +356,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         if errors(found):
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:
-            laid = job if job.side == "top" else _after(made[-1], job, post)
+            laid = job if job.side == "top" else second_setup(made[-1], job, post)
             program = plan(laid)
             text = post.write(program)
             made.append(

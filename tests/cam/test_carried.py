@@ -17,7 +17,7 @@ from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.job import Air
-from mechwright_cam.pipeline import _after, machine
+from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import cut_away, prove
@@ -49,7 +49,7 @@ def made(flip="x"):
     jobs, found = lay_out_setups(part, settings, LIBRARY)
     assert not errors(found), found
     first = machine(jobs[0], LinuxCncPost())
-    return first, machine(_after(first, jobs[1], LinuxCncPost()), LinuxCncPost())
+    return first, machine(second_setup(first, jobs[1], LinuxCncPost()), LinuxCncPost())
 
 
 @cache

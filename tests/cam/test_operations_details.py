@@ -11,7 +11,7 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from mechwright.details import Chamfer, Engraving, Thread
 from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Loop, circle
-from mechwright.lettering import _LETTERS, lettering
+from mechwright.lettering import LETTERS, lettering
 from mechwright.part import Bore, Profile
 from mechwright.program import FeedArc
 from mechwright.tooling import CamSettings, ToolKind
@@ -149,7 +149,7 @@ def test_what_no_tool_makes_is_refused(detail, tools, message):
 
 
 def test_every_letter_stands_on_its_grid():
-    for letter in _LETTERS:
+    for letter in LETTERS:
         for stroke in lettering(letter, 6.0):
             assert len(stroke) >= 2
             assert np.abs(np.array(stroke)).max() <= 3.0

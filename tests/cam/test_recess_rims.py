@@ -15,7 +15,7 @@ from mechwright.tooling import CamSettings
 from mechwright_cam.job import make_job
 from mechwright_cam.library import load_library
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.clearing import _inside
+from mechwright_cam.planning.clearing import stays_inside
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 from mechwright_cam.toolpath.leads import best_start
@@ -79,9 +79,9 @@ def test_a_recess_thinner_than_what_may_stay_is_refused() -> None:
 
 def test_a_link_may_not_cut_a_corner_that_stands_between_its_points() -> None:
     free = shapely.box(0, 0, 20, 10).difference(shapely.Polygon([(10, -1), (10.01, 5.001), (10.02, -1)]))
-    assert not _inside(free, (1.0, 5.0), (19.0, 5.0))
-    assert _inside(free, (1.0, 5.1), (19.0, 5.1))
-    assert _inside(free, (1.0, 5.0), (1.0, 5.0))
+    assert not stays_inside(free, (1.0, 5.0), (19.0, 5.0))
+    assert stays_inside(free, (1.0, 5.1), (19.0, 5.1))
+    assert stays_inside(free, (1.0, 5.0), (1.0, 5.0))
 
 
 def test_a_lead_is_taken_only_if_all_of_it_is_free() -> None:

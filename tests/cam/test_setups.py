@@ -20,7 +20,7 @@ from mechwright.host import host
 from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.pipeline import _after, machine
+from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.setup_sheet import setup_html
@@ -112,7 +112,7 @@ def both(made_part, control="linuxcnc", **changes):
     assert [job.side for job in jobs] == ["top", "underside"]
     post = host().post(control)
     first = machine(jobs[0], post)
-    return first, machine(_after(first, jobs[1], post), post)
+    return first, machine(second_setup(first, jobs[1], post), post)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 
 from mechwright.errors import PluginError
 from mechwright.family import Family
-from mechwright.host import DISABLE, GROUP, _installed, load
+from mechwright.host import DISABLE, GROUP, hook_points, load
 from mechwright.parameters import Parameters
 
 FAMILY = """
@@ -262,7 +262,7 @@ class Installed(Distribution):
 
 
 def found(*distributions):
-    points, broken = _installed(distributions)
+    points, broken = hook_points(distributions)
     return [(name, point.name) for name, point in points], broken
 
 

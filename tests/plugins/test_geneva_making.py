@@ -16,9 +16,11 @@ from mechwright.program import FeedArc
 from mechwright_cam.exporters.dxf import part as drawing
 from mechwright_cam.job import make_job
 from mechwright_cam.library import load_library
+from mechwright_cam.pipeline import machine
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.slots import outside_mills
-from mechwright_cam.setup_sheet.procedure import _run
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.setup_sheet import setup_html
 from mechwright_cam.toolpath.offsets import BIAS
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
@@ -50,12 +52,12 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     text = drawing(crank).decode("cp1252")
     assert f"pin-1: %%c{fit.text}" in text
     job = job_of(crank)
-    program = plan(job)
-    assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in program.notes
-    assert any(f"pin-1 ⌀{fit.text}" in line for line in _run(job, "G54", "crank.ngc").lines)
+    made = machine(job, LinuxCncPost())
+    assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
+    assert f"pin-1 ⌀{fit.text}" in setup_html([(made.job, made.program, made.proof.as_dict())])
     ((tool, moves),) = [
         (section.tool, operation.moves)
-        for section in program.sections
+        for section in made.program.sections
         for operation in section.operations
         if operation.name == "pin-1: finish"
     ]

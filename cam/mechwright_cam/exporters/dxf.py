@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ezdxf import units
-from ezdxf._options import options
+from ezdxf._options import options  # noqa: PLC2701 (ezdxf.options, which is public, has no type)
 from ezdxf.filemanagement import new
 
 from mechwright.details import Chamfer, Detail, Engraving, Thread, chamfer_lines, detail_note

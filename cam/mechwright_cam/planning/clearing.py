@@ -259,7 +259,7 @@ class Roughing:
         runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
-            linked = _inside(free, last.end, path.start)
+            linked = stays_inside(free, last.end, path.start)
             if linked and math.dist(last.end, path.start) > BESIDE * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
                 stock = grow(core, self.sliver, ROUGH) if stock is None else stock
@@ -269,7 +269,7 @@ class Roughing:
                 uncut = shapely.difference(shapely.intersection(way, stock), swept)
                 linked = bool(uncut.area <= SLIVER * self.tool.diameter)
             runs.append(Run(path, clear, linked, thin))
-        return Cavity(tuple(runs), _inside(free, paths[-1].end, paths[0].start))
+        return Cavity(tuple(runs), stays_inside(free, paths[-1].end, paths[0].start))
 
     def _pieces(self) -> list[Piece]:
         radius = self.radius
@@ -372,6 +372,6 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
         above = z
 
 
-def _inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
+def stays_inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
     """Whether the centre may go straight from a to b."""
     return bool(shapely.covers(free, shapely.Point(a) if a == b else shapely.LineString([a, b])))
