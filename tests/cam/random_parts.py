@@ -179,19 +179,23 @@ def rim(rng: Rng) -> Drawn:
     return Drawn(plate(rng, turned, plate_rim.moved(0.0, 0.0, angle), thick), {}, maker)
 
 
+def _bent(rng: Rng, reach: float, bend: float, turn: float) -> tuple[Line | Arc, ...]:
+    """A straight piece, an arc to either side, and another straight piece."""
+    turn *= rng.choice([-1.0, 1.0])
+    arc = Arc((0.0, math.copysign(bend, turn)), bend, -math.copysign(math.pi / 2, turn), turn)
+    end = (arc.end[0] + reach * math.cos(turn), arc.end[1] + reach * math.sin(turn))
+    return Line((-reach, 0.0), (0.0, 0.0)), arc, Line(arc.end, end)
+
+
 def open_profile(rng: Rng) -> Drawn:
     """A groove on an open path, or a step beside it."""
     size, thick = _size(rng)
     depth = round(float(rng.uniform(0.05, 0.8)) * thick, 2)
     width = float(rng.choice([2.0, 3.0, 4.0, 6.0, 10.0, rng.uniform(2, 12)]))
     reach, bend = float(rng.choice([0.5, 1.5])) * size, float(rng.uniform(13, 0.9 * size))
-    first = Line((-reach, 0.0), (0.0, 0.0))
-    turn = rng.uniform(0.3, 2.0) * rng.choice([-1.0, 1.0])
-    arc = Arc((0.0, math.copysign(bend, turn)), bend, -math.copysign(math.pi / 2, turn), turn)
-    along = (math.cos(turn), math.sin(turn))
-    last = Line(arc.end, (arc.end[0] + reach * along[0], arc.end[1] + reach * along[1]))
+    bent = _bent(rng, reach, bend, float(rng.uniform(0.3, 2.0)))
     up, angle = float(rng.uniform(-0.3, 0.3)) * size, float(rng.uniform(0, 6))
-    path = tuple(piece.moved(0.0, up, angle) for piece in (first, arc, last))
+    path = tuple(piece.moved(0.0, up, angle) for piece in bent)
     side = str(rng.choice(["on", "left", "right"]))
     cut = OpenProfile("strip", 0.0, depth, path=path, side=side, width=width)
     how = {"clearing": str(rng.choice(["contour", "adaptive"]))}
@@ -210,6 +214,33 @@ def fillet(rng: Rng) -> Drawn:
         features.append(Bore("hole", (0.0, 0.0), 3.0, 0.0, thick))
     rim = rounded_box(2 * size, 1.8 * size, 4)
     return Drawn(plate(rng, features, rim, thick), {}, (str(maker),), frozenset({ToolKind.DRILL}))
+
+
+def snug(rng: Rng) -> Drawn:
+    """A recess with a fillet, just as wide as the round mill that makes it, often over a slanted edge."""
+    size, thick = _size(rng)
+    maker = CUTTERS.get(str(rng.choice([tool.name for tool in CUTTERS if 0 < tool.nose < 0.7 * thick])))
+    depth = round(float(rng.uniform(maker.nose, 0.85 * thick)) + 0.005, 2)
+    side = str(rng.choice(["pocket", "on", "left", "right"]))
+    place = (
+        float(rng.uniform(-1, 1)) * size,
+        float(rng.uniform(-0.8, 0.8)) * size,
+        float(rng.uniform(0, math.tau)),
+    )
+    strip: Feature
+    if side == "pocket":
+        long, half = float(rng.uniform(1, size)) + maker.radius, maker.radius
+        loop = Loop.polygon([(-long, -half), (long, -half), (long, half), (-long, half)])
+        strip = Pocket("strip", loop.moved(*place), (), 0.0, depth, maker.nose)
+    else:
+        bend = float(rng.uniform(maker.diameter + 1, 0.9 * size))
+        path = _bent(rng, float(rng.uniform(0.2, 1.5)) * size, bend, float(rng.uniform(0.2, 1.5)))
+        path = tuple(piece.moved(*place) for piece in path)
+        strip = OpenProfile(
+            "strip", 0.0, depth, path=path, side=side, width=maker.diameter, floor_radius=maker.nose
+        )
+    rim = rounded_box(2 * size, 1.6 * size, float(rng.choice([0.5, 4.0, 10.0])))
+    return Drawn(plate(rng, [strip], rim, thick), {}, (maker.name,))
 
 
 def face(rng: Rng) -> Drawn:
@@ -296,6 +327,7 @@ OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
     "rim": rim,
     "open-profile": open_profile,
     "fillet": fillet,
+    "snug": snug,
     "face": face,
     "holes": holes,
     "thread": thread,

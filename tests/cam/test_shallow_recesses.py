@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 import shapely
 from height_map import read
-from round_parts import LIBRARY, OUTSIDE, box, cut, failed, laid, made, operations, stadium
+from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
 
 from mechwright.cutter import cutter
+from mechwright.errors import ToolError
 from mechwright.geometry import Arc, Line, Loop, circle
 from mechwright.part import OpenProfile, Pocket
+from mechwright.program import Move
 from mechwright.tooling import Tool
 from mechwright_cam.planning import plan
 from mechwright_cam.posts import LinuxCncPost
@@ -27,6 +29,7 @@ def like(other: str, **changes: object) -> Tool:
 
 
 FINE = like("bull-6-r1", name="bull-4-r1.5", number=150, diameter=4, corner_radius=1.5)
+BALL = like("ball-6", name="ball-4", number=154, diameter=4, flute_length=16)
 MORE = LIBRARY.extended((FINE,))
 
 
@@ -216,3 +219,64 @@ class TestGrooves:
         both = replace(marked, sections=(*alone.sections, *marked.sections))
         job = laid(self.groove(4.0, 6.0), mark, tools=("ball-6", "mill-4"))
         assert "leftover" in failed(prove(LinuxCncPost().write(both), job))
+
+
+class TestSnugRecesses:
+    """Recesses with a fillet that are just as wide as their mill."""
+
+    @staticmethod
+    def strip(kind: str, slant: float, far: float = 40.0) -> Pocket:
+        """6 mm wide, over the right edge of the plate, ``slant`` rad off the shortest way out."""
+        at = (WIDE / 2, 4.0, slant)
+        if kind == "pocket":
+            loop = Loop.polygon([(-20, -3), (far, -3), (far, 3), (-20, 3)])
+            return Pocket("strip", loop.moved(*at), (), 0.0, 4.0, 3.0)
+        path = (Line((-20.0, 0.0), (far, 0.0)).moved(*at),)
+        return OpenProfile("strip", 0.0, 4.0, path=path, side=kind, width=6.0, floor_radius=3.0)
+
+    @pytest.mark.parametrize(
+        ("kind", "slant"), [("pocket", 0.0), ("pocket", 0.9), ("on", 0.9), ("left", 0.5), ("right", 0.5)]
+    )
+    def test_the_mill_runs_out_over_a_slanted_edge(self, kind: str, slant: float) -> None:
+        strip = self.strip(kind, slant)
+        job = laid(strip, tools=("ball-6", "mill-4"))
+        text, proof = made(job)
+        assert failed(proof) == []
+        assert operations(text) == ["strip: groove"]
+        # Above the fillet it is cut as wide as it is drawn, out to the edge.
+        middle = {"left": 3.0, "right": -3.0}.get(kind, 0.0)
+        drawn = Loop.polygon([(-16, middle - 3), (40, middle - 3), (40, middle + 3), (-16, middle + 3)])
+        shape = shapely.Polygon(drawn.moved(WIDE / 2, 4.0, slant).flatten()).buffer(-0.05)
+        assert len(cut(text, job).left(shape, -0.99)) == 0
+
+    def test_a_mill_that_only_just_fits_between_the_fillets_takes_nothing(self) -> None:
+        """Two fillets of 2 mm leave 6 mm of a strip of 10: whether there is a way for 6 mm, rounding decides."""
+        bend = Arc((0.0, -22.0), 22.0, math.pi / 2, -0.9)
+        path = (bend, Line(bend.end, (bend.end[0] + 3.0, bend.end[1] - 3.0 * math.tan(0.9))))
+        strip = OpenProfile("strip", 0.0, 2.7, path=path, side="right", width=10.0, floor_radius=2.0)
+        job = laid(strip, tools=("mill-6", "ball-4"), library=MORE.extended((BALL,)))
+        assert failed(made(job)[1]) == []
+
+    @pytest.mark.parametrize("kind", ["pocket", "on", "left"])
+    def test_a_program_that_stops_half_way_is_not_proven(self, kind: str) -> None:
+        job = laid(self.strip(kind, 0.5), tools=("ball-6", "mill-4"))
+        program = plan(job)
+        (section,) = program.sections
+        (groove,) = section.operations
+        short = replace(section, operations=(replace(groove, moves=tuple(map(_nearer, groove.moves))),))
+        text = LinuxCncPost().write(replace(program, sections=(short,)))
+        assert "leftover" in failed(prove(text, job))
+
+    def test_where_it_opens_along_its_side_it_is_refused(self) -> None:
+        """There the mill is not guided, and elsewhere it has no room beside the wall."""
+        loop = Loop.polygon([(-20, -3), (20, -3), (20, 3), (-20, 3)]).moved(0.0, 15.5, -0.2)
+        along = replace(self.strip("pocket", 0.0), boundary=loop)
+        with pytest.raises(ToolError, match="parts of it are narrower"):
+            plan(laid(along, tools=("ball-6", "mill-4")))
+
+
+def _nearer(move: Move) -> Move:
+    """The move, but not beyond a line across the groove."""
+    if getattr(move, "x", None) is None or move.x < WIDE / 2 - 5:
+        return move
+    return replace(move, x=WIDE / 2 - 5, y=4.0 - 5 * math.tan(0.5))

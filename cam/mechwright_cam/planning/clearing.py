@@ -36,6 +36,7 @@ from mechwright_cam.toolpath.offsets import (
     pieces,
     polygons,
     rings,
+    without_slits,
 )
 from mechwright_cam.toolpath.path import Path
 
@@ -141,7 +142,7 @@ class Roughing:
         self.smooth = ridges or fine >= MANY * self.step
         if self.smooth:
             self.step = fine
-        self.blocked = self._blocked(0)
+        self.blocked = without_slits(self._blocked(0), self.chord)
         self.room = zone.room(self.radius, SLACK)
         self.free = shapely.difference(self.room, self.blocked)
         self.wide = self.foot if self.smooth else self.radius

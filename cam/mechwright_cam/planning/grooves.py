@@ -13,13 +13,16 @@ import shapely
 from mechwright.motion import Array
 from mechwright.tooling import CamSettings
 from mechwright_cam.planning.pen import Pen, levels
+from mechwright_cam.planning.recess import plan_view
 from mechwright_cam.planning.zone import SNUG, Zone
 from mechwright_cam.toolpath.arcfit import fit
-from mechwright_cam.toolpath.offsets import CHORD, FIT, densified, grow, polygons
+from mechwright_cam.toolpath.offsets import CHORD, FIT, ROUGH, densified, grow, polygons
 from mechwright_cam.toolpath.path import Path
 
 PAST = 0.5
 """The mill runs out of an open end by this more than its radius, mm."""
+FAR = 20.0
+"""A slanted mouth is looked for so many radii ahead: at 87 degrees it is as long."""
 
 
 def groove(zone: Zone, settings: CamSettings, pen: Pen, step_down: float) -> None:
@@ -43,14 +46,18 @@ def to_and_fro(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
 
 def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:
     """The middle lines of a groove that a mill of this radius fills."""
-    inside = zone.clear if zone.must is None else zone.must
-    free = shapely.difference(inside, grow(zone.keep, radius - SNUG))
+    free, must = zone.clear, zone.clear
+    if zone.must is not None and zone.feature is not None:
+        # Over the edge it goes on as it is drawn, until all of the mill is out.
+        must = zone.must
+        drawn = grow(plan_view(zone.feature), SNUG - radius)
+        free = shapely.intersection(drawn, grow(must, radius + PAST, ROUGH))
     found = []
-    for part in polygons(free):
+    for part in polygons(shapely.difference(free, grow(zone.keep, radius - SNUG))):
         ring = shapely.get_coordinates(part.exterior)
         if bool(shapely.is_ccw(part.exterior)) != climb:
             ring = ring[::-1]
-        line = ring if part.interiors else _run_out(half(ring, radius), zone.keep, radius)
+        line = ring if part.interiors else _run_out(half(ring, radius), zone.keep, must, radius)
         thin = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), CHORD))
         path = fit(densified(thin, radius / 4), FIT, zone.path.lines_per_arc)
         if path.cuts:
@@ -58,17 +65,35 @@ def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:
     return found
 
 
-def _run_out(line: Array, keep: shapely.Geometry, radius: float) -> Array:
-    """The line, longer by the mill's radius at an end where nothing of the part is ahead."""
+def _run_out(line: Array, keep: shapely.Geometry, must: shapely.Geometry, radius: float) -> Array:
+    """The line, longer where nothing of the part is ahead of an end: until all of the mill is out."""
     for _ in range(2):
         back = line[np.hypot(*(line - line[-1]).T) > radius / 8]
         if len(back):
             ahead = (line[-1] - back[-1]) / np.hypot(*(line[-1] - back[-1]))
-            end = line[-1] + (radius + PAST) * ahead
-            if shapely.distance(shapely.LineString([line[-1], end]), keep) > radius - 2 * SNUG:
+            more = _ahead(line[-1], ahead, must, radius)
+            end = line[-1] + (more + radius + PAST) * ahead
+            way = shapely.LineString([line[-1], end])
+            if more > -radius and shapely.distance(way, keep) > radius - 2 * SNUG:
                 line = np.concatenate((line, end[None]))
         line = line[::-1]
     return line
+
+
+def _ahead(end: Array, ahead: Array, must: shapely.Geometry, radius: float) -> float:
+    """How far a shape goes on from the end of a line, as wide as a mill, mm; negative if it ends before."""
+    aside = radius * np.array([-ahead[1], ahead[0]])
+    strip = shapely.Polygon(
+        [
+            *(end - radius * ahead + aside * s for s in (1, -1)),
+            *(end + FAR * radius * ahead + aside * s for s in (-1, 1)),
+        ]
+    )
+    parts = polygons(shapely.intersection(must, strip))
+    near = [part for part in parts if shapely.distance(part, shapely.Point(end)) <= radius]
+    if not near:
+        return -math.inf
+    return float(max(((shapely.get_coordinates(part) - end) @ ahead).max() for part in near))
 
 
 def half(ring: Array, radius: float) -> Array:

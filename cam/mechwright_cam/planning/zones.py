@@ -118,23 +118,31 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             walls=walls,
         )
         if shapes.open:
-            zone.left = shapely.intersection(zone.clear, shapely.box(*job.stock))
+            zone.left = areas(shapely.intersection(zone.clear, shapely.box(*job.stock)))
         zones.append(zone)
     return zones
 
 
 def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Recess) -> None:
     """Refuse a floor with a fillet that its mill does not reach, but for corners, where finer mills do."""
-    radius = maker.radius + job.settings.path.bias
-    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
-    beyond = areas(shapely.difference(shapes.must, reach))
-    missed = not shapely.is_empty(grow(beyond, -CORNER_SHARE * maker.radius, ROUGH))
-    finer = any(mill.radius < maker.radius for mill in job.mills)
-    if reached_share(shapes, radius) < ENTERED or (missed and finer):
+    missed = _missed(maker.radius + job.settings.path.bias, shapes)
+    # What it just fills counts as reached for the proof, though the way along an edge is none for it.
+    snug = areas(shapely.difference(missed, _missed(maker.radius - SNUG, shapes)))
+    passages = [grow(snug, -TOLERANCES.leftover, ROUGH)]
+    if any(mill.radius < maker.radius for mill in job.mills):
+        passages.append(grow(missed, -CORNER_SHARE * maker.radius, ROUGH))
+    entered = reached_share(shapes, maker.radius + job.settings.path.bias) >= ENTERED
+    if not entered or not all(map(shapely.is_empty, passages)):
         raise ToolError(
             f"cam.tools: {maker.name} makes the floor of {feature.name} of part {job.part.name}, but parts "
             "of it are narrower; list a narrower mill of this corner radius, or make its floor_radius smaller"
         )
+
+
+def _missed(radius: float, shapes: Recess) -> shapely.Geometry:
+    """What a mill that reaches so far does not get at, mm."""
+    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
+    return areas(shapely.difference(shapes.must, reach))
 
 
 def _walls(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:

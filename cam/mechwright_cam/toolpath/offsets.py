@@ -102,15 +102,33 @@ def polygons(shape: shapely.Geometry) -> list[shapely.Polygon]:
     ]
 
 
+def without_slits(shape: shapely.Geometry, tolerance: float) -> shapely.Geometry:
+    """The shape without the holes that :func:`rings` thins to nothing: no path leads through them."""
+    whole = []
+    for part in polygons(shape):
+        kept = [ring for ring in part.interiors if len(_thinned_ring(ring, tolerance)) >= LEAST_RING]
+        whole.append(part if len(kept) == len(part.interiors) else shapely.Polygon(part.exterior, kept))
+    return shapely.multipolygons(whole) if len(whole) != 1 else whole[0]
+
+
+LEAST_RING = 4
+"""Points of the least ring: a triangle, closed."""
+
+
+def _thinned_ring(ring: shapely.LinearRing, tolerance: float) -> Array:
+    # Nothing but a line follows from it, so its topology need not be watched: that takes most time.
+    points: Array = shapely.get_coordinates(shapely.simplify(ring, tolerance, preserve_topology=False))
+    return points
+
+
 def rings(shape: shapely.Geometry, climb: bool, tolerance: float = CHORD) -> list[Array]:
     """The rings (n + 1, 2) around and in a shape that must not be entered, thinned, in cutting direction."""
     found = []
     for part in polygons(shape):
         for number, loop in enumerate((part.exterior, *part.interiors)):
-            # Nothing but a line follows from it, so its topology need not be watched: that takes most time.
-            points = shapely.get_coordinates(shapely.simplify(loop, tolerance, preserve_topology=False))
+            points = _thinned_ring(loop, tolerance)
             # Wall on the right: clockwise around the part, counter-clockwise in an opening.
-            if len(points) >= 4:
+            if len(points) >= LEAST_RING:
                 ccw = bool(shapely.is_ccw(loop))
                 found.append(points if ccw == ((number > 0) == climb) else points[::-1])
     return found
