@@ -26,7 +26,7 @@ from mechwright.tooling import Tool
 from mechwright_cam.job import LEAST_TURN, Job
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.contour_writer import ContourWriter, touching
-from mechwright_cam.planning.entry import Lead, leads, offsets_of, starts, ways
+from mechwright_cam.planning.entry import Lead, lead_length, leads, offsets_of, starts, ways
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
@@ -86,10 +86,17 @@ class CompensatedFinishing:
         self.offsets = offsets_of(self.tool, job.settings)
         self.side = 1 if job.settings.climb else -1
         self.leads = leads(self.offsets, self.tool.radius, job.settings.stock_to_leave)
-        self.room = zone.room(self.tool.radius, finishing=True)
         self.near = grow(zone.left, self.tool.radius - CLEAR, ROUGH)
-        self.wide = grow(self.room, CLEAR + self.offsets.limit, ROUGH)
-        self.room, self.near, self.wide = map(prepared, (self.room, self.near, self.wide))
+        room = zone.room(self.tool.radius, finishing=True)
+        self.wide = grow(room, CLEAR + self.offsets.limit, ROUGH)
+        self.air = self._air() if zone.must is not None else self.wide
+        self.near, self.wide, self.air = map(prepared, (self.near, self.wide, self.air))
+
+    def _air(self) -> shapely.Geometry:
+        """Where leads to an open recess may be: past the end of its wall, in what roughing has cleared."""
+        past = self.tool.radius + self.settings.stock_to_leave + HEAVY + lead_length(self.tool, self.settings)
+        cleared = shapely.intersection(self.zone.clear, grow(self.zone.must, past, ROUGH))
+        return shapely.union(cleared, self.wide)
 
     @cached_property
     def _blocked(self) -> dict[float, shapely.Geometry]:
@@ -148,7 +155,7 @@ class CompensatedFinishing:
         for d, blocked in self._blocked.items():
             local = ways(shape.radius, shape.straight, sweep, d)
             x, y = self._world(places, headings, local, out=out).reshape(-1, 2).T
-            free = shapely.contains_xy(self.wide, x, y) & ~shapely.contains_xy(blocked, x, y)
+            free = shapely.contains_xy(self.air, x, y) & ~shapely.contains_xy(blocked, x, y)
             # What is not on the contour yet keeps off all other walls, however they are moved.
             high = local[..., 1].ravel() > self.offsets.most + HEAVY
             free &= ~(high & shapely.contains_xy(largest, x, y))
@@ -231,7 +238,7 @@ class CompensatedFinishing:
         back = np.linspace(two[-1], one[0], 20)
         x, y = back.T
         direct = bool(
-            shapely.contains_xy(self.wide, x, y).all()
+            shapely.contains_xy(self.air, x, y).all()
             and not shapely.contains_xy(self._blocked[self.offsets.most], x, y).any()
             and not shapely.contains_xy(self.near, x, y).any()
         )

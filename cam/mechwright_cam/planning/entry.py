@@ -138,6 +138,14 @@ def leads(offsets: Offsets, radius: float, allowance: float) -> list[Lead]:
     return [lead for lead in shapes if lead is not None]
 
 
+def lead_length(tool: Tool, settings: CamSettings) -> float:
+    """How far the least lead goes beside the end of a contour, with any D, mm."""
+    if settings.compensation == "computer":
+        return 0.0
+    offsets = _offsets(tool, settings)
+    return 2 * offsets.straight + offsets.limit
+
+
 def bore_lead(offsets: Offsets, contour: float) -> Lead:
     """The lead onto a circular contour of this radius, from its middle, or from as near to it as it gets.
 

@@ -21,6 +21,7 @@ from mechwright_cam.planning.choice import (
     usable_mills,
     with_sharper,
 )
+from mechwright_cam.planning.entry import lead_length
 from mechwright_cam.planning.recess import Layer, Recess, reached_share, recess, walls_of
 from mechwright_cam.planning.slots import outside_mills
 from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
@@ -96,7 +97,8 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             last = last_mills(last, shapes.keep, path, shapes.must if shapes.open else None, high)
         finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutters need
-            run_out = max(mill.diameter for mill in last) + job.settings.stock_to_leave + HEAVY
+            run_out = max(mill.diameter + lead_length(mill, job.settings) for mill in last)
+            run_out += job.settings.stock_to_leave + HEAVY
             shapes = recess(job, feature, run_out, bottom)
         zone = Zone(
             feature.name,

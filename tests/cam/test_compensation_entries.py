@@ -1,0 +1,39 @@
+"""Entries of cutter compensation at recesses that are open at the plate's edge: there is air to begin in."""
+
+import math
+
+import pytest
+from golden_compensation import WAYS
+from planning_parts import job, plate, rounded_box
+
+from mechwright.geometry import Loop, circle
+from mechwright.part import Pocket, Profile
+from mechwright_cam.planning import plan
+from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.proof import prove
+
+OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
+ROUND = Loop((circle((0.0, 0.0), 10.0),))
+"""Around (0, 0); the plate ends 20 mm above it."""
+SQUARE = rounded_box(16, 16, 3)
+
+
+@pytest.mark.parametrize("mill", ["mill-4", "mill-8"])
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize(
+    "loop",
+    [
+        ROUND.moved(0.0, 10.5, 0.0),  # just through the edge
+        ROUND.moved(0.0, 14.0, 0.0),
+        ROUND.moved(0.0, 20.0, 0.0),  # half of it
+        ROUND.moved(26.0, 16.0, 0.0),  # over a corner
+        SQUARE.moved(0.0, 16.0, 0.0),
+        SQUARE.moved(0.0, 16.0, math.pi / 5),
+    ],
+    ids=["notch", "most", "half", "corner", "square", "turned"],
+)
+def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str) -> None:
+    one = job(plate(machined=(Pocket("recess", loop, (), 0.0, 2.0), OUTSIDE)), mill, compensation=way)
+    program = plan(one)
+    prove(LinuxCncPost().write(program), one).require()
+    assert "recess: finish" in {o.name for section in program.sections for o in section.operations}
