@@ -40,6 +40,11 @@ LEAST_TURN = 0.05
 large D is: on a smaller one rounding to three decimals would change its direction by degrees."""
 
 
+def wear_margin(settings: CamSettings) -> float:
+    """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
+    return 0.0 if settings.compensation == "computer" else settings.wear_limit + LEAST_TURN
+
+
 @dataclass(frozen=True)
 class Clamp:
     """A round clamp on the part that the cutter and its holder must go around or over."""
@@ -145,8 +150,8 @@ class Job:
 
     @property
     def wear_margin(self) -> float:
-        """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
-        return 0.0 if self.settings.compensation == "computer" else self.settings.wear_limit + LEAST_TURN
+        """That of the settings, see :func:`wear_margin`."""
+        return wear_margin(self.settings)
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:

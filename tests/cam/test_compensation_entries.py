@@ -37,3 +37,17 @@ def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str)
     program = plan(one)
     prove(LinuxCncPost().write(program), one).require()
     assert "recess: finish" in {o.name for section in program.sections for o in section.operations}
+
+
+def test_the_mill_that_finishes_reaches_into_corners_with_the_largest_d() -> None:
+    """By its radius alone mill-1.2 would do for corners of 0.62 mm, but not with 0.1 mm of wear."""
+    boxes = {
+        0.62: rounded_box(10, 10, 0.62).moved(-12, 0, 0),
+        0.56: rounded_box(10, 10, 0.56).moved(12, 0, 0),
+    }
+    recesses = [Pocket(f"r{radius:g}", loop, (), 0.0, 1.4) for radius, loop in boxes.items()]
+    one = job(plate(machined=(*recesses, OUTSIDE)), "mill-6", "mill-1.2", "mill-0.8", compensation="control")
+    program = plan(one)
+    prove(LinuxCncPost().write(program), one).require()
+    last = {o.name: s.tool.name for s in program.sections for o in s.operations if "finish" in o.name}
+    assert last["r0.62: finish"] == last["r0.56: finish"] == "mill-0.8"

@@ -167,6 +167,16 @@ def test_flattening_repeats_no_corner():
     assert step.min() > 0
 
 
+@pytest.mark.parametrize("length", [1e-15, -1e-15, 1e-9, -1e-9])
+def test_segments_of_next_to_no_length_do_not_fold_the_polygon(length):
+    """The short ends of a slot whose corners are half as wide as it: rounding decides which way they go."""
+    right, left = Arc((5.0, 0.0), 2.0, -math.pi / 2, math.pi), Arc((-5.0, 0.0), 2.0, math.pi / 2, math.pi)
+    ends = Line(right.end, (5.0, 2.0 + length)), Line((5.0, 2.0 + length), (-5.0, 2.0))
+    corners = Loop((right, *ends, left, Line(left.end, right.start))).flatten()
+    assert shapely.Polygon(corners).is_valid
+    assert np.hypot(*(corners - np.roll(corners, 1, axis=0)).T).min() > 1e-7
+
+
 def test_comparison_of_outlines_sees_what_differs():
     outline = plate()
     assert_same_outline(outline, outline.polygon(1e-5))

@@ -11,8 +11,8 @@ from mechwright.cutter import cutter, makes_floor
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import PathSettings, Tool
-from mechwright_cam.job import Job
+from mechwright.tooling import CamSettings, PathSettings, Tool
+from mechwright_cam.job import Job, wear_margin
 from mechwright_cam.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.toolpath.offsets import polygons
 from mechwright_cam.toolpath.path import rounded
@@ -62,7 +62,7 @@ def radius_in(mill: Tool, height: float) -> float:
 def last_mills(
     mills: Sequence[Tool],
     keep: shapely.Geometry,
-    path: PathSettings,
+    settings: CamSettings,
     near: shapely.Geometry | None = None,
     height: float = math.inf,
 ) -> list[Tool]:
@@ -73,7 +73,7 @@ def last_mills(
     """
     last: list[Tool] = []
     for nose in sorted({mill.nose for mill in mills}):
-        best = finishing_choice([mill for mill in mills if mill.nose <= nose], keep, path, near, height)
+        best = finishing_choice([mill for mill in mills if mill.nose <= nose], keep, settings, near, height)
         if not last or radius_in(best, height) < radius_in(last[-1], height):
             last.append(best)
     return last
@@ -109,7 +109,7 @@ def same_reach(path: PathSettings) -> float:
 def finishing_choice(
     mills: Sequence[Tool],
     keep: shapely.Geometry,
-    path: PathSettings,
+    settings: CamSettings,
     near: shapely.Geometry | None = None,
     height: float = math.inf,
 ) -> Tool:
@@ -117,8 +117,9 @@ def finishing_choice(
 
     Only the walls ``near`` a shape count, if one is given; they are ``height`` mm high.
     """
-    mills = sorted(mills, key=lambda mill: -radius_in(mill, height))
-    return mills[_largest_as_good(keep, tuple(radius_in(mill, height) for mill in mills), path, near)]
+    mills, wear = sorted(mills, key=lambda mill: -radius_in(mill, height)), wear_margin(settings)
+    reach = tuple(radius_in(mill, height) + wear for mill in mills)
+    return mills[_largest_as_good(keep, reach, settings.path, near)]
 
 
 @lru_cache(maxsize=64)

@@ -11,7 +11,7 @@ import shapely
 from mechwright.errors import DesignError, GeometryError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
-from mechwright_cam.job import Job
+from mechwright_cam.job import Job, wear_margin
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.centre_lines import groove_mill
@@ -194,16 +194,14 @@ def _finest_needed(
 
     No mill below ``corner_mill`` is taken for the sake of sharp corners.
     """
-    path, most = settings.path, same_reach(settings.path)
+    most, more = same_reach(settings.path), settings.path.bias + wear_margin(settings)
     # What a mill leaves only shrinks with its size.
-    clean = bisect_left(
-        mills, True, key=lambda mill: leaves_at_most(keep, mill.radius + path.bias, most, near)
-    )
+    clean = bisect_left(mills, True, key=lambda mill: leaves_at_most(keep, mill.radius + more, most, near))
     for mill in mills[clean:]:
         if fits(mill):
             return mill
     fitting = [mill for mill in mills if fits(mill)]
-    return finishing_choice(_worthwhile(fitting, keep, settings.corner_mill, near), keep, path, near)
+    return finishing_choice(_worthwhile(fitting, keep, settings.corner_mill, near), keep, settings, near)
 
 
 FITS = 0.9

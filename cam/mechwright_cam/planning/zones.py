@@ -94,7 +94,7 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
                 )
             able, mills = mills, roomy_mills(mills, shapes.must)
             last = with_sharper(able, mills, lambda mill: reached(mill) >= SCRATCH)
-            last = last_mills(last, shapes.keep, path, shapes.must if shapes.open else None, high)
+            last = last_mills(last, shapes.keep, job.settings, shapes.must if shapes.open else None, high)
         finisher = last[-1]
         if shapes.open:  # once more, to run out no further than the finishing cutters need
             run_out = max(mill.diameter + lead_length(mill, job.settings) for mill in last)
@@ -179,7 +179,7 @@ def floor_mills(
             "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
         )
     fit = roomy_mills(fit, shapes.must)
-    return [finishing_choice(fit, shapes.keep, path, shapes.must if shapes.open else None)], False
+    return [finishing_choice(fit, shapes.keep, job.settings, shapes.must if shapes.open else None)], False
 
 
 def outer_zones(job: Job) -> list[Zone]:
@@ -207,7 +207,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         mills = roughing_mills(job, able, part)
         mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
         clear, channel = _channel(job, part, mills[0])
-        last = last_mills(mills, part, path)
+        last = last_mills(mills, part, job.settings)
         finisher = last[-1]
 
         layer = partial(

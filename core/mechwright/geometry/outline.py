@@ -83,7 +83,10 @@ class Loop:
         return corners
 
     def _flattened(self, tolerance: float) -> Array:
-        return np.concatenate([segment.flatten(tolerance)[:-1] for segment in self.segments])
+        corners = np.concatenate([segment.flatten(tolerance)[:-1] for segment in self.segments])
+        # A segment of next to no length would fold the polygon back on itself by a rounding error.
+        apart = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) > TOLERANCES.closure
+        return corners if apart.all() else corners[apart]
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "Loop":
         """The loop turned about the origin, then shifted."""
