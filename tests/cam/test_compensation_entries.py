@@ -18,7 +18,7 @@ ROUND = Loop((circle((0.0, 0.0), 10.0),))
 SQUARE = rounded_box(16, 16, 3)
 
 
-@pytest.mark.parametrize("mill", ["mill-4", "mill-8"])
+@pytest.mark.parametrize(("mill", "leave"), [("mill-4", 0.05), ("mill-8", 0.2)])
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize(
     "loop",
@@ -32,8 +32,9 @@ SQUARE = rounded_box(16, 16, 3)
     ],
     ids=["notch", "most", "half", "corner", "square", "turned"],
 )
-def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str) -> None:
-    one = job(plate(machined=(Pocket("recess", loop, (), 0.0, 2.0), OUTSIDE)), mill, compensation=way)
+def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str, leave: float) -> None:
+    recess = Pocket("recess", loop, (), 0.0, 2.0)
+    one = job(plate(machined=(recess, OUTSIDE)), mill, compensation=way, stock_to_leave=leave)
     program = plan(one)
     prove(LinuxCncPost().write(program), one).require()
     assert "recess: finish" in {o.name for section in program.sections for o in section.operations}

@@ -124,7 +124,8 @@ def lead_to(radius: float, straight: float, rise: float) -> Lead | None:
 
 def leads(offsets: Offsets, radius: float, allowance: float) -> list[Lead]:
     """Leads to try for a tool of ``radius``, roomy ones first; the last start just outside the allowance."""
-    rises = (radius, radius / 2, 2 * allowance, allowance)
+    least = offsets.straight - offsets.planned
+    rises = sorted({radius, radius / 2, 2 * allowance, least, allowance}, reverse=True)
     wide = radius if offsets.planned == 0 else offsets.straight + radius / 2
     long = max(offsets.straight, radius / 2)
     turns = dict.fromkeys(max(turn, offsets.straight) for turn in (wide, wide / 2, offsets.straight))
