@@ -77,18 +77,17 @@ def along(rest: Shape, play: float, job: Job, band: Band, mills: Sequence[Tool],
 
 
 def _makers(feature: Pocket, mills: Sequence[Tool]) -> list[Tool]:
-    """The mills that may make a groove, the sharpest first: of a plain floor no narrower one is sharper."""
+    """The mills that may make a groove in one: none if a narrower one could make it better."""
     if feature.floor_radius > 0:
-        return [tool for tool in mills if makes_floor(tool, feature.floor_radius)]
+        able = [tool for tool in mills if makes_floor(tool, feature.floor_radius)]
+        return sorted(able, key=lambda tool: tool.radius)[:1]
     wide = [(float(cutter(tool).radius_at(feature.depth)), tool) for tool in mills]
-    return sorted(
-        (
-            tool
-            for radius, tool in wide
-            if not any(other.nose < tool.nose and narrow < radius for narrow, other in wide)
-        ),
-        key=lambda tool: tool.nose,
-    )
+    best = [
+        tool
+        for radius, tool in wide
+        if not any(other.nose < tool.nose and narrow < radius for narrow, other in wide)
+    ]
+    return sorted(best, key=lambda tool: tool.nose)
 
 
 def _recesses(job: Job, band: Band) -> list[Pocket]:
