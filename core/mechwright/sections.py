@@ -126,22 +126,34 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten, steps: int = STE
 
 def _layers(part: Part, tolerance: float, extra: Sequence[float] = ()) -> tuple[Section, ...]:
     """The layers without fillets; ``extra`` are more depths to divide at."""
+    assert part.outline is not None  # noqa: S101 - asked of plates only
+    return cut_layers(part.outline.polygon(tolerance), blind(part), part.thickness, tolerance, extra)
+
+
+def cut_layers(
+    whole: "shapely.Geometry",
+    features: Sequence[Feature],
+    depth: float,
+    tolerance: float = TOLERANCES.flatten,
+    extra: Sequence[float] = (),
+) -> tuple[Section, ...]:
+    """The layers of a plate of the plan view ``whole`` down to a depth, mm, less its features.
+
+    Fillets on floors are left out; ``extra`` are more depths to divide at.
+    """
     import shapely
 
-    assert part.outline is not None  # noqa: S101 - asked of plates only
-    partial = blind(part)
-    heights = {0.0, part.thickness, *extra}
-    for feature in partial:
-        heights |= {float(feature.top), float(min(feature.top + feature.depth, part.thickness))}
-    whole = part.outline.polygon(tolerance)
-    views = [plan_view(feature, tolerance) for feature in partial]
+    heights = {0.0, depth, *extra}
+    for feature in features:
+        heights |= {float(feature.top), float(min(feature.top + feature.depth, depth))}
+    views = [plan_view(feature, tolerance) for feature in features]
     layers = []
-    for top, bottom in pairwise(sorted(h for h in heights if 0 <= h <= part.thickness)):
+    for top, bottom in pairwise(sorted(h for h in heights if 0 <= h <= depth)):
         if bottom - top <= TOLERANCES.closure:
             continue
         middle = (top + bottom) / 2
         shape = whole
-        for feature, view in zip(partial, views, strict=True):
+        for feature, view in zip(features, views, strict=True):
             if feature.top < middle < feature.top + feature.depth:
                 outside = isinstance(feature, Profile) and feature.side == "outside"
                 shape = shapely.intersection(shape, view) if outside else shapely.difference(shape, view)

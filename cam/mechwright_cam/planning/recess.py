@@ -13,7 +13,6 @@ around
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 
 import shapely
 
@@ -107,19 +106,12 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
         and shapely.intersects(plan_view(other), around)
     ]
     plate = areas(shapely.intersection(job.target, around))
-    heights = {0.0, floor, *(z for one in beside for z in (one.top, one.top + one.depth) if z < floor)}
     layers: list[Layer] = []
-    for bottom, top in pairwise(sorted(heights, reverse=True)):
-        if bottom - top > LEVEL:
-            gone = [
-                plan_view(other)
-                for other in beside
-                if other.top <= top + LEVEL and other.top + other.depth >= bottom - LEVEL
-            ]
-            wall = _without_skin(areas(shapely.difference(plate, shapely.union_all(gone))))
-            if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
-                wall = layers.pop()[1]
-            layers.append((floor - top, wall))
+    for section in reversed(sections.cut_layers(plate, beside, floor)):
+        wall = _without_skin(areas(section.shape))
+        if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
+            wall = layers.pop()[1]
+        layers.append((floor - section.top, wall))
     return tuple(layers)
 
 
