@@ -87,7 +87,8 @@ class Job:
     gone
         What of the plate earlier setups have cut away, by height; higher regions lie in lower ones.
     pick_up
-        Middle of the bore by which a plate that has been turned over is picked up, work coordinates.
+        Middle of the bore, or of the two dowels, by which a plate that has been turned over is picked up,
+        work coordinates.
     """
 
     part: Part
@@ -100,7 +101,7 @@ class Job:
     jaws: tuple[Jaw, ...] = ()
     side: Literal["top", "underside"] = "top"
     gone: tuple[Air, ...] = ()
-    pick_up: Point | None = None
+    pick_up: tuple[Point, ...] = ()
 
     @property
     def thickness(self) -> float:
@@ -111,6 +112,17 @@ class Job:
     def floor(self) -> float:
         """Depth of through cuts, z in mm."""
         return -self.thickness - self.settings.breakthrough
+
+    @property
+    def datum(self) -> Point:
+        """X and Y of the edges of the stock from which X0 and Y0 are found, mm: left and front.
+
+        When the plate has been turned over they are the same two edges, on its right or rear then: only so
+        do both sides meet in a plate that is not as large as stated.
+        """
+        x0, y0, x1, y1 = self.stock
+        flip = self.settings.second_side.flip if self.side == "underside" else ""
+        return x1 if flip == "y" else x0, y1 if flip == "x" else y0
 
     def air_below(self, z: float) -> shapely.Geometry:
         """Where earlier setups have left nothing below a height z, mm; for 0, where they have cut through."""

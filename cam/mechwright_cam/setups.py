@@ -175,10 +175,14 @@ def _second(
     if job is None or errors(found):
         return None, found
     _check_tabs(first, job)
-    pick_up = None
-    if side.locate == "bore":
-        x, y = turned_point(max(bores, key=lambda bore: bore.diameter).centre, side.flip)
-        pick_up = (x - job.origin[0], y - job.origin[1])
+    located: list[Bore] = []
+    match side.locate:
+        case "bore":
+            located = [max(bores, key=lambda bore: bore.diameter)]
+        case "dowels":
+            located = [bore for bore in bores if bore not in part.features]
+    turned = (turned_point(bore.centre, side.flip) for bore in located)
+    pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
     return replace(job, side="underside", pick_up=pick_up), found
 
 

@@ -17,10 +17,11 @@ from mechwright.findings import errors
 from mechwright.geometry import Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.host import host
-from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.pipeline import _after, machine
+from mechwright_cam.planning import plan
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.setup_sheet import setup_html
@@ -248,8 +249,8 @@ def test_random_underside_pockets_are_proven_or_refused(x, y, width, depth, flip
 def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
     for locate, words in (
         ("bore", "Its axis is X +12.00, Y −4.00 in G55"),
-        ("edges", "on the front edge Y"),
-        ("dowels", "two dowels of 6 mm"),
+        ("edges", "on the rear edge Y +29.00 + r"),
+        ("dowels", "The dowels are at X −45.00, Y 0.00 and X +45.00, Y 0.00 in G55"),
     ):
         hole = Bore("larger", (12.0, 4.0), 14.0, 0.0, THICKNESS)
         outline = Outline(rounded_box(60, 40, 6), (bore(10.0), bore(14.0, (12.0, 4.0))))
@@ -261,6 +262,31 @@ def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
         assert "Turn the plate over about the X axis: its front edge goes to the rear" in said
         assert words in said, said
         assert "G10 L2 P2 Z" in said
+        assert ("Indicate what was the rear edge, now in front" in said) == (locate != "dowels")
+
+
+@pytest.mark.parametrize("flip", ["x", "y"])
+@pytest.mark.parametrize("origin", ["axis", "corner", "centre"])
+def test_both_sides_are_found_from_the_same_two_edges_of_a_plate_of_any_size(flip, origin) -> None:
+    wanted = cam(origin=origin, second_side={"locate": "edges", "flip": flip})
+    jobs, found = lay_out_setups(part(CORNER), wanted, LIBRARY)
+    assert not errors(found)
+    corner = turned_shape(shapely.Point(jobs[0].datum), *jobs)
+    assert (corner.x, corner.y) == pytest.approx(jobs[1].datum)
+    page = setup_html([(jobs[1], plan(jobs[1]), None)])
+    assert ("Left edge of stock", "Right edge of stock")[flip == "y"] in page
+    assert "part 60" not in page, "the part is not what the plate has turned into"
+
+
+def test_every_turned_plate_is_picked_up_but_on_dowels() -> None:
+    three = replace(part(CORNER), instances=(Instance("a"), Instance("b"), Instance("c")))
+    for locate, words in (
+        ("bore", "Make 3. Pick up G55 X and Y on every further plate"),
+        ("dowels", "Make 3. A further plate on the same dowels keeps G55 X and Y"),
+    ):
+        jobs, _ = lay_out_setups(three, cam(second_side={"locate": locate}), LIBRARY)
+        said = steps(jobs[1], [3], file_names=["bracket-underside.nc"], deepest=-3.0)[-1].lines
+        assert any(words in line for line in said), said
 
 
 def test_the_picture_of_the_underside_shows_what_is_gone() -> None:

@@ -14,7 +14,7 @@ from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.compensation import d_offsets, value
 from mechwright_cam.setup_sheet.levels import side_view
-from mechwright_cam.setup_sheet.procedure import origin_words, quantity, steps
+from mechwright_cam.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
 from mechwright_cam.svg import signed
 from mechwright_cam.trace import trace
 
@@ -110,6 +110,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence
             offsets=tuple(offsets.values()),
         ),
         "origin": origin_words(job),
+        "edges": datum_edges(job),
         "quantity": quantity(job),
         "by_hand": not DIALECTS.get(job.settings.control, LINUXCNC).length_table,
         # Our own markup; all text in it is escaped where it is made.
