@@ -233,6 +233,20 @@ def test_turning_saves_stock():
     assert areas[0] < 0.6 * areas[1]
 
 
+@pytest.mark.parametrize("stock", [{}, {"length": 3000, "width": 1000}])
+@pytest.mark.parametrize("travel", [(500, 400), (250, 1000)])
+def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel):
+    machine = {"travel_x": travel[0], "travel_y": travel[1]}
+    nest = nest_of("nest", [box("link", 60, 24, 30)], CamSettings(machine=machine, stock=stock), 16.0)
+    x0, y0, x1, y1 = nest.outline.bounds
+    assert x1 - x0 + 16 <= travel[0]
+    assert y1 - y0 + 16 <= travel[1]
+    # None fits: it is no strip of stock a mile long that is refused.
+    many = nest_of("nest", [box("link", 60, 24, 200)], CamSettings(machine=machine, stock={}), 16.0)
+    x0, y0, x1, y1 = many.outline.bounds
+    assert max(x1 - x0, y1 - y0) < 2 * max(travel)
+
+
 PLATE = "[cam.stock]\nlength = 120\nwidth = 90\n"
 OWN = '[cam.part.gear]\norigin = "corner"\n'
 BAD = {
@@ -244,6 +258,7 @@ BAD = {
     "[cam.nest]\nspace = 1\n": "cam.nest: unknown key 'space'",
     "[cam.nest]\n" + PLATE: "cam.stock: the 2 parts of nest do not fit on 120 x 90 mm",
     "[cam.nest]\ngap = 2\n": "cam.nest.gap: 2.00 mm between the parts of nest leave no frame",
+    '[cam.nest]\n[cam.stock]\nfinished = ["left"]\n': "cam.stock.finished: the parts of nest hang by tabs",
     '[cam.nest]\n[cam.hold]\nmethod = "bore"\n': "cam.hold.method: the 2 parts of nest",
     '[cam.nest]\nparts = ["gear"]\n' + OWN: "cam.part.gear: the part is cut in the nest",
     "[cam.part.gear]\nnest = { gap = 3 }\n": "cam.part.gear.nest: holds for the whole job",

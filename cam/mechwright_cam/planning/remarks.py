@@ -17,6 +17,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS, CamSettings, Tool
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
+from mechwright_cam.nest import Nest
 from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.centre_lines import grooves
 from mechwright_cam.planning.choice import long_enough, roughers
@@ -118,7 +119,7 @@ def _travel(job: Job) -> list[Finding]:
             wanted,
             travel,
             "mm",
-            "take a larger machine",
+            "take a larger machine" + (", or nest fewer parts" if isinstance(job.part, Nest) else ""),
         )
         for axis, wanted, travel in axes
         if wanted > travel

@@ -206,12 +206,12 @@ def _second_plane(job: Job, offset: str) -> Step:
                 f"Indicate the largest bore to 0.01 mm. Its axis is X {signed(x)}, Y {signed(y)} in {offset}."
             )
         case "edges":
-            x, y = datum_edges(job)
+            one, two = datum_edges(job)
             how = (
-                f"The {x.name} edge is X {signed(x.at)}, the {y.name} edge is Y {signed(y.at)}: they are the "
-                "first side's left and front edges, so that the plate's true size does not matter. With an "
-                f"edge finder of radius r: on the {x.name} edge X reads {x.reads}, on the {y.name} edge "
-                f"Y {y.reads}."
+                f"The {one.name} edge is X {signed(one.at)}, the {two.name} edge is Y {signed(two.at)}: they "
+                "are the first side's left and front edges, so that the plate's true size does not matter. "
+                f"With an edge finder of radius r: on the {one.name} edge X reads {one.reads}, on the "
+                f"{two.name} edge Y {two.reads}."
             )
     return Step(f"Set {offset} X and Y", (how,))
 
