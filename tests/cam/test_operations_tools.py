@@ -127,3 +127,16 @@ def test_the_setup_sheet_names_kind_and_coating():
     assert describe(changed(LIBRARY.get("mill-6"), coating="TiAlN")) == "end mill ⌀6, TiAlN, 3 flutes"
     assert describe(LIBRARY.get("bull-6-r1")).startswith("bull nose ⌀6")
     assert describe(LIBRARY.get("chamfer-6")) == "chamfer mill ⌀6, 90° point"
+
+
+def test_the_spindle_slows_down_where_the_machine_feeds_too_slowly():
+    mill = LIBRARY.get("mill-12")
+    data = mill.cutting["aluminium"]
+    full = rates(mill, "aluminium", Machine())
+    assert full.chip == data.chip_load
+    for share, speed in ((0.8, 0.8), (0.5, 0.5), (0.3, 0.5)):
+        slow = rates(mill, "aluminium", Machine(max_feed=share * full.feed))
+        assert slow.spindle == pytest.approx(speed * full.spindle, rel=1e-3)
+        assert slow.feed == pytest.approx(share * full.feed, abs=1)
+        assert slow.chip == pytest.approx(data.chip_load * share / speed, rel=2e-3)
+        assert slow.feed == pytest.approx(slow.chip * mill.flutes * slow.spindle, abs=1.1)

@@ -14,7 +14,7 @@ from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
 from mechwright.part import Part
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, CamSettings, Tool
+from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest
@@ -23,7 +23,7 @@ from mechwright_cam.planning.centre_lines import grooves
 from mechwright_cam.planning.choice import long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import plan_bore
-from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.rates import Rates, rates
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.planning.zone import Zone
 from mechwright_cam.planning.zones import bores, check_clamp, inner_zones, outer_zones
@@ -38,7 +38,7 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     """Find what stands in the way of cutting a part, and what is worth knowing about its cutters.
 
     Errors: a tool that is not in the library, a wall, bore or opening that no listed cutter makes, a clamp or
-    stock in the way. Warnings: a cutter that cannot run at its cutting speed on this machine, a listed tool
+    stock in the way. Warnings: a cutter that this machine runs too fast or feeds too slowly, a listed tool
     without data for the material. Notes: slender cutters, and stock that stays in corners.
     """
     return lay_out(part, settings, library)[1]
@@ -202,7 +202,8 @@ def _remarks(job: Job) -> list[Finding]:
                 )
             )
             continue
-        speed = rates(tool, material, machine).spindle
+        planned = rates(tool, material, machine)
+        speed = planned.spindle
         if (
             speed <= machine.spindle_min
             and speed * tool.diameter * math.pi > 1000 * data.cutting_speed * 1.01
@@ -219,6 +220,7 @@ def _remarks(job: Job) -> list[Finding]:
                     "take a smaller tool",
                 )
             )
+        found += _rubbing(tool, data, planned)
         deep = tool.nose - job.floor
         if tool.kind in MILLS and deep > SLENDER * tool.diameter:
             found.append(
@@ -261,6 +263,29 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
             100 * MOSTLY,
             "%",
             "list a smaller end mill",
+        )
+    ]
+
+
+RUBS = 0.5
+"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
+
+
+def _rubbing(tool: Tool, data: CuttingData, planned: Rates) -> list[Finding]:
+    """Whether the machine feeds so slowly that the teeth take next to nothing."""
+    if planned.chip >= RUBS * data.chip_load:
+        return []
+    return [
+        Finding(
+            "cam.rubbing",
+            Severity.WARNING,
+            "cam.machine.max_feed",
+            f"{tool.name} gets {planned.chip:.3f} mm per tooth at {planned.spindle:.0f} rev/min, not the "
+            f"{data.chip_load:g} mm of its chip load, and rubs",
+            planned.chip,
+            RUBS * data.chip_load,
+            "mm",
+            "take a smaller cutter or one with fewer flutes, or a slower spindle if the machine has one",
         )
     ]
 
