@@ -36,7 +36,7 @@ from mechwright_cam.toolpath.offsets import (
     thinned,
 )
 from mechwright_cam.toolpath.path import DECIMALS
-from mechwright_cam.vice import CLAMP_GAP, beside
+from mechwright_cam.vice import CLAMP_GAP, beside, can_be_clamped
 
 
 def through(job: Job, depth: float) -> bool:
@@ -269,7 +269,8 @@ def roughing_mills(
     margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
     raise DesignError(
         f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
-        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm, or hold by the bore"
+        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm"
+        + (", or hold by the bore" if can_be_clamped(job.part) and not isinstance(job.part, Nest) else "")
     )
 
 
