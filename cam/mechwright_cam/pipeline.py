@@ -1,7 +1,7 @@
 """From a design to drawings and proven programs: the order in which the CAM stage works."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast, get_args
 
@@ -291,7 +291,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 def verify(
     design: Design,
     part: Part,
-    text: str,
+    text: str | Mapping[str, str],
     host: Host | None = None,
     control: str = "",
     *,
@@ -299,8 +299,8 @@ def verify(
 ) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand.
 
-    It is read as ``control`` reads it, or else the control of the design file. It cuts the first side of the
-    part, or its underside.
+    It is one text, or several files by name in the order they are run. It is read as ``control`` reads it, or
+    else the control of the design file. It cuts the first side of the part, or its underside.
     """
     dialect = LINUXCNC
     if host is not None:
