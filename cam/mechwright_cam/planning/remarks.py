@@ -1,7 +1,7 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -9,7 +9,7 @@ import shapely
 
 from mechwright.cutter import SAME_RADIUS
 from mechwright.errors import MechwrightError, ToolError
-from mechwright.findings import Finding, Severity
+from mechwright.findings import Finding, Severity, errors
 from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
 from mechwright.part import Part
@@ -26,7 +26,7 @@ from mechwright_cam.planning.holes import plan_bore
 from mechwright_cam.planning.rates import Rates, rates
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.planning.zone import Zone
-from mechwright_cam.planning.zones import bores, check_clamp, inner_zones, outer_zones
+from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
 from mechwright_cam.reach import remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow
 
@@ -71,7 +71,8 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
         else:
             # Of the chosen cutters a wider one has turned out to be as good.
             job = replace(job, tools=tuple(tool for tool in job.tools if tool not in idle))
-    return job, found + _travel(job) + _remarks(job)
+    depths = _depths(job, zones) if not errors(found) else {}
+    return job, found + _travel(job) + _remarks(job, depths)
 
 
 def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
@@ -82,6 +83,26 @@ def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
     used |= {mill.name for mills in milling for mill in mills}
     used |= {mill.name for mill in grooves(job).values()}
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
+
+
+def _depths(job: Job, zones: list[Zone]) -> dict[str, float]:
+    """How deep below the top of the stock each mill cuts, mm, by its name."""
+    deep: dict[str, float] = {}
+
+    def goes(mill: Tool, bottom: float) -> None:
+        deep[mill.name] = max(deep.get(mill.name, 0.0), -bottom)
+
+    for bore in bores(job):
+        mill = plan_bore(job, bore).mill
+        if mill is not None:
+            goes(mill, bottom_of(job, bore.top, bore.depth))
+    for zone in zones:
+        for mill in (*roughers(zone.mills, zone.last_mills), *zone.last_mills):
+            goes(mill, zone.bottom_for(mill))
+    features = {feature.name: feature for feature in job.features}
+    for name, mill in grooves(job).items():
+        goes(mill, bottom_of(job, features[name].top, features[name].depth))
+    return deep
 
 
 def _unused(job: Job, mill: Tool) -> Finding:
@@ -186,7 +207,8 @@ def _fillet(job: Job, zone: Zone) -> list[Finding]:
     ]
 
 
-def _remarks(job: Job) -> list[Finding]:
+def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
+    """What is worth knowing of the cutters; one whose depth is not known is taken to cut through."""
     found = []
     machine, material = job.settings.machine, job.part.material
     for tool in job.tools:
@@ -221,7 +243,7 @@ def _remarks(job: Job) -> list[Finding]:
                 )
             )
         found += _rubbing(tool, data, planned)
-        deep = tool.nose - job.floor
+        deep = depths.get(tool.name, tool.nose - job.floor)
         if tool.kind in MILLS and deep > SLENDER * tool.diameter:
             found.append(
                 Finding(
@@ -234,7 +256,7 @@ def _remarks(job: Job) -> list[Finding]:
                     "",
                 )
             )
-            found += _bending(job, tool)
+            found += _bending(job, tool, deep)
         found += _figures(tool, material)
     return found
 
@@ -290,9 +312,8 @@ def _rubbing(tool: Tool, data: CuttingData, planned: Rates) -> list[Finding]:
     ]
 
 
-def _bending(job: Job, tool: Tool) -> list[Finding]:
-    """Whether a slender mill bends too much; the deepest cut counts."""
-    deep = tool.nose - job.floor
+def _bending(job: Job, tool: Tool, deep: float) -> list[Finding]:
+    """Whether a slender mill bends too much in its deepest cut."""
     bent = deflection(tool, job.part.material, deep)
     if bent <= MOST:
         return []
