@@ -172,8 +172,15 @@ class Job:
         return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
 
 
-def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
+def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
     """Lay a plate part into its stock and decide how it is held.
+
+    Parameters
+    ----------
+    part, settings, tools
+        What is made, and with what.
+    below
+        Features that a second setup cuts from the underside: tabs stay clear of them.
 
     Raises
     ------
@@ -212,7 +219,8 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
             'edge; use hold.method = "vice" or "bore"'
         )
     x0, y0, _, _ = placed.target.bounds
-    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1])))
+    barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
+    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred))
 
 
 def _clamp(job: Job) -> Clamp:

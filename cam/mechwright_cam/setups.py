@@ -118,14 +118,14 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
         job, found = lay_out(part, settings, library)
         return ([] if job is None else [job]), found
     first = replace(part, machined=upper)
-    job, found = lay_out(first, settings, library)
+    job, found = lay_out(first, settings, library, under)
     if job is None:
         return [], found
     try:
         if settings.second_side.locate == "dowels":
             settings = _with_room(job)
             first = replace(part, machined=(*_dowels(job, settings), *upper))
-            job, found = lay_out(first, settings, library)
+            job, found = lay_out(first, settings, library, under)
             if job is None:
                 return [], found
         second, more = _second(job, part, under, library)
@@ -174,7 +174,6 @@ def _second(
     job, found = lay_out(over, settings, library)
     if job is None or errors(found):
         return None, found
-    _check_tabs(first, job)
     located: list[Bore] = []
     match side.locate:
         case "bore":
@@ -184,17 +183,6 @@ def _second(
     turned = (turned_point(bore.centre, side.flip) for bore in located)
     pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
     return replace(job, side="underside", pick_up=pick_up), found
-
-
-def _check_tabs(first: Job, second: Job) -> None:
-    """Nothing on the underside may cut the tabs, by which the part still hangs in the plate."""
-    for feature in second.features:
-        for tab in first.tabs:
-            if shapely.intersects(inside_of(feature), turned_shape(tab.shape, first, second)):
-                raise DesignError(
-                    f"cam.hold.tabs: {feature.name} on the underside of part {first.part.name} would cut a "
-                    "tab; take another number of tabs"
-                )
 
 
 def turned_shape(shape: shapely.Geometry, first: Job, second: Job) -> shapely.Geometry:

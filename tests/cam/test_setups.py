@@ -14,10 +14,10 @@ from plate_shapes import many_spans, wavy
 
 from mechwright.errors import DesignError
 from mechwright.findings import errors
-from mechwright.geometry import Outline
+from mechwright.geometry import Line, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.host import host
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.pipeline import _after, machine
@@ -206,10 +206,30 @@ def test_a_part_without_a_bore_cannot_be_picked_up_by_it() -> None:
     assert len(jobs) == 2
 
 
-def test_a_tab_is_not_cut_from_below() -> None:
-    groove = Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0)
-    jobs, found = lay_out_setups(part(groove), cam(), LIBRARY)
-    assert "would cut a tab" in errors(found)[0].message
+STEP_BELOW = OpenProfile("step", 5.0, 3.0, path=(Line((-40.0, 12.0), (40.0, 12.0)),), side="left", width=12.0)
+
+
+@pytest.mark.parametrize("tabs", [2, 3, 4, 7])
+@pytest.mark.parametrize(
+    "feature",
+    [Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0), STEP_BELOW],
+    ids=["groove", "step"],
+)
+def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
+    first, second = both(part(feature), hold={"tabs": tabs})
+    assert len(first.job.tabs) == tabs
+    for tab in first.job.tabs:
+        below = turned_shape(tab.shape, first.job, second.job)
+        assert not any(shapely.intersects(inside_of(one), below) for one in second.job.features)
+    # They hold it from more than one side.
+    middle = shapely.MultiPoint([tab.at for tab in first.job.tabs])
+    assert tabs < 3 or middle.convex_hull.area > 0.1 * first.job.target.area
+
+
+def test_a_face_below_leaves_no_place_for_tabs() -> None:
+    face = Pocket("face", rounded_box(80, 60, 3), (), 7.0, 1.0)
+    jobs, found = lay_out_setups(part(face), cam(), LIBRARY)
+    assert "face on the underside of part bracket leaves too little" in errors(found)[0].message
     assert jobs == []
 
 

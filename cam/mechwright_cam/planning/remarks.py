@@ -1,7 +1,7 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from mechwright.errors import MechwrightError, ToolError
 from mechwright.findings import Finding, Severity, errors
 from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
-from mechwright.part import Part
+from mechwright.part import Feature, Part
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool
 from mechwright_cam.job import Job, make_job
@@ -44,14 +44,18 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     return lay_out(part, settings, library)[1]
 
 
-def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | None, list[Finding]]:
+def lay_out(
+    part: Part, settings: CamSettings, library: Library, below: Sequence[Feature] = ()
+) -> tuple[Job | None, list[Finding]]:
     """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
+
+    Tabs stay clear of the features that are cut from ``below`` later.
 
     The job is None if the cutters cannot be chosen or the part does not fit its stock.
     """
     try:
         tools = choose_tools(part, settings, library)
-        job = make_job(part, settings, tools)
+        job = make_job(part, settings, tools, below)
     except MechwrightError as error:
         return None, [_refusal(error)]
     found: list[Finding] = []
