@@ -180,7 +180,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
     part, settings, tools
         What is made, and with what.
     below
-        Features that a second setup cuts from the underside: tabs stay clear of them.
+        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
 
     Raises
     ------

@@ -124,8 +124,9 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
     try:
         if settings.second_side.locate == "dowels":
             settings = _with_room(job)
-            first = replace(part, machined=(*_dowels(job, settings), *upper))
-            job, found = lay_out(first, settings, library, under)
+            dowels = _dowels(job, settings)
+            first = replace(part, machined=(*dowels, *upper))
+            job, found = lay_out(first, settings, library, (*under, *dowels))
             if job is None:
                 return [], found
         second, more = _second(job, part, under, library)

@@ -125,7 +125,7 @@ def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[T
     reach
         How far they reach outwards, mm; in a nest it is to the middle between two parts.
     below
-        Features that are cut from the underside later, work coordinates: no tab stands there.
+        Features that are cut from the underside later, and dowels, work coordinates: no tab stands there.
 
     Raises
     ------
@@ -320,9 +320,9 @@ def _check_below(job: "Job", below: Sequence[Feature], tabs: list[Tab]) -> None:
         floor = plan_view(feature)
         if any(shapely.intersects(floor, tab.shape) for tab in tabs):
             raise DesignError(
-                f"cam.hold.tabs: {feature.name} on the underside of part {job.part.name} leaves too little "
-                f"of the outside for {len(tabs)} tabs; take fewer or narrower ones, or draw the part the "
-                "other way up"
+                f"cam.hold.tabs: {feature.name}, for the underside of part {job.part.name}, leaves too "
+                f"little of the outside for {len(tabs)} tabs; take fewer or narrower ones, or draw the "
+                "part the other way up"
             )
 
 

@@ -226,10 +226,17 @@ def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
     assert tabs < 3 or middle.convex_hull.area > 0.1 * first.job.target.area
 
 
+def test_tabs_stay_clear_of_dowels() -> None:
+    # Even steps from the ring's start would put a tab where a dowel is: on the flip axis.
+    first, _ = both(part(STEP_BELOW), second_side={"locate": "dowels", "flip": "y"})
+    dowels = [inside_of(f) for f in first.job.features if f.name.startswith("dowel")]
+    assert not any(shapely.intersects(hole, tab.shape) for hole in dowels for tab in first.job.tabs)
+
+
 def test_a_face_below_leaves_no_place_for_tabs() -> None:
     face = Pocket("face", rounded_box(80, 60, 3), (), 7.0, 1.0)
     jobs, found = lay_out_setups(part(face), cam(), LIBRARY)
-    assert "face on the underside of part bracket leaves too little" in errors(found)[0].message
+    assert "face, for the underside of part bracket, leaves too little" in errors(found)[0].message
     assert jobs == []
 
 
