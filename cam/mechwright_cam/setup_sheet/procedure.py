@@ -69,7 +69,11 @@ def steps(
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
         ),
-        *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
+        *(
+            [Step("Set D, and bring the part to size", lines(offsets, job.settings.control))]
+            if offsets
+            else []
+        ),
         _run(job, offset, file_names, touched=touched),
     ]
 
@@ -274,8 +278,7 @@ def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
             f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
             "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
             "Enter Hn = Zn − N as the length (Z) of that tool in the tool table"
-            + (". What goes into D comes below. " if with_d else ", and its diameter. ")
-            + "The table above has room for both.",
+            + (". What goes into D comes below." if with_d else "."),
             "A tool that has its H from another program of the job keeps it.",
             f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
             f"{offset} Z names.",
