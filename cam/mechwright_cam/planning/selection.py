@@ -13,6 +13,7 @@ from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
+from mechwright_cam.limits import height_of
 from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.centre_lines import groove_mill
 from mechwright_cam.planning.choice import (
@@ -60,7 +61,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
     one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Mills
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
-    with cutting data for the material count.
+    with cutting data for the material count, and cutters that get over the part within the machine's travel.
 
     Raises
     ------
@@ -74,6 +75,9 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
+    machine = settings.machine
+    low = [tool for tool in library.tools if height_of(tool, settings, part.thickness) <= machine.travel_z]
+    library = Library(tuple(low)) if low else library  # with none the refusal names the machine
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in outlines_of(part):
