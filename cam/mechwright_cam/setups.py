@@ -170,7 +170,16 @@ def _second(
         build=None,
         details=(),
     )
-    changes = {"work_offset": side.work_offset, "stock": Stock(margin=0.0), "hold": Hold()}
+    # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
+    place = {"x": side.x, "y": side.y, "z": side.z}
+    post = first.settings.post
+    changes = {
+        "work_offset": side.work_offset,
+        "stock": Stock(margin=0.0),
+        "hold": Hold(),
+        "measured": first.settings.measured.model_copy(update=place),
+        "post": post.model_copy(update={"offsets": post.offsets and side.x is not None}),
+    }
     settings = first.settings.model_copy(update=changes)
     job, found = lay_out(over, settings, library)
     if job is None or errors(found):

@@ -1,6 +1,7 @@
 """The second side: which features are on it, how the plate lies then, and that both programs are proven."""
 
 import math
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -303,6 +304,21 @@ def test_both_sides_are_found_from_the_same_two_edges_of_a_plate_of_any_size(fli
     page = setup_html([(jobs[1], plan(jobs[1]), None)])
     assert ("Left edge of stock", "Right edge of stock")[flip == "y"] in page
     assert "part 60" not in page, "the part is not what the plate has turned into"
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "haas", "mach3"])
+def test_the_place_of_the_first_side_is_not_written_into_the_offset_of_the_second(control) -> None:
+    tools = ("spot-6", "drill-8", "mill-6", "mill-4")
+    places = {"x": -300.0, "y": -200.0, "z": -380.0, "lengths": dict.fromkeys(tools, 77.0)}
+    given = {"x": -310.0, "y": -210.0, "z": -381.0}
+    for side, setting in (({}, None), (given, "G10 L2 P2 X-310 Y-210 Z-381")):
+        wanted = {"locate": "edges", **side}
+        first, second = both(
+            part(CORNER), control=control, post={"offsets": True}, measured=places, second_side=wanted
+        )
+        assert re.search(r"G10 L2 P1 X-300\.? Y-200\.? Z-380", first.text)
+        found = re.findall(r"G10 L2 .*", second.text)
+        assert [line.replace(".", "") for line in found] == ([setting] if setting else [])
 
 
 def test_every_turned_plate_is_picked_up_but_on_dowels() -> None:
