@@ -22,6 +22,7 @@ from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
 from mechwright_cam.limits import check_machine
+from mechwright_cam.measured import check_measured
 from mechwright_cam.nest import Nest
 from mechwright_cam.nesting import arranged
 from mechwright_cam.planning import choose_tools, plan
@@ -83,6 +84,7 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
+    findings += check_measured(jobs)
     tops = [job for job in jobs if job.side == "top"]
     if len(tops) == len(cut_parts):
         copies: dict[str, list[shapely.Polygon]] = {}
