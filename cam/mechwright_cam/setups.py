@@ -27,6 +27,7 @@ from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
 from mechwright_cam.proof.bands import inside_of
+from mechwright_cam.thin_floors import thin_floors
 
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
@@ -116,7 +117,7 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
         return [], [_refusal("cam", str(error))]
     if not under:
         job, found = lay_out(part, settings, library)
-        return ([] if job is None else [job]), found
+        return ([], found) if job is None else ([job], [*found, *thin_floors(part, upper, ())])
     first = replace(part, machined=upper)
     job, found = lay_out(first, settings, library, under)
     if job is None:
@@ -133,7 +134,8 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
     except DesignError as error:
         parameter, _, message = str(error).partition(": ")
         return [], [*found, _refusal(parameter, message)]
-    return ([job] if second is None else [job, second]), [*found, *more]
+    thin = thin_floors(part, upper, under)
+    return ([job] if second is None else [job, second]), [*found, *more, *thin]
 
 
 def _refusal(parameter: str, message: str) -> Finding:

@@ -227,6 +227,27 @@ def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
     assert tabs < 3 or middle.convex_hull.area > 0.1 * first.job.target.area
 
 
+def box_at(name, x, top, depth, width=12.0):
+    return Pocket(name, rounded_box(width, 8, 3).moved(x, 8.0), (), top, depth)
+
+
+@pytest.mark.parametrize(
+    ("features", "said"),
+    [
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 2, 4.3, 3.7)), "0.3 mm of part bracket stay between a and b"),
+        ((box_at("a", 0, 0.0, 7.8),), "0.2 mm of part bracket stay between a and the underside"),
+        ((box_at("a", 0, 0.1, 7.9),), "0.1 mm of part bracket stay between the top face and a"),
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 2, 4.6, 3.4)), ""),  # thick enough
+        ((box_at("a", -14, 0.0, 4.0), box_at("b", 14, 4.3, 3.7)), ""),  # beside each other
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 11.5, 4.3, 3.7)), ""),  # they overlap by a ledge
+        ((box_at("a", 0, 0.0, 7.8), box_at("b", 0, 7.8, 0.2)), ""),  # they meet
+    ],
+)
+def test_floors_that_are_too_thin_are_told_of(features, said) -> None:
+    _, found = lay_out_setups(part(*features), cam(), LIBRARY)
+    assert [f.message for f in found if f.code == "cam.thin-floor"] == ([said] if said else [])
+
+
 def test_tabs_stay_clear_of_dowels() -> None:
     # Even steps from the ring's start would put a tab where a dowel is: on the flip axis.
     first, _ = both(part(STEP_BELOW), second_side={"locate": "dowels", "flip": "y"})
