@@ -322,6 +322,10 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     assert not {"gear.nc", "gear.setup.html"} & names
     assert set(json.loads((out / "proof.json").read_text())) == {"nest"}
     sheet = (out / "nest.setup.html").read_text()
+    assert "8 tabs of 2 × 1 mm hold the parts to the end" in sheet
+    drawing = sheet[sheet.index("Plan view of nest") :].partition("</svg>")[0]
+    assert "tab 1" not in drawing, "the names of tabs would hide those of the parts"
+    assert drawing.rindex("<path") < drawing.index(">gear no 1<"), "nothing is drawn over the names"
     assert "Nest of 2: gear no 1, gear no 2" in sheet
     assert "the axis of gear no 1" in sheet
     again = CliRunner().invoke(app, ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"])

@@ -327,12 +327,12 @@ def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> 
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
-        sides = ""
+        sides, what = "", "parts" if isinstance(job.part, Nest) else "part"
         if job.tabs[0].ramped:
             foot = width + 2 * height / job.tabs[0].slope
             sides = f", on slopes that reach {foot:.1f} mm along the wall at the underside,"
         lines.append(
-            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the part to the end. "
+            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the {what} to the end. "
             "Saw them through, and file them flush."
         )
     if job.clamp is not None:
