@@ -168,7 +168,9 @@ def channel_of(group: Iterable[Part], settings: CamSettings, library: Library) -
         job = Job(part, settings, tools, (0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
         mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
         found.append(max(mills, default=0.0))
-    return min(found, default=0.0)
+    # With room for any cutter, laying out the nest comes to what is missing, and not to the gap.
+    widest = max((tool.diameter for tool in library.tools if tool.kind in MILLS), default=0.0)
+    return min(found, default=widest)
 
 
 def nest_of(

@@ -247,6 +247,28 @@ def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel)
     assert max(x1 - x0, y1 - y0) < 2 * max(travel)
 
 
+def test_a_nest_of_parts_that_cannot_be_cut_says_why(tmp_path):
+    file = tmp_path / "pair.toml"
+    file.write_text(PAIR + "[cam.nest]\n")
+    design = load(file, host())
+    over = Engraving("mark", (((-8.0, 0.0), (8.0, 0.0)),), 0.2)
+    recess = Pocket("recess", rounded_box(10, 8, 3), (), 0.0, 1.5)
+    rim = Profile("outside", rounded_box(40, 30, 4), "outside", 0.0, 3.0)
+    one = Part(
+        "plate",
+        Outline(rounded_box(40, 30, 4)),
+        3.0,
+        "aluminium",
+        (Instance("a"), Instance("b")),
+        machined=(recess, rim),
+        details=(over,),
+    )
+    found = pipeline.prepare(design, [one])[0]
+    (refusal,) = [f for f in found if f.severity == "error"]
+    assert "mark" in refusal.message, refusal
+    assert "gap" not in refusal.parameter
+
+
 PLATE = "[cam.stock]\nlength = 120\nwidth = 90\n"
 OWN = '[cam.part.gear]\norigin = "corner"\n'
 BAD = {
