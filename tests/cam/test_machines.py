@@ -105,6 +105,14 @@ def test_cutters_are_chosen_that_get_over_the_part(thickness, held) -> None:
     assert "drill-10" in {tool.name for tool in choose_tools(of, CamSettings(), LIBRARY)}
 
 
+def test_a_machine_too_low_for_any_mill_is_named() -> None:
+    """One of 0.8 mm gets over the part, but cuts no 10 mm: the refusal is not about its length."""
+    low = CamSettings.model_validate({"machine": {"travel_z": 50}})
+    of = plate(bore(12.0), thickness=10.0)
+    (found,) = check_machine(make_job(of, low, choose_tools(of, low, LIBRARY)))
+    assert found.code == "cam.tool-too-long"
+
+
 def test_more_tools_than_places_are_a_warning() -> None:
     few = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", machine={"pockets": 2})
     (found,) = check_machine(few)

@@ -10,7 +10,7 @@ import shapely
 
 from mechwright.errors import DesignError, GeometryError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.library import Library
 from mechwright_cam.limits import height_of
@@ -75,9 +75,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
-    machine = settings.machine
-    low = [tool for tool in library.tools if height_of(tool, settings, part.thickness) <= machine.travel_z]
-    library = Library(tuple(low)) if low else library  # with none the refusal names the machine
+    library = _low_enough(part, settings, library)
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in outlines_of(part):
@@ -87,6 +85,17 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
+
+
+def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
+    """The cutters that get over the part; all of them if no mill of these cuts through it.
+
+    The refusal that follows then names the machine.
+    """
+    travel, through = settings.machine.travel_z, part.thickness + settings.breakthrough
+    low = tuple(tool for tool in library.tools if height_of(tool, settings, part.thickness) <= travel)
+    cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in low)
+    return Library(low) if cuts else library
 
 
 def _mills(every: Job) -> list[Tool]:
