@@ -197,6 +197,27 @@ def test_verify_accepts_the_program_it_has_written(run: Run, tmp_path: Path) -> 
     assert "cannot be read" in err
 
 
+def test_verify_reads_the_files_of_one_program_in_order(run: Run, tmp_path: Path) -> None:
+    path, out = tmp_path / "d.toml", tmp_path / "o"
+    text = 'format = 1\nfamily = "geneva"\nname = "gen"\n[cam]\ncontrol = "grbl"\n[cam.post]\n'
+    path.write_text(text + 'tool_change = "files"\n[cam.machine]\nretract_z = -2\n')
+    assert run("cam", path, "-o", out)[0] == 0
+    files = sorted(out.glob("wheel-*.nc"))
+    assert len(files) > 2
+    rest = ("--design", path, "--part", "wheel")
+    code, said, err = run("verify", *files, *rest)
+    assert (code, err) == (0, "")
+    assert said.splitlines()[-1] == f"{files[0]} to {files[-1]}: proven"
+    assert run("verify", *files[:-1], *rest)[0] == 1
+    code, _, err = run("verify", files[0], *files, *rest)
+    assert code == 2
+    assert "a file is named twice" in err
+    files[1].write_text("G21\nG1 X1..2\nM30\n")
+    code, _, err = run("verify", *files, *rest)
+    assert code == 2
+    assert err.startswith(f"mechwright: {files[1]}: line 2: "), err
+
+
 def test_the_real_command_in_a_pipe_shows_no_progress_bar(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "mechwright", "solve", str(EXAMPLE), "-o", str(tmp_path / "o")],

@@ -92,7 +92,8 @@ class Job:
     gone
         What of the plate earlier setups have cut away, by height; higher regions lie in lower ones.
     pick_up
-        Middle of the bore by which a plate that has been turned over is picked up, work coordinates.
+        Middle of the bore, or of the two dowels, by which a plate that has been turned over is picked up,
+        work coordinates.
     """
 
     part: Part
@@ -105,7 +106,7 @@ class Job:
     jaws: tuple[Jaw, ...] = ()
     side: Literal["top", "underside"] = "top"
     gone: tuple[Air, ...] = ()
-    pick_up: Point | None = None
+    pick_up: tuple[Point, ...] = ()
 
     @property
     def thickness(self) -> float:
@@ -116,6 +117,17 @@ class Job:
     def floor(self) -> float:
         """Depth of through cuts, z in mm."""
         return -self.thickness - self.settings.breakthrough
+
+    @property
+    def datum(self) -> Point:
+        """X and Y of the edges of the stock from which X0 and Y0 are found, mm: left and front.
+
+        When the plate has been turned over they are the same two edges, on its right or rear then: only so
+        do both sides meet in a plate that is not as large as stated.
+        """
+        x0, y0, x1, y1 = self.stock
+        flip = self.settings.second_side.flip if self.side == "underside" else ""
+        return x1 if flip == "y" else x0, y1 if flip == "x" else y0
 
     def air_below(self, z: float) -> shapely.Geometry:
         """Where earlier setups have left nothing below a height z, mm; for 0, where they have cut through."""
@@ -165,8 +177,15 @@ class Job:
         return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
 
 
-def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
+def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
     """Lay a plate part into its stock and decide how it is held.
+
+    Parameters
+    ----------
+    part, settings, tools
+        What is made, and with what.
+    below
+        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
 
     Raises
     ------
@@ -205,7 +224,8 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool]) -> Job:
             'edge; use hold.method = "vice" or "bore"'
         )
     x0, y0, _, _ = placed.target.bounds
-    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1])))
+    barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
+    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred))
 
 
 def _clamp(job: Job) -> Clamp:

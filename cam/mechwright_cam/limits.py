@@ -1,10 +1,17 @@
 """What the machine is too small for, before any program is planned."""
 
 from mechwright.findings import Finding, Severity
+from mechwright.tooling import CamSettings, Tool
 from mechwright_cam.job import Job
 
 HOLDER = 30.0
 """Least length of shank and holder above a tool's flutes, mm: that of a small collet chuck."""
+
+
+def height_of(tool: Tool, settings: CamSettings, thickness: float) -> float:
+    """From the table to the nose of a spindle whose tool is as high over a part as rapids run, mm."""
+    clamp = settings.hold.clamp_height if settings.hold.method == "bore" else 0.0
+    return tool.flute_length + HOLDER + settings.clearance + clamp + thickness
 
 
 def check_machine(job: Job) -> list[Finding]:
@@ -12,8 +19,7 @@ def check_machine(job: Job) -> list[Finding]:
     machine, found = job.settings.machine, []
     longest = max(job.tools, key=lambda tool: tool.flute_length, default=None)
     if longest is not None:
-        clamp = job.clamp.top if job.clamp is not None else 0.0
-        wanted = longest.flute_length + HOLDER + job.settings.clearance + clamp + job.thickness
+        wanted = height_of(longest, job.settings, job.thickness)
         if wanted > machine.travel_z:
             found.append(
                 Finding(

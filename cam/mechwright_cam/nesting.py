@@ -1,7 +1,8 @@
 """Which parts go together on one plate, and where they lie on it.
 
 Placement is bottom-left with the rectangles around the parts, largest first, each turned by 90 degrees where
-it then lies lower. A plate of open size is tried at many widths; the one that takes least stock is kept.
+it then lies lower. A plate of open size is tried at many widths; of those within the machine's travel the one
+that takes least stock is kept.
 """
 
 import math
@@ -141,6 +142,11 @@ def _nested(design: Design, name: str, group: Sequence[Part], library: Library) 
         raise DesignError(
             f"{design.path}: cam.nest: {total} copies on one plate, at most {MOST}; name fewer parts"
         )
+    if settings.stock.finished:
+        raise DesignError(
+            f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
+            "none at a finished edge; leave finished out, or cam.nest"
+        )
     gap = design.cam.nest.gap or 2 * channel_of(group, settings, library) + WEB
     try:
         return nest_of(name, group, settings, gap, turn=design.cam.nest.turn)
@@ -162,7 +168,9 @@ def channel_of(group: Iterable[Part], settings: CamSettings, library: Library) -
         job = Job(part, settings, tools, (0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
         mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
         found.append(max(mills, default=0.0))
-    return min(found, default=0.0)
+    # With room for any cutter, laying out the nest comes to what is missing, and not to the gap.
+    widest = max((tool.diameter for tool in library.tools if tool.kind in MILLS), default=0.0)
+    return min(found, default=widest)
 
 
 def nest_of(
@@ -180,12 +188,14 @@ def nest_of(
     items = [_Item(part, label, _box(part)) for part in group for label in _labels(part)]
     items.sort(key=lambda item: (-max(item.size), -min(item.size)))
     sizes = [item.size for item in items]
-    stock = settings.stock
+    stock, room = settings.stock, (settings.machine.travel_x, settings.machine.travel_y)
     if stock.length is not None and stock.width is not None:
         beside = gap + WEB  # a channel and a frame on either side
-        layout = _on_plate(sizes, stock.length - beside, stock.width - beside, gap, turn)
+        inside = stock.length - beside, stock.width - beside
+        within = min(inside[0], room[0] - gap), min(inside[1], room[1] - gap)
+        layout = _on_plate(sizes, *within, gap, turn) or _on_plate(sizes, *inside, gap, turn)
         if layout is None:
-            least = _open(sizes, gap, turn)
+            least = _open(sizes, gap, turn, room)
             raise DesignError(
                 f"cam.stock: the {len(items)} parts of {name} do not fit on {stock.length:g} x "
                 f"{stock.width:g} mm with {gap:.1f} mm between them; they do on "
@@ -193,7 +203,7 @@ def nest_of(
                 "take a larger plate, or fewer parts"
             )
     else:
-        layout = _open(sizes, gap, turn)
+        layout = _open(sizes, gap, turn, room)
     placed = []
     for item, (x, y, turned) in zip(items, layout.spots, strict=True):
         x0, y0, _, y1 = item.box
@@ -220,8 +230,11 @@ def _box(part: Part) -> tuple[float, float, float, float]:
     return x0, y0, x1, y1
 
 
-def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool) -> _Layout:
-    """The layout of least area, with the gap around it; the shorter circumference of two alike."""
+def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tuple[float, float]) -> _Layout:
+    """The layout of least area, with the gap around it; the shorter circumference of two alike.
+
+    One within the machine's travel, ``room``, goes before any other; mills stay within the gap around it.
+    """
     least = max(min(size) if turn else size[0] for size in sizes)
     most = sum(max(size) if turn else size[0] for size in sizes) + gap * (len(sizes) - 1)
     found = []
@@ -229,7 +242,14 @@ def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool) -> _Layo
         layout = _bottom_left(sizes, width, math.inf, gap, turn)
         if layout is not None:
             found.append(layout)
-    return min(found, key=lambda f: ((f.width + gap) * (f.height + gap), f.width + f.height))
+    return min(
+        found,
+        key=lambda f: (
+            max(0.0, f.width + gap - room[0]) + max(0.0, f.height + gap - room[1]),
+            (f.width + gap) * (f.height + gap),
+            f.width + f.height,
+        ),
+    )
 
 
 def _on_plate(

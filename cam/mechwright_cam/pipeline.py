@@ -1,7 +1,7 @@
 """From a design to drawings and proven programs: the order in which the CAM stage works."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast, get_args
 
@@ -22,6 +22,7 @@ from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library, load_library
 from mechwright_cam.limits import check_machine
+from mechwright_cam.measured import check_measured
 from mechwright_cam.nest import Nest
 from mechwright_cam.nesting import arranged
 from mechwright_cam.planning import choose_tools, plan
@@ -83,6 +84,7 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
+    findings += check_measured(jobs)
     tops = [job for job in jobs if job.side == "top"]
     if len(tops) == len(cut_parts):
         copies: dict[str, list[shapely.Polygon]] = {}
@@ -292,7 +294,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
 def verify(
     design: Design,
     part: Part,
-    text: str,
+    text: str | Mapping[str, str],
     host: Host | None = None,
     control: str = "",
     *,
@@ -300,8 +302,8 @@ def verify(
 ) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand.
 
-    It is read as ``control`` reads it, or else the control of the design file. It cuts the first side of the
-    part, or its underside.
+    It is one text, or several files by name in the order they are run. It is read as ``control`` reads it, or
+    else the control of the design file. It cuts the first side of the part, or its underside.
     """
     dialect = LINUXCNC
     if host is not None:

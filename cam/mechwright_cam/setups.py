@@ -27,6 +27,7 @@ from mechwright_cam.job import LEVEL, Air, Job
 from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
 from mechwright_cam.proof.bands import inside_of
+from mechwright_cam.thin_floors import thin_floors
 
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
@@ -116,23 +117,25 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
         return [], [_refusal("cam", str(error))]
     if not under:
         job, found = lay_out(part, settings, library)
-        return ([] if job is None else [job]), found
+        return ([], found) if job is None else ([job], [*found, *thin_floors(part, upper, ())])
     first = replace(part, machined=upper)
-    job, found = lay_out(first, settings, library)
+    job, found = lay_out(first, settings, library, under)
     if job is None:
         return [], found
     try:
         if settings.second_side.locate == "dowels":
             settings = _with_room(job)
-            first = replace(part, machined=(*_dowels(job, settings), *upper))
-            job, found = lay_out(first, settings, library)
+            dowels = _dowels(job, settings)
+            first = replace(part, machined=(*dowels, *upper))
+            job, found = lay_out(first, settings, library, (*under, *dowels))
             if job is None:
                 return [], found
         second, more = _second(job, part, under, library)
     except DesignError as error:
         parameter, _, message = str(error).partition(": ")
         return [], [*found, _refusal(parameter, message)]
-    return ([job] if second is None else [job, second]), [*found, *more]
+    thin = thin_floors(part, upper, under)
+    return ([job] if second is None else [job, second]), [*found, *more, *thin]
 
 
 def _refusal(parameter: str, message: str) -> Finding:
@@ -169,28 +172,29 @@ def _second(
         build=None,
         details=(),
     )
-    changes = {"work_offset": side.work_offset, "stock": Stock(margin=0.0), "hold": Hold()}
+    # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
+    place = {"x": side.x, "y": side.y, "z": side.z}
+    post = first.settings.post
+    changes = {
+        "work_offset": side.work_offset,
+        "stock": Stock(margin=0.0),
+        "hold": Hold(),
+        "measured": first.settings.measured.model_copy(update=place),
+        "post": post.model_copy(update={"offsets": post.offsets and side.x is not None}),
+    }
     settings = first.settings.model_copy(update=changes)
     job, found = lay_out(over, settings, library)
     if job is None or errors(found):
         return None, found
-    _check_tabs(first, job)
-    pick_up = None
-    if side.locate == "bore":
-        x, y = turned_point(max(bores, key=lambda bore: bore.diameter).centre, side.flip)
-        pick_up = (x - job.origin[0], y - job.origin[1])
+    located: list[Bore] = []
+    match side.locate:
+        case "bore":
+            located = [max(bores, key=lambda bore: bore.diameter)]
+        case "dowels":
+            located = [bore for bore in bores if bore not in part.features]
+    turned = (turned_point(bore.centre, side.flip) for bore in located)
+    pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
     return replace(job, side="underside", pick_up=pick_up), found
-
-
-def _check_tabs(first: Job, second: Job) -> None:
-    """Nothing on the underside may cut the tabs, by which the part still hangs in the plate."""
-    for feature in second.features:
-        for tab in first.tabs:
-            if shapely.intersects(inside_of(feature), turned_shape(tab.shape, first, second)):
-                raise DesignError(
-                    f"cam.hold.tabs: {feature.name} on the underside of part {first.part.name} would cut a "
-                    "tab; take another number of tabs"
-                )
 
 
 def turned_shape(shape: shapely.Geometry, first: Job, second: Job) -> shapely.Geometry:

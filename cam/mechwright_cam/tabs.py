@@ -9,6 +9,7 @@ base
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -39,7 +40,10 @@ LEAST_TAB_WIDTH = 0.5
 """A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
 
 SHIFTS = 8
-"""So many places between two tabs are tried for ramped ones."""
+"""So many places between two tabs are tried where not all of the wall takes one."""
+
+HOLDS = 0.5
+"""Tabs are on this share of the wall at least: on less they leave much of the part without a neighbour."""
 
 DEEPER = 1.25
 """Factor between trial places of a ramped tab's ends."""
@@ -113,13 +117,15 @@ def least_z(tabs: tuple[Tab, ...], points: Array, radius: float) -> Array:
     return lowest
 
 
-def lay_tabs(job: "Job", reach: float) -> tuple[Tab, ...]:
+def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[Tab, ...]:
     """Place the tabs of a job along its outsides.
 
     Parameters
     ----------
     reach
         How far they reach outwards, mm; in a nest it is to the middle between two parts.
+    below
+        Features that are cut from the underside later, and dowels, work coordinates: no tab stands there.
 
     Raises
     ------
@@ -135,33 +141,46 @@ def lay_tabs(job: "Job", reach: float) -> tuple[Tab, ...]:
     tabs: list[Tab] = []
     for feature in job.features:
         if isinstance(feature, Profile) and feature.side == "outside":
-            tabs += _tabs_of(job, feature, slope, reach)
+            tabs += _tabs_of(job, feature, slope, reach, below)
     return tuple(tabs)
 
 
-def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float) -> list[Tab]:
-    """The tabs of one outside; ramped ones, which are long, are moved on together off the ends of walls."""
+def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Sequence[Feature]) -> list[Tab]:
+    """The tabs of one outside.
+
+    Ramped ones, which are long, are moved on together off the ends of walls, and all of them off recesses.
+    Where no even steps are clear of those, the tabs share the stretches that are.
+    """
     hold = job.settings.hold
     slopes = 2 * hold.tab_height / slope
     ring = shapely.LinearRing(feature.loop.flatten())
     width = hold.tab_width or _tab_width(feature, hold.tabs, slopes)
     places = _tab_places(feature, ring, hold.tabs, width, slopes)
     low = _lower_floors(job)
-    shifts = SHIFTS if (slopes or low) and not feature.tab_sites else 1
+    barred = [*low, *below]
+    rows = [places]
+    if (slopes or barred) and not feature.tab_sites:
+        rows = [
+            [(at + shift / SHIFTS * ring.length / len(places)) % ring.length for at in places]
+            for shift in range(SHIFTS)
+        ]
+        rows += _between(ring, hold.tabs, width + slopes, barred)
     refusal: DesignError | None = None
     best: list[Tab] = []
-    for shift in range(shifts):
+    for number, row in enumerate(rows):
+        if best and number >= SHIFTS:  # no need for uneven steps
+            break
         tabs: list[Tab] = []
         try:
-            for at in places:
-                moved = (at + shift / shifts * ring.length / len(places)) % ring.length
-                place = _across(ring, moved, min(width / 2, ring.length / 100))
+            for at in row:
+                place = _across(ring, at, min(width / 2, ring.length / 100))
                 ends = (-TAB_REACH, _frame_at(job, ring, place, reach))
                 shape = _rectangle(place, width + slopes, ends)
                 tab = Tab(shape, hold.tab_height - job.thickness, width, slope, place[:2], place[2], ends)
                 tabs.append(_sunk(job, feature, tab, slopes) if slopes else tab)
             _check_apart(feature, tabs)
             _check_floors(job, low, tabs)
+            _check_below(job, below, tabs)
         except DesignError as error:
             refusal = refusal or error
             continue
@@ -171,6 +190,33 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float) -> list[T
     if refusal is not None and not best:
         raise refusal
     return best
+
+
+def _between(
+    ring: shapely.LinearRing, count: int, base: float, barred: Sequence[Feature]
+) -> list[list[float]]:
+    """Rows of places along a wall, in equal steps over all stretches that are clear of features.
+
+    None if these are so short that the tabs would hold the part on one side only.
+    """
+    if not barred:
+        return []
+    shut = shapely.buffer(shapely.union_all([plan_view(feature) for feature in barred]), base)
+    free = [line for line in shapely.get_parts(shapely.difference(ring, shut)) if line.length > 0]
+    total = sum(line.length for line in free)
+    if total < max(HOLDS * ring.length, 2 * count * base):
+        return []
+    starts = [ring.project(shapely.Point(line.coords[0])) for line in free]
+    ends = np.cumsum([line.length for line in free])
+    rows = []
+    for shift in range(SHIFTS):
+        row = []
+        for wish in (np.arange(count) + (shift + 0.5) / SHIFTS) * total / count:
+            at = int(np.searchsorted(ends, wish))
+            along = wish - (ends[at] - free[at].length)
+            row.append(float((starts[at] + along) % ring.length))
+        rows.append(sorted(row))
+    return rows
 
 
 def _slope(job: "Job") -> float:
@@ -266,6 +312,18 @@ def _check_floors(job: "Job", low: list[Feature], tabs: list[Tab]) -> None:
                     f"Y{tab.at[1]:.1f} would stand up in {feature.name}, which leaves {left:g} mm of part "
                     f"{job.part.name}; use at most {left:g} mm, or another number of tabs"
                 )
+
+
+def _check_below(job: "Job", below: Sequence[Feature], tabs: list[Tab]) -> None:
+    """Nothing on the underside may cut the tabs, by which the part still hangs in the plate."""
+    for feature in below:
+        floor = plan_view(feature)
+        if any(shapely.intersects(floor, tab.shape) for tab in tabs):
+            raise DesignError(
+                f"cam.hold.tabs: {feature.name}, for the underside of part {job.part.name}, leaves too "
+                f"little of the outside for {len(tabs)} tabs; take fewer or narrower ones, or draw the "
+                "part the other way up"
+            )
 
 
 def _tab_width(feature: Profile, count: int, slopes: float) -> float:

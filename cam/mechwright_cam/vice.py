@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 import shapely
 
 from mechwright.errors import DesignError
-from mechwright.part import Profile
+from mechwright.part import Bore, Part, Profile
 from mechwright.sections import plan_view, sections
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.toolpath.offsets import filled, opened
@@ -50,6 +50,11 @@ class Jaw:
     top: float
 
 
+def can_be_clamped(part: Part) -> bool:
+    """Whether the part has a bore or an opening for a clamp."""
+    return any(isinstance(f, Bore) or (isinstance(f, Profile) and f.side == "inside") for f in part.features)
+
+
 def gripping_height(job: "Job") -> float:
     """Height of the jaws' tops over the underside, mm."""
     grip = job.settings.hold.grip
@@ -78,7 +83,7 @@ def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
     found: list[tuple[float, float, Literal["x", "y"], tuple[str, str]]] = []
     for edges, axis in PAIRS.items():
         if set(edges) <= set(job.settings.stock.finished):
-            for low, high in _free(job, edges, axis, height, widest):
+            for low, high in _free(job, edges, axis, height, widest) or [(0.0, 0.0)]:
                 found.append((high - low, low, axis, edges))
     if not found:
         raise DesignError(
@@ -91,9 +96,17 @@ def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
     wanted = job.settings.hold.jaw_width
     limit = length if wanted is None else min(wanted, length)
     if limit < least:
+        if wanted is not None and wanted < least <= length:
+            cures = [f"let jaw_width be at least {least:.1f} mm"]
+        else:
+            finer = max((high - low for low, high in _free(job, edges, axis, height, 0.0)), default=0.0)
+            cures = ["use a smaller cutter"] if finer > least else []
+            if can_be_clamped(job.part):
+                cures.append('use method = "bore"')
+            cures.append('leave finished out and use method = "tabs"')
         raise DesignError(
             f"cam.hold.method: the jaws of a vice get {limit:.1f} mm on the {edges[0]} and {edges[1]} edges "
-            f"of part {job.part.name} and need {least:.1f} mm; use a smaller cutter, or hold by the bore"
+            f"of part {job.part.name} and need {least:.1f} mm; {', or '.join(cures)}"
         )
     if wanted is not None and wanted > length:
         raise DesignError(

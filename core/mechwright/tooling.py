@@ -236,6 +236,21 @@ class SecondSide(Parameters):
     dowel_diameter: Millimetres = Field(
         6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
     )
+    x: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine X of its work offset, if it is measured."
+    )
+    y: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Y of its work offset, if it is measured."
+    )
+    z: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Z of its work offset, if it is measured."
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        if 0 < [self.x, self.y, self.z].count(None) < 3:
+            raise ValueError("give x, y and z of the measured work offset, or none of them")
+        return self
 
 
 Compensation = Literal["computer", "control", "wear"]

@@ -51,7 +51,7 @@ def run(folder: Path, *words: str) -> tuple[int, str]:
 
 CASES = {
     "a tool longer than the machine's travel": (
-        "[cam.machine]\ntravel_z = 60\n",
+        'tools = ["drill-10", "mill-6", "mill-3", "spot-6"]\n[cam.machine]\ntravel_z = 60\n',
         r"cam\.machine\.travel_z: drill-10 with its holder needs 132 mm .* over part gear; take a shorter tool",
     ),
     "a tool that sticks out further than the travel": (

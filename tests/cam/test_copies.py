@@ -137,3 +137,24 @@ def test_another_mill_or_no_feature_means_another_plan(planned):
     found = [copies.clear(feature, area, mill, ANGLE, True) for feature, mill in asked]
     assert len(planned) == 3
     assert [len(cavities) for cavities in found] == [1, 1, 1, 1]
+
+
+def test_shapes_that_all_but_touch_stay_valid_when_they_are_moved():
+    rng = np.random.default_rng(5)
+    turn = Turn(1.0 + 0j, 0.1 + 39.4j)
+    crossed = 0
+    for _ in range(300):
+        end = rng.uniform(2, 9, 2)
+        # The tip of one lies on the edge of the other, to the last digit.
+        tip = end * rng.uniform(0.2, 0.8)
+        out = np.array((-end[1], end[0])) / np.hypot(*end)
+        one = shapely.Polygon([(0, 0), end, end - 3 * out])
+        pair = shapely.MultiPolygon([one, shapely.Polygon([tip, tip + out + 0.3 * end, tip + out])])
+        if not pair.is_valid:
+            continue
+        moved = turn.shape(pair)
+        crossed += not shapely.transform(pair, turn.points).is_valid
+        assert moved.is_valid
+        assert moved.area == pytest.approx(pair.area)
+        assert shapely.union_all([moved, shapely.box(-1, 38, 1, 41)]).is_valid
+    assert crossed > 10, "else the test would tell nothing"

@@ -3,6 +3,7 @@
 import math
 import re
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,7 @@ from mechwright_cam.posts.offsets import d_offset
 from mechwright_cam.proof import prove, read
 from mechwright_cam.proof.compensation import planned_offsets
 from mechwright_cam.proof.paths import Paths, Pieces
-from mechwright_cam.setup_sheet import setup_html
+from mechwright_cam.setup_sheet import setup_html, summary_html
 from mechwright_cam.toolpath.contour import contour_beside
 from mechwright_cam.toolpath.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.trace import trace
@@ -356,6 +357,31 @@ def test_the_sheet_says_what_to_type(way: str) -> None:
     assert f"From {low} to {high} is proven" in page
     offset = d_offset(LIBRARY.get("mill-6"), "haas", Posting(), way, 0.1)
     assert (offset.quantity, offset.limit) == ("radius", 0.1)
+
+
+def test_sheets_name_the_d_that_a_tool_has_and_only_those_in_use() -> None:
+    mine = LIBRARY.get("mill-6").model_copy(update={"diameter_offset": 74})
+    for way, shown in (("control", True), ("computer", False)):
+        one = replace(sample(way), tools=(mine, LIBRARY.get("drill-8")))
+        rows = [(one, plan(one), None)]
+        whole = summary_html(rows, name="job")
+        assert ("D74" in whole) == shown
+        assert "D24" not in whole
+        assert ("H24<br>D74" in setup_html(rows)) == shown
+        assert "H9<" in setup_html(rows)
+    by_hand = replace(one, settings=one.settings.model_copy(update={"control": "grbl"}))
+    assert "H24" not in summary_html([(by_hand, plan(by_hand), None)], name="job")
+
+
+@pytest.mark.parametrize(("control", "setting"), [("fanuc", "parameter 5004, bit 2"), ("haas", "setting 40")])
+def test_the_sheet_says_how_the_control_adds_d_up_and_that_its_table_is_a_program(control, setting) -> None:
+    one = sample("wear")
+    one = replace(one, settings=one.settings.model_copy(update={"control": control}))
+    page = setup_html([(one, plan(one), None)], tool_table="tool-offsets.nc")
+    assert setting in page
+    assert "enter the planned value as geometry, with wear 0" in page
+    assert "tool-offsets.nc is a program: run it once for new cutters" in page
+    assert "geometry" not in setup_html([(sample("wear"), plan(sample("wear")), None)])
 
 
 def test_pictures_and_reach_follow_the_centre_of_the_cutter() -> None:

@@ -163,6 +163,36 @@ def test_jaws_that_would_hold_too_little_are_refused():
     assert "the jaws of a vice get" in refusal(plate(), "mill-16")
 
 
+def test_advice_to_what_a_vice_cannot_hold_fits_the_part():
+    solid, bored = rounded_box(50, 25, 11), bore(12)
+    for of, mill, cures in (
+        (
+            part(solid),
+            "mill-6",
+            'need 18.7 mm; use a smaller cutter, or leave finished out and use method = "tabs"',
+        ),
+        (
+            part(solid),
+            "mill-16",
+            "get 0.0 mm on the front and rear edges of part plate and need 18.7 mm",
+        ),
+        (part(solid, bored), "mill-6", 'use a smaller cutter, or use method = "bore", or leave finished out'),
+        (
+            part(rounded_box(40, 30, 14), bored),
+            "mill-2",
+            'need 15.3 mm; use method = "bore", or leave finished',
+        ),
+    ):
+        assert cures in refusal(of, mill, stock={**BAR, "margin": 3})
+    narrow = refusal(link(), "mill-6", hold={**VICE, "jaw_width": 20})
+    assert narrow.endswith("need 39.3 mm; let jaw_width be at least 39.3 mm"), narrow
+    framed = {"stock": {"margin": 1}, "hold": {"method": "tabs"}}
+    for of, words in ((part(solid), "use at least 8 mm"), (part(solid, bored), "8 mm, or hold by the bore")):
+        with pytest.raises(DesignError) as caught:
+            plan(laid(of, "mill-6", **framed))
+        assert str(caught.value).endswith(words)
+
+
 def test_parts_of_a_nest_have_no_finished_edges():
     nest = make_nest("nest", (Placed(plate(), "a", 0, 0), Placed(plate(), "b", 80, 0)), 20.0)
     assert "cannot be clamped one by one" in refusal(nest, "mill-6")

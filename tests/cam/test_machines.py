@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from planning_parts import bore, job, plate
+from planning_parts import LIBRARY, bore, job, plate
 from shop import plate_job, plate_program
 
 from mechwright.design import load, read_toml
@@ -11,8 +11,11 @@ from mechwright.errors import MechwrightError
 from mechwright.findings import Severity
 from mechwright.host import host
 from mechwright.machine import MACHINES, Machine
+from mechwright.tooling import MILLS, CamSettings
+from mechwright_cam.job import make_job
 from mechwright_cam.limits import check_machine
 from mechwright_cam.pipeline import machine as build
+from mechwright_cam.planning import choose_tools
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 
@@ -88,6 +91,26 @@ def test_a_tool_too_long_for_the_travel_is_found() -> None:
     assert longest.name in found.message
     assert found.value > found.limit == 100
     assert check_machine(job(plate(bore(12.0)), "drill-8", "mill-6", machine={"travel_z": found.value})) == []
+
+
+@pytest.mark.parametrize("thickness", [3.0, 10.0])
+@pytest.mark.parametrize("held", [{}, {"method": "bore", "clamp_diameter": 6, "clamp_height": 8}])
+def test_cutters_are_chosen_that_get_over_the_part(thickness, held) -> None:
+    small = CamSettings.model_validate({"machine": {"travel_z": 80}, "hold": held})
+    of = plate(bore(12.0), bore(6.0, (20.0, 0.0)), thickness=thickness)
+    chosen = choose_tools(of, small, LIBRARY)
+    low = make_job(of, small, chosen)
+    assert check_machine(low) == []
+    assert any(tool.kind in MILLS for tool in chosen)
+    assert "drill-10" in {tool.name for tool in choose_tools(of, CamSettings(), LIBRARY)}
+
+
+def test_a_machine_too_low_for_any_mill_is_named() -> None:
+    """One of 0.8 mm gets over the part, but cuts no 10 mm: the refusal is not about its length."""
+    low = CamSettings.model_validate({"machine": {"travel_z": 50}})
+    of = plate(bore(12.0), thickness=10.0)
+    (found,) = check_machine(make_job(of, low, choose_tools(of, low, LIBRARY)))
+    assert found.code == "cam.tool-too-long"
 
 
 def test_more_tools_than_places_are_a_warning() -> None:

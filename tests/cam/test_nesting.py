@@ -233,6 +233,42 @@ def test_turning_saves_stock():
     assert areas[0] < 0.6 * areas[1]
 
 
+@pytest.mark.parametrize("stock", [{}, {"length": 3000, "width": 1000}])
+@pytest.mark.parametrize("travel", [(500, 400), (250, 1000)])
+def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel):
+    machine = {"travel_x": travel[0], "travel_y": travel[1]}
+    nest = nest_of("nest", [box("link", 60, 24, 30)], CamSettings(machine=machine, stock=stock), 16.0)
+    x0, y0, x1, y1 = nest.outline.bounds
+    assert x1 - x0 + 16 <= travel[0]
+    assert y1 - y0 + 16 <= travel[1]
+    # None fits: it is no strip of stock a mile long that is refused.
+    many = nest_of("nest", [box("link", 60, 24, 200)], CamSettings(machine=machine, stock={}), 16.0)
+    x0, y0, x1, y1 = many.outline.bounds
+    assert max(x1 - x0, y1 - y0) < 2 * max(travel)
+
+
+def test_a_nest_of_parts_that_cannot_be_cut_says_why(tmp_path):
+    file = tmp_path / "pair.toml"
+    file.write_text(PAIR + "[cam.nest]\n")
+    design = load(file, host())
+    over = Engraving("mark", (((-8.0, 0.0), (8.0, 0.0)),), 0.2)
+    recess = Pocket("recess", rounded_box(10, 8, 3), (), 0.0, 1.5)
+    rim = Profile("outside", rounded_box(40, 30, 4), "outside", 0.0, 3.0)
+    one = Part(
+        "plate",
+        Outline(rounded_box(40, 30, 4)),
+        3.0,
+        "aluminium",
+        (Instance("a"), Instance("b")),
+        machined=(recess, rim),
+        details=(over,),
+    )
+    found = pipeline.prepare(design, [one])[0]
+    (refusal,) = [f for f in found if f.severity == "error"]
+    assert "mark" in refusal.message, refusal
+    assert "gap" not in refusal.parameter
+
+
 PLATE = "[cam.stock]\nlength = 120\nwidth = 90\n"
 OWN = '[cam.part.gear]\norigin = "corner"\n'
 BAD = {
@@ -244,6 +280,7 @@ BAD = {
     "[cam.nest]\nspace = 1\n": "cam.nest: unknown key 'space'",
     "[cam.nest]\n" + PLATE: "cam.stock: the 2 parts of nest do not fit on 120 x 90 mm",
     "[cam.nest]\ngap = 2\n": "cam.nest.gap: 2.00 mm between the parts of nest leave no frame",
+    '[cam.nest]\n[cam.stock]\nfinished = ["left"]\n': "cam.stock.finished: the parts of nest hang by tabs",
     '[cam.nest]\n[cam.hold]\nmethod = "bore"\n': "cam.hold.method: the 2 parts of nest",
     '[cam.nest]\nparts = ["gear"]\n' + OWN: "cam.part.gear: the part is cut in the nest",
     "[cam.part.gear]\nnest = { gap = 3 }\n": "cam.part.gear.nest: holds for the whole job",
@@ -307,6 +344,10 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     assert not {"gear.nc", "gear.setup.html"} & names
     assert set(json.loads((out / "proof.json").read_text())) == {"nest"}
     sheet = (out / "nest.setup.html").read_text()
+    assert "8 tabs of 2 × 1 mm hold the parts to the end" in sheet
+    drawing = sheet[sheet.index("Plan view of nest") :].partition("</svg>")[0]
+    assert "tab 1" not in drawing, "the names of tabs would hide those of the parts"
+    assert drawing.rindex("<path") < drawing.index(">gear no 1<"), "nothing is drawn over the names"
     assert "Nest of 2: gear no 1, gear no 2" in sheet
     assert "the axis of gear no 1" in sheet
     again = CliRunner().invoke(app, ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"])

@@ -3,10 +3,11 @@
 import math
 
 import pytest
-from planning_parts import LIBRARY, job, plate, rounded_box
+from planning_parts import LIBRARY, job, part, plate, rounded_box
 from pydantic import ValidationError
 
 from mechwright.materials import MATERIALS
+from mechwright.part import Pocket, Profile
 from mechwright.program import FeedArc
 from mechwright.tooling import CamSettings, Machine, Tool, ToolKind
 from mechwright_cam.library import Library
@@ -45,6 +46,19 @@ def test_deflection_of_a_plain_rod_is_the_closed_form():
 def test_a_2_mm_cutter_5_diameters_deep_is_a_warning():
     assert "cam.deflection" in codes(MILL, DEEP, material="steel")
     assert "cam.deflection" not in codes(LIBRARY.get("mill-6"), DEEP, material="steel")
+
+
+def test_a_fine_cutter_is_slender_only_where_it_cuts():
+    outside = Profile("outside", rounded_box(60, 40, 6), "outside", 0.0, 12.0)
+
+    def said(depth):
+        recess = Pocket("mark", rounded_box(14, 10, 1.05), (), 0.0, depth)
+        of = part(rounded_box(60, 40, 6), thickness=12.0, machined=(recess, outside))
+        chosen = check_tools(of, CamSettings(tools=("mill-6", "mill-2")), LIBRARY)
+        return [f.message for f in chosen if f.code in {"cam.slender", "cam.deflection"}]
+
+    assert said(1.0) == [], "it marks the top face, and does not cut through 12 mm of plate"
+    assert said(11.0)[0] == "mill-2 cuts 11 mm deep, 5.5 diameters"
 
 
 @pytest.mark.parametrize(
@@ -127,3 +141,16 @@ def test_the_setup_sheet_names_kind_and_coating():
     assert describe(changed(LIBRARY.get("mill-6"), coating="TiAlN")) == "end mill ⌀6, TiAlN, 3 flutes"
     assert describe(LIBRARY.get("bull-6-r1")).startswith("bull nose ⌀6")
     assert describe(LIBRARY.get("chamfer-6")) == "chamfer mill ⌀6, 90° point"
+
+
+def test_the_spindle_slows_down_where_the_machine_feeds_too_slowly():
+    mill = LIBRARY.get("mill-12")
+    data = mill.cutting["aluminium"]
+    full = rates(mill, "aluminium", Machine())
+    assert full.chip == data.chip_load
+    for share, speed in ((0.8, 0.8), (0.5, 0.5), (0.3, 0.5)):
+        slow = rates(mill, "aluminium", Machine(max_feed=share * full.feed))
+        assert slow.spindle == pytest.approx(speed * full.spindle, rel=1e-3)
+        assert slow.feed == pytest.approx(share * full.feed, abs=1)
+        assert slow.chip == pytest.approx(data.chip_load * share / speed, rel=2e-3)
+        assert slow.feed == pytest.approx(slow.chip * mill.flutes * slow.spindle, abs=1.1)

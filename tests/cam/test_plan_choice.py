@@ -79,6 +79,13 @@ def test_findings():
         (plate(), {"stock": {"margin": 1}}, "cam.cannot-cut", "cam.stock"),
         (plate(), {"hold": {"method": "bore"}}, "cam.cannot-cut", "cam.hold.method"),
         (plate(), {"machine": {"spindle_min": 11900}}, "cam.too-fast", "cam.machine.spindle_min"),
+        (plate(), {"machine": {"max_feed": 200}}, "cam.rubbing", "cam.machine.max_feed"),
+        (
+            plate(),
+            {"machine": {"max_feed": 600, "spindle_min": 11000}},
+            "cam.rubbing",
+            "cam.machine.max_feed",
+        ),
         (narrow, {}, "cam.unreachable", "cam.tools"),
         (plate(bore(3), thickness=12), {"tools": ["mill-2", "mill-6"]}, "cam.cannot-cut", "cam.tools"),
     ):

@@ -1,6 +1,7 @@
 """The second side: which features are on it, how the plate lies then, and that both programs are proven."""
 
 import math
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -14,13 +15,14 @@ from plate_shapes import many_spans, wavy
 
 from mechwright.errors import DesignError
 from mechwright.findings import errors
-from mechwright.geometry import Outline
+from mechwright.geometry import Line, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.host import host
-from mechwright.part import Bore, Part, Pocket, Profile
+from mechwright.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import CamSettings
 from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.pipeline import machine, second_setup
+from mechwright_cam.planning import plan
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.setup_sheet import setup_html
@@ -205,10 +207,58 @@ def test_a_part_without_a_bore_cannot_be_picked_up_by_it() -> None:
     assert len(jobs) == 2
 
 
-def test_a_tab_is_not_cut_from_below() -> None:
-    groove = Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0)
-    jobs, found = lay_out_setups(part(groove), cam(), LIBRARY)
-    assert "would cut a tab" in errors(found)[0].message
+STEP_BELOW = OpenProfile("step", 5.0, 3.0, path=(Line((-40.0, 12.0), (40.0, 12.0)),), side="left", width=12.0)
+
+
+@pytest.mark.parametrize("tabs", [2, 3, 4, 7])
+@pytest.mark.parametrize(
+    "feature",
+    [Pocket("groove", rounded_box(10, 60, 3).moved(24, 0), (), 6.0, 2.0), STEP_BELOW],
+    ids=["groove", "step"],
+)
+def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
+    first, second = both(part(feature), hold={"tabs": tabs})
+    assert len(first.job.tabs) == tabs
+    for tab in first.job.tabs:
+        below = turned_shape(tab.shape, first.job, second.job)
+        assert not any(shapely.intersects(inside_of(one), below) for one in second.job.features)
+    # They hold it from more than one side.
+    middle = shapely.MultiPoint([tab.at for tab in first.job.tabs])
+    assert tabs < 3 or middle.convex_hull.area > 0.1 * first.job.target.area
+
+
+def box_at(name, x, top, depth, width=12.0):
+    return Pocket(name, rounded_box(width, 8, 3).moved(x, 8.0), (), top, depth)
+
+
+@pytest.mark.parametrize(
+    ("features", "said"),
+    [
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 2, 4.3, 3.7)), "0.3 mm of part bracket stay between a and b"),
+        ((box_at("a", 0, 0.0, 7.8),), "0.2 mm of part bracket stay between a and the underside"),
+        ((box_at("a", 0, 0.1, 7.9),), "0.1 mm of part bracket stay between the top face and a"),
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 2, 4.6, 3.4)), ""),  # thick enough
+        ((box_at("a", -14, 0.0, 4.0), box_at("b", 14, 4.3, 3.7)), ""),  # beside each other
+        ((box_at("a", 0, 0.0, 4.0), box_at("b", 11.5, 4.3, 3.7)), ""),  # they overlap by a ledge
+        ((box_at("a", 0, 0.0, 7.8), box_at("b", 0, 7.8, 0.2)), ""),  # they meet
+    ],
+)
+def test_floors_that_are_too_thin_are_told_of(features, said) -> None:
+    _, found = lay_out_setups(part(*features), cam(), LIBRARY)
+    assert [f.message for f in found if f.code == "cam.thin-floor"] == ([said] if said else [])
+
+
+def test_tabs_stay_clear_of_dowels() -> None:
+    # Even steps from the ring's start would put a tab where a dowel is: on the flip axis.
+    first, _ = both(part(STEP_BELOW), second_side={"locate": "dowels", "flip": "y"})
+    dowels = [inside_of(f) for f in first.job.features if f.name.startswith("dowel")]
+    assert not any(shapely.intersects(hole, tab.shape) for hole in dowels for tab in first.job.tabs)
+
+
+def test_a_face_below_leaves_no_place_for_tabs() -> None:
+    face = Pocket("face", rounded_box(80, 60, 3), (), 7.0, 1.0)
+    jobs, found = lay_out_setups(part(face), cam(), LIBRARY)
+    assert "face, for the underside of part bracket, leaves too little" in errors(found)[0].message
     assert jobs == []
 
 
@@ -248,8 +298,8 @@ def test_random_underside_pockets_are_proven_or_refused(x, y, width, depth, flip
 def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
     for locate, words in (
         ("bore", "Its axis is X +12.00, Y −4.00 in G55"),
-        ("edges", "on the front edge Y"),
-        ("dowels", "two dowels of 6 mm"),
+        ("edges", "on the rear edge Y +29.00 + r"),
+        ("dowels", "The dowels are at X −45.00, Y 0.00 and X +45.00, Y 0.00 in G55"),
     ):
         hole = Bore("larger", (12.0, 4.0), 14.0, 0.0, THICKNESS)
         outline = Outline(rounded_box(60, 40, 6), (bore(10.0), bore(14.0, (12.0, 4.0))))
@@ -261,6 +311,46 @@ def test_the_setup_sheet_says_how_to_turn_the_plate_over() -> None:
         assert "Turn the plate over about the X axis: its front edge goes to the rear" in said
         assert words in said, said
         assert "G10 L2 P2 Z" in said
+        assert ("Indicate what was the rear edge, now in front" in said) == (locate != "dowels")
+
+
+@pytest.mark.parametrize("flip", ["x", "y"])
+@pytest.mark.parametrize("origin", ["axis", "corner", "centre"])
+def test_both_sides_are_found_from_the_same_two_edges_of_a_plate_of_any_size(flip, origin) -> None:
+    wanted = cam(origin=origin, second_side={"locate": "edges", "flip": flip})
+    jobs, found = lay_out_setups(part(CORNER), wanted, LIBRARY)
+    assert not errors(found)
+    corner = turned_shape(shapely.Point(jobs[0].datum), *jobs)
+    assert (corner.x, corner.y) == pytest.approx(jobs[1].datum)
+    page = setup_html([(jobs[1], plan(jobs[1]), None)])
+    assert ("Left edge of stock", "Right edge of stock")[flip == "y"] in page
+    assert "part 60" not in page, "the part is not what the plate has turned into"
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "haas", "mach3"])
+def test_the_place_of_the_first_side_is_not_written_into_the_offset_of_the_second(control) -> None:
+    tools = ("spot-6", "drill-8", "mill-6", "mill-4")
+    places = {"x": -300.0, "y": -200.0, "z": -380.0, "lengths": dict.fromkeys(tools, 77.0)}
+    given = {"x": -310.0, "y": -210.0, "z": -381.0}
+    for side, setting in (({}, None), (given, "G10 L2 P2 X-310 Y-210 Z-381")):
+        wanted = {"locate": "edges", **side}
+        first, second = both(
+            part(CORNER), control=control, post={"offsets": True}, measured=places, second_side=wanted
+        )
+        assert re.search(r"G10 L2 P1 X-300\.? Y-200\.? Z-380", first.text)
+        found = re.findall(r"G10 L2 .*", second.text)
+        assert [line.replace(".", "") for line in found] == ([setting] if setting else [])
+
+
+def test_every_turned_plate_is_picked_up_but_on_dowels() -> None:
+    three = replace(part(CORNER), instances=(Instance("a"), Instance("b"), Instance("c")))
+    for locate, words in (
+        ("bore", "Make 3. Pick up G55 X and Y on every further plate"),
+        ("dowels", "Make 3. A further plate on the same dowels keeps G55 X and Y"),
+    ):
+        jobs, _ = lay_out_setups(three, cam(second_side={"locate": locate}), LIBRARY)
+        said = steps(jobs[1], [3], file_names=["bracket-underside.nc"], deepest=-3.0)[-1].lines
+        assert any(words in line for line in said), said
 
 
 def test_the_picture_of_the_underside_shows_what_is_gone() -> None:

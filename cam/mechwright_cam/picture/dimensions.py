@@ -50,15 +50,19 @@ def _listed(job: Job, frame: Frame) -> list[_Dimension]:
     what = "parts" if isinstance(job.part, Nest) else "part"
     rows = [
         _Dimension(0, (x0, x1), y0 - 2 * step, y0, f"stock {x1 - x0:.1f}"),
-        _Dimension(0, (px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}"),
         _Dimension(1, (y0, y1), x0 - 2 * step, x0, f"stock {y1 - y0:.1f}"),
-        _Dimension(1, (py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}"),
     ]
+    if job.side == "top":  # turned over, the target is all of the plate
+        rows += [
+            _Dimension(0, (px0, px1), y1 + step, y1, f"{what} {px1 - px0:.2f}"),
+            _Dimension(1, (py0, py1), x1 + step, x1, f"{what} {py1 - py0:.2f}"),
+        ]
     # How far the origin is from the edges that are probed, unless it is on them.
-    if x0 < 0:
-        rows.append(_Dimension(0, (x0, 0.0), y0 - step, y0, f"{-x0:.2f}", "#b00020"))
-    if y0 < 0:
-        rows.append(_Dimension(1, (y0, 0.0), x0 - step, x0, f"{-y0:.2f}", "#b00020"))
+    x, y = job.datum
+    if x != 0:
+        rows.append(_Dimension(0, (min(x, 0.0), max(x, 0.0)), y0 - step, y0, f"{abs(x):.2f}", "#b00020"))
+    if y != 0:
+        rows.append(_Dimension(1, (min(y, 0.0), max(y, 0.0)), x0 - step, x0, f"{abs(y):.2f}", "#b00020"))
     return rows
 
 

@@ -55,6 +55,7 @@ def plan_view(
     if program is not None:
         layers += path_layers(program, trace(program) if traced is None else traced, frame)
     layers += [_holding(job, frame), dimensions(job, frame), origin_mark(frame), _spots(spots, frame)]
+    layers.append(_names(job, frame))
     margin = 4.6 * frame.letters
     # Words that do not fit between the arrows of a short dimension stand beyond its far end.
     right = max([margin, *(at - x1 for at in ends_of_words(job, frame, 0))])
@@ -91,7 +92,7 @@ def _part(job: Job, frame: Frame) -> str:
         "path",
         d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
-    return plate + _gone(job, frame) + _recesses(job, frame) + _details(job, frame) + _names(job, frame)
+    return plate + _gone(job, frame) + _recesses(job, frame) + _details(job, frame)
 
 
 def _names(job: Job, frame: Frame) -> str:
@@ -155,7 +156,8 @@ def _holding(job: Job, frame: Frame) -> str:
         if tab.ramped:
             parts.append(svg.element("path", d=shape, fill="#e6a100", fill_opacity=0.35))
         parts.append(svg.element("path", d=level, fill="#e6a100", fill_opacity=0.75))
-        parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
+        if not isinstance(job.part, Nest):  # there they would hide each other; the legend has the colour
+            parts.append(_tag(*_outer_end(job, tab), f"tab {place}", frame))
     for jaw in job.jaws:
         x0, y0, x1, y1 = shapely.intersection(jaw.shape, _around(job, JAW * frame.letters)).bounds
         look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}

@@ -17,7 +17,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.planning.adaptive import clear
 from mechwright_cam.planning.cavity import Cavity, Pass
-from mechwright_cam.toolpath.offsets import ROUGH
+from mechwright_cam.toolpath.offsets import ROUGH, areas
 from mechwright_cam.toolpath.path import Path, arc, line, rounded
 
 COPY = 10 * TOLERANCES.closure
@@ -45,8 +45,9 @@ class Turn:
         return turned
 
     def shape(self, at: shapely.Geometry) -> shapely.Geometry:
-        """Where a shape goes."""
-        return shapely.transform(at, self.points)
+        """Where a shape goes; rings that all but touch may cross there by a last digit, and are mended."""
+        moved = shapely.transform(at, self.points)
+        return moved if shapely.is_valid(moved) else areas(shapely.make_valid(moved))
 
     def path(self, at: Path) -> Path:
         """Where a path goes; its ends are rounded, and its centres are those of arcs between them."""

@@ -15,6 +15,10 @@ PLUNGE_SHARE = 0.3
 MOST_THINNING = 3.0
 """Feed is raised no further for thin chips: with more, the cusps along the path show."""
 
+SLOWEST = 0.5
+"""Where the machine's fastest feed is too slow, the spindle gives way, down to this share of the cutting
+speed: chips stay as thick as planned. Slower still, aluminium and steel build up on the edge."""
+
 
 @dataclass(frozen=True)
 class Rates:
@@ -26,6 +30,8 @@ class Rates:
     plunge: float
     fastest: float
     """The machine's limit."""
+    chip: float
+    """Feed per tooth in a full cut, mm: the planned chip load, or less where the machine feeds too slowly."""
 
     def inside(self, path_radius: float, cutter_radius: float, feed: float | None = None) -> float:
         """Feed of the centre on a circle inside a wall, so that the cutting edge has the planned feed."""
@@ -54,21 +60,28 @@ def rates(
 ) -> Rates:
     """Speeds within the machine's limits: n = 1000 v / (π d), feed = n z f_z (common workshop formulas).
 
+    Where the machine feeds too slowly for that, the spindle slows down as well: a tooth that gets next to no
+    feed rubs, which wears it more than any speed.
+
     With an ``engagement``, rad, below a right angle no chip gets thicker than f_z sin(engagement): the feed
     is raised so that it is the planned chip load all the same. So it is where a cut is less deep than the
     corner of a round mill: there h = f_z sin(κ), κ the greatest angle of the edge.
     """
     data = cutting_data(tool, material)
     wanted = 1000 * data.cutting_speed / (math.pi * tool.diameter)
+    fed = machine.max_feed / (tool.flutes * data.chip_load)
+    wanted = min(wanted, max(fed, SLOWEST * wanted))
     spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
+    most = spindle * tool.flutes * data.chip_load
     thin = math.sin(min(engagement, math.pi / 2)) * float(approach(tool, depth))
     thinning = 1 / max(thin, 1 / MOST_THINNING)
-    plain = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load, machine.max_feed)))
-    feed = max(1.0, math.floor(min(spindle * tool.flutes * data.chip_load * thinning, machine.max_feed)))
+    plain = max(1.0, math.floor(min(most, machine.max_feed)))
+    feed = max(1.0, math.floor(min(most * thinning, machine.max_feed)))
     return Rates(
         spindle,
         feed,
         max(1.0, round(plain * RAMP_SHARE)),
         max(1.0, round(plain * PLUNGE_SHARE)),
         machine.max_feed,
+        data.chip_load * min(1.0, machine.max_feed / most),
     )

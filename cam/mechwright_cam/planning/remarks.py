@@ -1,7 +1,7 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -9,23 +9,24 @@ import shapely
 
 from mechwright.cutter import SAME_RADIUS
 from mechwright.errors import MechwrightError, ToolError
-from mechwright.findings import Finding, Severity
+from mechwright.findings import Finding, Severity, errors
 from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
-from mechwright.part import Part
+from mechwright.part import Feature, Part
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, CamSettings, Tool
+from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
+from mechwright_cam.nest import Nest
 from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.centre_lines import grooves
 from mechwright_cam.planning.choice import long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.holes import plan_bore
-from mechwright_cam.planning.rates import rates
+from mechwright_cam.planning.rates import Rates, rates
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.planning.zone import Zone
-from mechwright_cam.planning.zones import bores, check_clamp, inner_zones, outer_zones
+from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
 from mechwright_cam.reach import remainder
 from mechwright_cam.toolpath.offsets import ROUGH, grow
 
@@ -37,20 +38,24 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
     """Find what stands in the way of cutting a part, and what is worth knowing about its cutters.
 
     Errors: a tool that is not in the library, a wall, bore or opening that no listed cutter makes, a clamp or
-    stock in the way. Warnings: a cutter that cannot run at its cutting speed on this machine, a listed tool
+    stock in the way. Warnings: a cutter that this machine runs too fast or feeds too slowly, a listed tool
     without data for the material. Notes: slender cutters, and stock that stays in corners.
     """
     return lay_out(part, settings, library)[1]
 
 
-def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | None, list[Finding]]:
+def lay_out(
+    part: Part, settings: CamSettings, library: Library, below: Sequence[Feature] = ()
+) -> tuple[Job | None, list[Finding]]:
     """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
+
+    Tabs stay clear of the features that are cut from ``below`` later.
 
     The job is None if the cutters cannot be chosen or the part does not fit its stock.
     """
     try:
         tools = choose_tools(part, settings, library)
-        job = make_job(part, settings, tools)
+        job = make_job(part, settings, tools, below)
     except MechwrightError as error:
         return None, [_refusal(error)]
     found: list[Finding] = []
@@ -70,7 +75,8 @@ def lay_out(part: Part, settings: CamSettings, library: Library) -> tuple[Job | 
         else:
             # Of the chosen cutters a wider one has turned out to be as good.
             job = replace(job, tools=tuple(tool for tool in job.tools if tool not in idle))
-    return job, found + _travel(job) + _remarks(job)
+    depths = _depths(job, zones) if not errors(found) else {}
+    return job, found + _travel(job) + _remarks(job, depths)
 
 
 def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
@@ -81,6 +87,26 @@ def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
     used |= {mill.name for mills in milling for mill in mills}
     used |= {mill.name for mill in grooves(job).values()}
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
+
+
+def _depths(job: Job, zones: list[Zone]) -> dict[str, float]:
+    """How deep below the top of the stock each mill cuts, mm, by its name."""
+    deep: dict[str, float] = {}
+
+    def goes(mill: Tool, bottom: float) -> None:
+        deep[mill.name] = max(deep.get(mill.name, 0.0), -bottom)
+
+    for bore in bores(job):
+        mill = plan_bore(job, bore).mill
+        if mill is not None:
+            goes(mill, bottom_of(job, bore.top, bore.depth))
+    for zone in zones:
+        for mill in (*roughers(zone.mills, zone.last_mills), *zone.last_mills):
+            goes(mill, zone.bottom_for(mill))
+    features = {feature.name: feature for feature in job.features}
+    for name, mill in grooves(job).items():
+        goes(mill, bottom_of(job, features[name].top, features[name].depth))
+    return deep
 
 
 def _unused(job: Job, mill: Tool) -> Finding:
@@ -118,7 +144,7 @@ def _travel(job: Job) -> list[Finding]:
             wanted,
             travel,
             "mm",
-            "take a larger machine",
+            "take a larger machine" + (", or nest fewer parts" if isinstance(job.part, Nest) else ""),
         )
         for axis, wanted, travel in axes
         if wanted > travel
@@ -185,7 +211,8 @@ def _fillet(job: Job, zone: Zone) -> list[Finding]:
     ]
 
 
-def _remarks(job: Job) -> list[Finding]:
+def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
+    """What is worth knowing of the cutters; one whose depth is not known is taken to cut through."""
     found = []
     machine, material = job.settings.machine, job.part.material
     for tool in job.tools:
@@ -201,7 +228,8 @@ def _remarks(job: Job) -> list[Finding]:
                 )
             )
             continue
-        speed = rates(tool, material, machine).spindle
+        planned = rates(tool, material, machine)
+        speed = planned.spindle
         if (
             speed <= machine.spindle_min
             and speed * tool.diameter * math.pi > 1000 * data.cutting_speed * 1.01
@@ -218,7 +246,8 @@ def _remarks(job: Job) -> list[Finding]:
                     "take a smaller tool",
                 )
             )
-        deep = tool.nose - job.floor
+        found += _rubbing(tool, data, planned)
+        deep = depths.get(tool.name, tool.nose - job.floor)
         if tool.kind in MILLS and deep > SLENDER * tool.diameter:
             found.append(
                 Finding(
@@ -231,7 +260,7 @@ def _remarks(job: Job) -> list[Finding]:
                     "",
                 )
             )
-            found += _bending(job, tool)
+            found += _bending(job, tool, deep)
         found += _figures(tool, material)
     return found
 
@@ -264,9 +293,31 @@ def _partly(job: Job, zone: Zone) -> list[Finding]:
     ]
 
 
-def _bending(job: Job, tool: Tool) -> list[Finding]:
-    """Whether a slender mill bends too much; the deepest cut counts."""
-    deep = tool.nose - job.floor
+RUBS = 0.5
+"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
+
+
+def _rubbing(tool: Tool, data: CuttingData, planned: Rates) -> list[Finding]:
+    """Whether the machine feeds so slowly that the teeth take next to nothing."""
+    if planned.chip >= RUBS * data.chip_load:
+        return []
+    return [
+        Finding(
+            "cam.rubbing",
+            Severity.WARNING,
+            "cam.machine.max_feed",
+            f"{tool.name} gets {planned.chip:.3f} mm per tooth at {planned.spindle:.0f} rev/min, not the "
+            f"{data.chip_load:g} mm of its chip load, and rubs",
+            planned.chip,
+            RUBS * data.chip_load,
+            "mm",
+            "take a smaller cutter or one with fewer flutes, or a slower spindle if the machine has one",
+        )
+    ]
+
+
+def _bending(job: Job, tool: Tool, deep: float) -> list[Finding]:
+    """Whether a slender mill bends too much in its deepest cut."""
     bent = deflection(tool, job.part.material, deep)
     if bent <= MOST:
         return []

@@ -10,9 +10,10 @@ import shapely
 
 from mechwright.errors import DesignError, GeometryError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Stock, Tool, ToolKind
+from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, wear_margin
 from mechwright_cam.library import Library
+from mechwright_cam.limits import height_of
 from mechwright_cam.nest import Nest, outlines_of
 from mechwright_cam.planning.centre_lines import groove_mill
 from mechwright_cam.planning.choice import (
@@ -60,7 +61,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
     one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Mills
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
-    with cutting data for the material count.
+    with cutting data for the material count, and cutters that get over the part within the machine's travel.
 
     Raises
     ------
@@ -74,6 +75,7 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
+    library = _low_enough(part, settings, library)
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in outlines_of(part):
@@ -83,6 +85,17 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
+
+
+def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
+    """The cutters that get over the part; all of them if no mill of these cuts through it.
+
+    The refusal that follows then names the machine.
+    """
+    travel, through = settings.machine.travel_z, part.thickness + settings.breakthrough
+    low = tuple(tool for tool in library.tools if height_of(tool, settings, part.thickness) <= travel)
+    cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in low)
+    return Library(low) if cuts else library
 
 
 def _mills(every: Job) -> list[Tool]:

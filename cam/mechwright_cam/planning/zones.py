@@ -4,6 +4,7 @@ import math
 from collections.abc import Container, Sequence
 from functools import partial
 
+import numpy as np
 import shapely
 
 from mechwright.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
@@ -36,7 +37,7 @@ from mechwright_cam.toolpath.offsets import (
     thinned,
 )
 from mechwright_cam.toolpath.path import DECIMALS
-from mechwright_cam.vice import CLAMP_GAP, beside
+from mechwright_cam.vice import CLAMP_GAP, beside, can_be_clamped
 
 
 def through(job: Job, depth: float) -> bool:
@@ -264,11 +265,11 @@ def roughing_mills(
     Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
     error if no mill leaves one.
     """
-    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill))]
+    apart = _neighbour(job, part)
+    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill), apart)]
     if fit or not (bool(job.tabs) if framed is None else framed):
         return fit or mills
     least = channel_width(job, mills[-1])
-    apart = _neighbour(job, part)
     if apart < 2 * least + FRAME:
         raise DesignError(
             f"cam.nest.gap: {apart:.2f} mm between the parts of {job.part.name} leave no frame between two "
@@ -278,7 +279,8 @@ def roughing_mills(
     margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
     raise DesignError(
         f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
-        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm, or hold by the bore"
+        f"a channel of {least:.2f} mm; use at least {math.ceil(least + FRAME):g} mm"
+        + (", or hold by the bore" if can_be_clamped(job.part) and not isinstance(job.part, Nest) else "")
     )
 
 
@@ -291,8 +293,11 @@ def channel_width(job: Job, mill: Tool) -> float:
     return mill.diameter + max(job.settings.stock_to_leave, SLACK)
 
 
-def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
-    """Whether the stock around a channel of this width is one ring at least FRAME wide."""
+def _has_frame(job: Job, part: shapely.Geometry, width: float, apart: float) -> bool:
+    """Whether the stock around a channel of this width is one ring at least FRAME wide.
+
+    The next part of a nest is so far ``apart``, mm.
+    """
     x0, y0, x1, y1 = part.bounds
     far = width + FRAME
     return bool(
@@ -300,7 +305,7 @@ def _has_frame(job: Job, part: shapely.Geometry, width: float) -> bool:
         and y0 - far >= job.stock[1]
         and x1 + far <= job.stock[2]
         and y1 + far <= job.stock[3]
-        and _neighbour(job, part) >= width + far - NEARLY
+        and apart >= width + far - NEARLY
     )
 
 
@@ -312,16 +317,25 @@ def _neighbour(job: Job, part: shapely.Geometry) -> float:
     """Distance of an outside from the next part of a nest, mm; inf where it is alone."""
     if not isinstance(job.part, Nest):
         return math.inf
-    # A turned polygon is not the same to the last digit; its own plate is the one it overlaps.
-    others = [one for one in polygons(job.target) if not shapely.intersects(one, part)]
-    return min((float(shapely.distance(one, part)) for one in others), default=math.inf)
+    others = np.array(polygons(job.target))
+    x0, y0, x1, y1 = part.bounds
+    lows, highs = np.split(shapely.bounds(others), 2, axis=1)
+    between = np.hypot(*np.maximum(0.0, np.maximum(lows - (x1, y1), (x0, y0) - highs)).T)
+    least = math.inf
+    for at in np.argsort(between, kind="stable").tolist():
+        if between[at] >= least:  # and so are the boxes of all that follow
+            break
+        # A turned polygon is not the same to the last digit; its own plate is the one it overlaps.
+        if not shapely.intersects(others[at], part):
+            least = min(least, float(shapely.distance(others[at], part)))
+    return least
 
 
 def _channel(job: Job, part: shapely.Polygon, mill: Tool) -> tuple[shapely.Geometry, shapely.Geometry | None]:
     """What has to go around the part, and the outer limit of the channel."""
     width = channel_width(job, mill)
     thin = thinned(part)  # the finishing of the wall does not depend on it
-    if not _has_frame(job, part, width):
+    if not _has_frame(job, part, width, _neighbour(job, part)):
         # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
         if job.settings.stock.finished:
             return beside(shapely.box(*job.stock), part), None

@@ -31,9 +31,18 @@ def value(offset: DOffset) -> str:
     return f"{offset.planned:.3f}, the {what}{offset.quantity}"
 
 
-def lines(offsets: Sequence[DOffset]) -> tuple[str, ...]:
+SETTINGS = {"fanuc": "commonly parameter 5004, bit 2", "haas": "setting 40"}
+"""Where a control is told whether D is a radius or a diameter."""
+
+
+def lines(offsets: Sequence[DOffset], control: str) -> tuple[str, ...]:
     """How D is set, and how a part is brought to size."""
     said = []
+    if control in SETTINGS:
+        said.append(
+            f"The control has to take D as a {offsets[0].quantity} ({SETTINGS[control]}). Geometry and wear "
+            "are added up: enter the planned value as geometry, with wear 0, and correct sizes in wear."
+        )
     for offset in offsets:
         low, high = offset.planned - offset.limit, offset.planned + offset.limit
         measured = f"{offset.tool.diameter:g} mm in diameter as planned"

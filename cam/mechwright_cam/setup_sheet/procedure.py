@@ -69,7 +69,11 @@ def steps(
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
         ),
-        *([Step("Set D, and bring the part to size", lines(offsets))] if offsets else []),
+        *(
+            [Step("Set D, and bring the part to size", lines(offsets, job.settings.control))]
+            if offsets
+            else []
+        ),
         _run(job, offset, file_names, touched=touched),
     ]
 
@@ -172,7 +176,12 @@ def _touch_off(job: Job, tools: Sequence[int]) -> Step:
 
 def _turn(job: Job) -> Step:
     side = job.settings.second_side
-    edges = "front edge goes to the rear" if side.flip == "x" else "left edge goes to the right"
+    if side.flip == "x":
+        edges = "front edge goes to the rear, left stays left"
+        straight = "what was the rear edge, now in front,"
+    else:
+        edges = "left edge goes to the right, the rear one stays at the rear"
+        straight = "the rear edge"
     lines = [
         f"Turn the plate over about the {side.flip.upper()} axis: its {edges}. The tabs are on top "
         "now; leave the frame on.",
@@ -181,32 +190,53 @@ def _turn(job: Job) -> Step:
     if side.locate == "dowels":
         lines.append(
             f"Put it on two dowels of {side.dowel_diameter:g} mm, which stand in the table where the first "
-            "side's holes were."
+            "side's holes were: deepen these before the plate is taken off."
         )
+    else:  # that edge lay along X on the first side, another one need not be parallel to it
+        lines.append(f"Indicate {straight} to 0.02 mm.")
     return Step("Turn the plate over", tuple(lines))
 
 
 def _second_plane(job: Job, offset: str) -> Step:
-    x0, y0, _, _ = job.stock
-    side, first = job.settings.second_side, "the first side's"
-    match side.locate:
+    match job.settings.second_side.locate:
         case "dowels":
-            same, other = ("X", "Y") if side.flip == "x" else ("Y", "X")
-            how = (
-                f"With the origin on the part's axis {offset} X and Y are {first}: the dowels stand on the "
-                f"{same} axis. With another origin indicate the dowels for {other}."
-            )
+            places = " and ".join(f"X {signed(x)}, Y {signed(y)}" for x, y in job.pick_up)
+            how = f"The dowels are at {places} in {offset}: indicate one to 0.01 mm."
+            if job.settings.origin == "axis":
+                how += f" These are X and Y of the first side, so {offset} X and Y may be copied from it."
         case "bore":
-            x, y = job.pick_up or (0.0, 0.0)
+            ((x, y),) = job.pick_up
             how = (
                 f"Indicate the largest bore to 0.01 mm. Its axis is X {signed(x)}, Y {signed(y)} in {offset}."
             )
         case "edges":
+            one, two = datum_edges(job)
             how = (
-                f"The left edge is X {signed(x0)}, the front edge is Y {signed(y0)}. With an edge finder of "
-                f"radius r: on the left edge X reads {signed(x0)} − r, on the front edge Y {signed(y0)} − r."
+                f"The {one.name} edge is X {signed(one.at)}, the {two.name} edge is Y {signed(two.at)}: they "
+                "are the first side's left and front edges, so that the plate's true size does not matter. "
+                f"With an edge finder of radius r: on the {one.name} edge X reads {one.reads}, on the "
+                f"{two.name} edge Y {two.reads}."
             )
     return Step(f"Set {offset} X and Y", (how,))
+
+
+@dataclass(frozen=True)
+class Edge:
+    """An edge of the stock from which X0 or Y0 is found; what the axis reads with an edge finder on it."""
+
+    name: str
+    at: float
+    reads: str
+
+
+def datum_edges(job: Job) -> tuple[Edge, Edge]:
+    """The edges of the stock from which X0 and Y0 are found."""
+    x, y = job.datum
+    right, rear = x == job.stock[2], y == job.stock[3]
+    return (
+        Edge("right" if right else "left", x, f"{signed(x)} {'+' if right else '−'} r"),
+        Edge("rear" if rear else "front", y, f"{signed(y)} {'+' if rear else '−'} r"),
+    )
 
 
 def _plane(job: Job, offset: str) -> Step:
@@ -234,8 +264,8 @@ def _height(offset: str) -> Step:
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
             f"Enter {offset} Z = N − h on the offset page, or {setting_words(offset)} Z[N − h]. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
-            "If the nose cannot reach, use the longest tool in its place, for N and as H0 below; "
-            "the others then have negative H.",
+            "If the nose cannot reach, use the longest tool in its place for N: its H is 0, the others have "
+            "negative H. Use the same one for all programs of the job, since they share the lengths.",
         ),
     )
 
@@ -248,8 +278,8 @@ def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
             f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
             "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
             "Enter Hn = Zn − N as the length (Z) of that tool in the tool table"
-            + (". What goes into D comes below. " if with_d else ", and its diameter. ")
-            + "The table above has room for both.",
+            + (". What goes into D comes below." if with_d else "."),
+            "A tool that has its H from another program of the job keeps it.",
             f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
             f"{offset} Z names.",
         ),
@@ -285,20 +315,24 @@ def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> 
             if touched
             else f"set {offset} Z again if its top is not as high as the last one. The length offsets stay."
         )
-        lines.append(
-            f"Make {quantity(job)}. A further plate against the same stops keeps {offset} X and Y; {again}"
-        )
+        if job.side == "underside" and job.settings.second_side.locate != "dowels":
+            # Stops touch other edges now, and how far those are from the part is the saw's affair.
+            same = f"Pick up {offset} X and Y on every further plate"
+        else:
+            stops = "on the same dowels" if job.side == "underside" else "against the same stops"
+            same = f"A further plate {stops} keeps {offset} X and Y"
+        lines.append(f"Make {quantity(job)}. {same}; {again}")
     fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
     if fits:
         lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
     if job.tabs:
         width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
-        sides = ""
+        sides, what = "", "parts" if isinstance(job.part, Nest) else "part"
         if job.tabs[0].ramped:
             foot = width + 2 * height / job.tabs[0].slope
             sides = f", on slopes that reach {foot:.1f} mm along the wall at the underside,"
         lines.append(
-            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the part to the end. "
+            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the {what} to the end. "
             "Saw them through, and file them flush."
         )
     if job.clamp is not None:

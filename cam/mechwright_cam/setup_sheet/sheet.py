@@ -14,7 +14,7 @@ from mechwright_cam.picture import plan_view
 from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.compensation import d_offsets, value
 from mechwright_cam.setup_sheet.levels import side_view
-from mechwright_cam.setup_sheet.procedure import origin_words, quantity, steps
+from mechwright_cam.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
 from mechwright_cam.svg import signed
 from mechwright_cam.trace import trace
 
@@ -66,7 +66,7 @@ def setup_html(
         sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
         sheet["deviation"] = Markup((deviations or {}).get(program.name, ""))  # noqa: S704 - ours as well
         sheet["places"] = facts.place_rows(proof or {})
-        body = template.render(**sheet, tool_table=tool_table, design=design)
+        body = template.render(**sheet, table_words=table_words(tool_table, suffix), design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]
     return pages.get_template("page.html").render(sheets=sheets, titles=titles, summary=summary)
@@ -80,6 +80,22 @@ def file_names(program: Program, suffix: str, files: Mapping[str, Sequence[str]]
 def span(names: Sequence[str]) -> str:
     """Names of files in few words."""
     return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
+
+
+def table_words(table: str, suffix: str) -> str:
+    """What to do with the file of the control's offsets; empty if there is none.
+
+    >>> table_words("tool.tbl", ".nc")
+    'tool.tbl lists the tools: enter the measured lengths there.'
+    """
+    if not table:
+        return ""
+    if table.endswith(suffix):
+        return (
+            f"{table} is a program: run it once for new cutters, and H and D are set as far as known."
+            " Run again later it takes back what was corrected at the machine."
+        )
+    return f"{table} lists the tools: enter the measured lengths there."
 
 
 def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
@@ -110,6 +126,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence
             offsets=tuple(offsets.values()),
         ),
         "origin": origin_words(job),
+        "edges": datum_edges(job),
         "quantity": quantity(job),
         "by_hand": not DIALECTS.get(job.settings.control, LINUXCNC).length_table,
         # Our own markup; all text in it is escaped where it is made.

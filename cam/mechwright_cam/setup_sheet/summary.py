@@ -5,10 +5,11 @@ from typing import Any
 
 from mechwright.program import Program
 from mechwright.tooling import Tool
+from mechwright_cam.interpreter import DIALECTS, LINUXCNC
 from mechwright_cam.job import Job
 from mechwright_cam.setup_sheet import facts
 from mechwright_cam.setup_sheet.procedure import quantity
-from mechwright_cam.setup_sheet.sheet import environment, file_names, span
+from mechwright_cam.setup_sheet.sheet import environment, file_names, span, table_words
 from mechwright_cam.trace import trace
 
 SHEET = ".setup.html"
@@ -43,7 +44,7 @@ def summary_html(
         .render(
             name=name,
             design=design,
-            tool_table=tool_table,
+            table_words=table_words(tool_table, suffix),
             rows=rows,
             tools=_tools(programs),
             verdict=False if False in verdicts else None if None in verdicts else True,
@@ -79,6 +80,8 @@ def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) ->
     """One row per tool, by number, with what all programs ask of it."""
     found: dict[int, dict[str, Any]] = {}
     for job, program, proof in programs:
+        by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
+        compensated = {tool.number for tool in program.compensated}
         for row in facts.tool_rows(job, program, trace(program), proof or {}):
             tool: Tool = row.tool
             mine = found.setdefault(
@@ -86,6 +89,8 @@ def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) ->
                 {
                     "tool": tool,
                     "description": row.description,
+                    "length": "–" if by_hand else f"H{tool.number}",
+                    "diameter": "–",
                     "programs": [],
                     "bottom": 0.0,
                     "stick_out": 0.0,
@@ -93,6 +98,8 @@ def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) ->
                 },
             )
             mine["programs"].append(program.name)
+            if tool.number in compensated:
+                mine["diameter"] = f"D{tool.d_number}"
             mine["bottom"] = min(mine["bottom"], row.bottom)
             mine["stick_out"] = max(mine["stick_out"], row.stick_out)
             if row.seconds is not None:

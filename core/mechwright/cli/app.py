@@ -146,7 +146,10 @@ def build(
 @app.command()
 def verify(
     program: Annotated[
-        Path, typer.Argument(metavar="PROGRAM", help="A program for the mill.", show_default=False)
+        list[Path],
+        typer.Argument(
+            metavar="PROGRAM", help="A program for the mill; its files in order.", show_default=False
+        ),
     ],
     design: Annotated[Path, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)],
     part: Annotated[str, typer.Option(metavar="NAME", help="The part it cuts.", show_default=False)],
@@ -157,7 +160,8 @@ def verify(
 ) -> None:
     """Prove that a program from anywhere cuts the part.
 
-    It is simulated as the programs of `cam` are. The exit code is 1 if it does not cut the part.
+    It is simulated as the programs of `cam` are. The exit code is 1 if it does not cut the part. Several
+    files, one for each tool, are one program.
     """
     from mechwright.cli import work
 

@@ -1,7 +1,7 @@
 """The commands that work on a design file."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -194,12 +194,18 @@ def _facts(design: Design, found: Host) -> dict[str, Any]:
     return facts(design.name, design.family, inputs, found)
 
 
-def verify(program: Path, path: Path, part_name: str, as_json: bool, control: str = "") -> None:
-    """Prove a program that came from anywhere."""
+def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, control: str = "") -> None:
+    """Prove a program that came from anywhere, in one file or in several that are run in order."""
     from mechwright_cam import pipeline
 
     design, found = _open(path)
-    text, _ = read_text(program, PROGRAM_SIZE_LIMIT, older="latin-1")  # comments may be of any age
+    # Comments may be of any age.
+    texts = {str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1")[0] for file in programs}
+    if len(texts) < len(programs):
+        raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
+    program, *rest = texts
+    text = texts if rest else texts[program]
+    program += f" to {rest[-1]}" if rest else ""
     findings = list(design.family.check(design.params))
     if errors(findings):
         _refuse(findings, path)
@@ -211,8 +217,8 @@ def verify(program: Path, path: Path, part_name: str, as_json: bool, control: st
         raise DesignError(f"--part: {part_name!r} is no part of {path}; it has: {', '.join(sorted(parts))}")
     try:
         proof = pipeline.verify(design, parts[name], text, found, control, underside=name != part_name)
-    except ProgramError as error:
-        raise ProgramError(f"{program}: {error}") from error
+    except ProgramError as error:  # of several files it names the one
+        raise ProgramError(f"{program}: {error}" if len(texts) == 1 else str(error)) from error
     if as_json:
         typer.echo(json.dumps(proof.as_dict(), indent=2))
     else:
