@@ -1,5 +1,6 @@
 """From program text to proof."""
 
+import math
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
@@ -231,14 +232,16 @@ def _leftover_check(left: Remains) -> Check:
             unit="mm",
         )
     x, y, z = left.at
+    found = (
+        f"{left.reachable:.3f} mm of stock stay" if math.isfinite(left.reachable) else "the stock stays whole"
+    )
     where = "where a cutter of the program could go"
     if left.bore is not None:
         where = f"on the wall of {left.bore.name}, which is to be cut to {left.bore.diameter:g} mm"
     return Check(
         "leftover",
         False,
-        f"{left.reachable:.3f} mm of stock stay {where}, "
-        f"the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
+        f"{found} {where}, the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
         None,
         left.reachable,
         limit,
