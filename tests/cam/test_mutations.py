@@ -108,6 +108,7 @@ def test_a_cycle_stops_short_of_the_stock() -> None:
         ("slot", "F735", "F4700"),
         ("chamfer", "S7003", "S700.3"),
         ("thread", "S12000 M3", "S1200 M3"),
+        ("ball", "S11671", "S1167.1"),
     ],
 )
 def test_chips_are_not_much_thicker_than_planned(operation: str, old: str, new: str) -> None:
@@ -172,6 +173,31 @@ def test_a_level_that_is_missing_is_too_much_for_the_next() -> None:
     assert not found.passed
     assert found.line >= c - (b - 1 - a)
     assert "cuts more than 4.5 mm of aluminium at once, 1.5 times its step_down" in found.message
+
+
+@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+def test_nothing_goes_far_below_the_plate(control: str) -> None:
+    """A drill has its point below, and a through cut its 0.3 mm; a wrong digit is more."""
+    one = made("peck", control)
+    lines = one.text.splitlines()
+    at = max(k for k, line in enumerate(lines) if "Z-19.20" in line)
+    lines[at] = lines[at].replace("Z-19.20", "Z-29.20")
+    found = prove("\n".join(lines), one.job, DIALECTS[control]).checks["underside"]
+    assert re.match(rf"line {at + 1}: T4 goes 11.20 mm below the plate", found.message)
+    shallow = one.text.replace("Z-19.20", "Z-20.10")
+    assert prove(shallow, one.job, DIALECTS[control]).checks["underside"].passed
+
+
+def test_lines_that_a_switch_skips_are_proven_both_ways() -> None:
+    one = made("pocket-contour")
+    extra = one.text.replace("M9\n", "/(nothing)\nM9\n")
+    assert prove(extra, one.job).ok
+    found = prove(one.text.replace("\nM8\n", "\n/M8\n"), one.job).checks["coolant"]
+    assert re.match(r"with lines that start with / skipped, line \d+: cuts with coolant off", found.message)
+    with pytest.raises(
+        ProgramError, match=r"^with lines that start with / skipped, line 18: .* without a feed"
+    ):
+        prove(one.text.replace("Z0 F1960", "Z0").replace("\nG1 Z0", "\n/F1960\nG1 Z0", 1), one.job)
 
 
 SURE = (

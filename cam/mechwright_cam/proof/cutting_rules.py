@@ -97,11 +97,13 @@ def chips(scene: Scene) -> Check:
 def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:
     """Whether a move meets material where chips are thicker than this share of the feed per tooth.
 
-    They are f_z sin θ with the engagement θ of a mill, which reaches in by r (1 - cos θ).
+    They are f_z sin θ with the engagement θ of a mill, which reaches in by r (1 - cos θ); where a rounded
+    corner cuts, less by the sine of the angle of its edge.
     """
     if tool.kind not in MILLS:
         return scene.stock.meets(step)
-    radius = tool.radius * math.sqrt(1 - thin * thin) - SHAVES
+    on_nose = tool.radius - tool.nose * (1 - max(thin, MIDDLE))
+    radius = min(tool.radius * math.sqrt(1 - thin * thin) - SHAVES, on_nose)
     return radius > 0 and scene.stock.meets(step, lift=float(cutter(tool).height_at(radius)), radius=radius)
 
 

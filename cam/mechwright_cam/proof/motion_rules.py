@@ -98,6 +98,34 @@ def flutes(scene: Scene) -> Check:
     return Check("flutes", True, "no tool cuts deeper than its flutes")
 
 
+BELOW = 1.0
+"""Cuts through the plate may go so much further below it than planned, mm: the setup sheet tells of the room
+that they need; a wrong digit is more."""
+
+
+def underside(scene: Scene) -> Check:
+    """Nothing goes much further below the plate than cuts through it have to: there is a table or a vice."""
+    paths, job = scene.paths, scene.job
+    low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
+    shape = paths.cutters(paths.steps)
+    point = np.where(np.isfinite(shape.slope) | (shape.nose > 0), shape.height_at(shape.radius), 0.0)
+    over = job.floor - BELOW - point - low
+    worst = int(np.argmax(over)) if over.size else 0
+    if over.size and over[worst] > NEAR:
+        deep = -float(low[worst]) - job.thickness
+        limit, tool = deep - float(over[worst]), scene.run.tool[paths.steps[worst]]
+        return scene.bad(
+            "underside",
+            int(paths.steps[worst]),
+            f"T{tool} goes {deep:.2f} mm below the plate, {limit:.2f} mm at most; "
+            "set cam.breakthrough if there is room",
+            deep,
+            limit,
+            "mm",
+        )
+    return Check("underside", True, "no tool goes further below the plate than cuts through it have to")
+
+
 def rapid_height(scene: Scene) -> Check:
     """Sideways rapids over the stock run at the clearance plane or above."""
     paths, limit = scene.paths, scene.job.settings.clearance

@@ -27,6 +27,7 @@ from mechwright_cam.proof.motion_rules import (
     rapid_height,
     rapids_in_stock,
     travel,
+    underside,
 )
 from mechwright_cam.proof.scene import Rule
 
@@ -46,6 +47,6 @@ RULES: tuple[Rule, ...] = (
         dwells,
         travel,
     ),
-    *(flutes, rapid_height, rapids_in_stock, entries, holder, clamp),
+    *(flutes, underside, rapid_height, rapids_in_stock, entries, holder, clamp),
 )
 """All rules, in the order of the report."""
