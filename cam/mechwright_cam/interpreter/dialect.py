@@ -61,6 +61,8 @@ class Dialect:
         Whether the control has a table of tool lengths for G43 H.
     variables
         Whether parameters, expressions and O-words are worked out.
+    numbers_needed
+        Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
     home_cancels_length
         Whether G28 of Z may end G43, so that it has to be stated anew.
     forbidden
@@ -94,6 +96,7 @@ class Dialect:
     forbidden: str = ""
     variables: bool = False
     home_cancels_length: bool = False
+    numbers_needed: str = ""
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}

@@ -82,7 +82,7 @@ class Machine(Moving):
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
         self._modes(block, words)
-        self._length_offset(block, words)
+        self._length_offset(block)
         self._work_offset(block, words)
         self._tables(block, words)
         self._keep_state()

@@ -130,32 +130,42 @@ class Modal(Compensation):
                     self._state("plane")
             elif code == 400:
                 self.end_compensation()
-                self._set(side=0)
+                self._set(side=0, diameter_offset=None)
                 self._state("cutter compensation")
             elif code in {410, 420, 411, 421}:
                 if self.plane != 170:
                     raise fail(block.line, f"{spell(code)} is read in the XY plane only (G17)")
                 side = 1 if code in {410, 411} else -1
-                self.begin_compensation(block.line, side, self._diameter(block, code))
-                self._set(side=side)
+                number, diameter = self._diameter(block, code)
+                self.begin_compensation(block.line, side, diameter)
+                self._set(side=side, diameter_offset=number)
             elif code == 640:
                 words.pop("P", None)
                 words.pop("Q", None)
 
-    def _diameter(self, block: Block, code: int) -> float:
-        """The diameter of G41 and G42: of the tool in the spindle, of that of the D word, or D itself."""
+    def _number(self, block: Block, letter: str, code: int) -> int:
+        """The number of an offset: as it is written, or the tool's where the control takes that."""
+        if letter not in block.words and letter in self.dialect.numbers_needed:
+            raise fail(
+                block.line,
+                f"{spell(code)} without {letter} takes what {self.dialect.name} had last; write {letter}",
+            )
+        return self._whole(block, letter, block.words.pop(letter, self.state.tool))
+
+    def _diameter(self, block: Block, code: int) -> tuple[int | None, float]:
+        """D number and diameter of G41 and G42: of the tool in the spindle, of the D word's, or D itself."""
         name = spell(code)
         if code in {411, 421}:
-            return self._take(block, "D", f"{name} needs the diameter, D") * self.scale
-        number = self._whole(block, "D", block.words.pop("D", self.state.tool))
+            return None, self._take(block, "D", f"{name} needs the diameter, D") * self.scale
+        number = self._number(block, "D", code)
         if number not in self.diameters:
             raise fail(block.line, f"{name} D{number}: no tool of that number is known, so no diameter")
-        return self.diameters[number]
+        return number, self.diameters[number]
 
-    def _length_offset(self, block: Block, words: dict[str, float]) -> None:
+    def _length_offset(self, block: Block) -> None:
         offset, length = self.state.length_offset, None
         if 430 in block.g:
-            offset = self._whole(block, "H", words.pop("H", self.state.tool))
+            offset = self._number(block, "H", 430)
         elif 431 in block.g:
             length = self._take(block, "Z", "G43.1 needs the length, Z") * self.scale
             offset = -1

@@ -57,6 +57,8 @@ class State:
         What runs.
     side
         1 with cutter compensation on the left of the contour (G41), -1 on the right, 0 without.
+    diameter_offset
+        D number of that; None without compensation, or if the program gives the diameter itself.
     stated
         The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
         that the program has set itself.
@@ -70,6 +72,7 @@ class State:
     rpm: float = 0.0
     coolant: Coolant = "off"
     side: int = 0
+    diameter_offset: int | None = None
     stated: frozenset[str] = frozenset()
 
 

@@ -22,8 +22,8 @@ from mechwright_cam.toolpath.path import Path
 class Finishing:
     """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool) -> None:
-        self.zone, self.settings, self.tool = zone, settings, tool
+    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool, step_down: float) -> None:
+        self.zone, self.settings, self.tool, self.step_down = zone, settings, tool, step_down
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)
         self.room = zone.room(radius, finishing=True)
@@ -142,7 +142,9 @@ class Finishing:
             if is_open:
                 pen.sink(z)
             else:
-                pen.ramp(path, z)
+                # Where only this mill gets in nothing has roughed: no lap is deeper than its passes.
+                for height in levels(pen.z, z, self.step_down) if pen.z > z else ():
+                    pen.ramp(path, height)
             pen.follow(path, inside=1 if self.settings.climb else -1)
 
 

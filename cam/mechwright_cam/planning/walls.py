@@ -202,7 +202,12 @@ class Walls:
         settings = self.job.settings
         deep = _pass(zone, mill, settings.finish_step * mill.diameter)
         plain = settings.compensation == "computer"
-        finishing = Finishing(zone, settings, mill) if plain else CompensatedFinishing(zone, self.job, mill)
+        step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
+        finishing = (
+            Finishing(zone, settings, mill, step_down)
+            if plain
+            else CompensatedFinishing(zone, self.job, mill)
+        )
         moves = self.moves(mill, finishing.write, depth=deep, over=zone.slopes)
         if not moves and mill is zone.finisher:
             raise ToolError(

@@ -38,6 +38,8 @@ def obstacles(scene: Scene) -> list[Obstacle]:
         name = f"the clamp (diameter {job.clamp.diameter:g} mm, up to Z{job.clamp.top:g})"
         # Without a stop it can only have been there from the start.
         since = int(stops[0]) if stops.size else -1
+        if not stops.size:
+            name += ", which no M0 sets later"
         found.append(
             Obstacle(name, shapely.Point(job.clamp.centre), job.clamp.diameter / 2, job.clamp.top, since)
         )

@@ -22,7 +22,8 @@ def program_end(scene: Scene) -> Check:
     """The program says that it ends, with the tool up."""
     run = scene.run
     if not run.ended:
-        return Check("program-end", False, "the program has no end; write M30 or M2", run.lines)
+        where = "" if run.files else f"line {run.lines}: "
+        return Check("program-end", False, f"{where}the program has no end; write M30 or M2", run.lines)
     moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
     if moved.size == 0 or not run.cutting.any():
         return Check("program-end", False, "the program cuts nothing", run.lines)
@@ -113,6 +114,42 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
                 "stop (M0) to touch it off, or write G43.1 with its length",
             )
     return Check("length-offset", True, "every tool is touched off, or has its length from G43.1")
+
+
+def diameter_offset(scene: Scene) -> Check:
+    """Cutter compensation takes the D of the tool in the spindle."""
+    run = scene.run
+    active = scene.of_states(lambda state: -1 if state.diameter_offset is None else state.diameter_offset)
+    own = np.zeros(len(run), dtype=np.int64)
+    for number, tool in scene.tools.items():
+        own[run.tool == number] = tool.d_number
+    step = first(moving(run) & (active >= 0) & (own > 0) & (active != own))
+    if step is not None:
+        found, wanted = int(active[step]), int(own[step])
+        return scene.bad(
+            "diameter-offset",
+            step,
+            f"compensation with D{found} while T{run.tool[step]} is in the spindle; write D{wanted}, or set "
+            f"diameter_offset = {found} in the tool library",
+            found,
+            wanted,
+        )
+    return Check("diameter-offset", True, "compensation takes the D of the tool in the spindle")
+
+
+def stops(scene: Scene) -> Check:
+    """Where the program stops for the operator's hands, the spindle stands still and the tool is up."""
+    run = scene.run
+    stop = run.kind == Kind.STOP
+    step = first(stop & (scene.of_states(lambda state: state.spindle) != 0))
+    if step is not None:
+        return scene.bad("stops", step, "M0 stops the program while the spindle turns; write M5 before it")
+    step = first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))
+    if step is not None:
+        return scene.bad(
+            "stops", step, "M0 stops the program with the tool down; retract with G53 G0 Z0 first"
+        )
+    return Check("stops", True, "at stops the spindle stands still and the tool is up")
 
 
 def work_offset(scene: Scene) -> Check:

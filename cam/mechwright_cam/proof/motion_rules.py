@@ -14,6 +14,7 @@ from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.stock import TOUCH
 
 
 def travel(scene: Scene) -> Check:
@@ -97,6 +98,34 @@ def flutes(scene: Scene) -> Check:
     return Check("flutes", True, "no tool cuts deeper than its flutes")
 
 
+BELOW = 1.0
+"""Cuts through the plate may go so much further below it than planned, mm: the setup sheet tells of the room
+that they need; a wrong digit is more."""
+
+
+def underside(scene: Scene) -> Check:
+    """Nothing goes much further below the plate than cuts through it have to: there is a table or a vice."""
+    paths, job = scene.paths, scene.job
+    low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
+    shape = paths.cutters(paths.steps)
+    point = np.where(np.isfinite(shape.slope) | (shape.nose > 0), shape.height_at(shape.radius), 0.0)
+    over = job.floor - BELOW - point - low
+    worst = int(np.argmax(over)) if over.size else 0
+    if over.size and over[worst] > NEAR:
+        deep = -float(low[worst]) - job.thickness
+        limit, tool = deep - float(over[worst]), scene.run.tool[paths.steps[worst]]
+        return scene.bad(
+            "underside",
+            int(paths.steps[worst]),
+            f"T{tool} goes {deep:.2f} mm below the plate, {limit:.2f} mm at most; "
+            "set cam.breakthrough if there is room",
+            deep,
+            limit,
+            "mm",
+        )
+    return Check("underside", True, "no tool goes further below the plate than cuts through it have to")
+
+
 def rapid_height(scene: Scene) -> Check:
     """Sideways rapids over the stock run at the clearance plane or above."""
     paths, limit = scene.paths, scene.job.settings.clearance
@@ -124,8 +153,19 @@ def rapid_height(scene: Scene) -> Check:
 
 
 def rapids_in_stock(scene: Scene) -> Check:
-    """No rapid meets material."""
+    """No rapid meets material, nor ends right on it."""
     found = [step for step in _low_rapids(scene).tolist() if scene.stock.meets(step)]
+    for step in [] if found else _onto_stock(scene).tolist():
+        z = float(scene.paths.end[step, 2])
+        if scene.stock.meets(step, lift=-z - TOUCH, radius=float(scene.paths.radius[step])):
+            return scene.bad(
+                "rapids-in-stock",
+                step,
+                f"a rapid ends {z:g} mm above the stock, less than {ABOVE:g} mm; feed the rest",
+                z,
+                ABOVE,
+                "mm",
+            )
     if found:
         return Check(
             "rapids-in-stock",
@@ -138,6 +178,19 @@ def rapids_in_stock(scene: Scene) -> Check:
             scene.where(found[0]),
         )
     return Check("rapids-in-stock", True, "no rapid meets material", value=0.0, limit=0.0)
+
+
+ABOVE = 0.2
+"""Rapids down end at least so far above the stock, mm: plates are uneven, and tools are set, to tenths."""
+
+
+def _onto_stock(scene: Scene) -> Ints:
+    """Rapids that end down on the top of the stock, or nearly so."""
+    paths = scene.paths
+    rapid = paths.steps[scene.run.kind[paths.steps] == Kind.RAPID]
+    z = paths.end[rapid, 2]
+    onto: Ints = rapid[(z < ABOVE - NEAR) & (z >= -NEAR) & (z < paths.start[rapid, 2])]
+    return onto
 
 
 def _low_rapids(scene: Scene) -> Ints:

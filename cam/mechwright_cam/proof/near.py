@@ -66,10 +66,14 @@ class Chords:
         if not len(self.first) or not len(places):
             return out
         line, hint = _Grid(hints).pairs(self.first, self.last, reach)
-        np.minimum.at(out, hint, self._distances(places, hint, line))
+        np.minimum.at(out, hint, self.distances(places, hint, line))
         return out
 
-    def _distances(self, places: Array, place: Ints, line: Ints) -> Array:
+    def pairs(self, places: Array, reach: float) -> tuple[Ints, Ints]:
+        """Line and place, by index, of all pairs within ``reach`` mm of each other, and some more."""
+        return _Grid(places, max(CELL, reach / 2)).pairs(self.first, self.last, reach)
+
+    def distances(self, places: Array, place: Ints, line: Ints) -> Array:
         """Distance (k,) of each place from its line, both given by index."""
         (x, y), (x0, y0), (wx, wy) = (
             np.ascontiguousarray(a.T) for a in (places, self.first, self.last - self.first)
@@ -89,10 +93,10 @@ class Chords:
 class _Grid:
     """Places (k, 2) sorted into square cells."""
 
-    def __init__(self, places: Array) -> None:
+    def __init__(self, places: Array, cell: float = CELL) -> None:
         self.least = places.min(axis=0)
         size = places.max(axis=0) - self.least
-        self.cell = max(CELL, math.sqrt(float(size.prod()) / MOST_CELLS), float(size.max()) / MOST_CELLS)
+        self.cell = max(cell, math.sqrt(float(size.prod()) / MOST_CELLS), float(size.max()) / MOST_CELLS)
         self.columns, self.rows = (np.floor(size / self.cell).astype(np.int64) + 1).tolist()
         column, row = np.floor((places - self.least) / self.cell).astype(np.int64).T
         cell = row * self.columns + column

@@ -1,7 +1,10 @@
 """From program text to proof."""
 
+import math
+import re
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -31,6 +34,8 @@ from mechwright_cam.proof.sweep import ROUNDING, Sweeps
 from mechwright_cam.threads import prepared
 from mechwright_cam.timing import step_times
 
+SWITCHED = re.compile(r"^\s*/", re.MULTILINE)
+"""A line that a switch at the machine skips."""
 FEW = 64
 """So many of the deepest moves are asked first whether they cut a feature."""
 BESIDE = 0.5
@@ -62,7 +67,28 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     ProgramError
         The text cannot be read; the message names the line.
     """
-    run = read(text, job, dialect)
+    proof = _prove(text, job, dialect)
+    if not proof.ok or not any(map(SWITCHED.search, [text] if isinstance(text, str) else text.values())):
+        return proof
+    words = "with lines that start with / skipped, "
+    try:
+        other = _prove(text, job, dialect, block_delete=True)
+    except ProgramError as error:
+        raise ProgramError(words + str(error)) from error
+    if other.ok:
+        return proof
+    return replace(
+        other,
+        checks={
+            name: check if check.passed else replace(check, message=words + check.message)
+            for name, check in other.checks.items()
+        },
+    )
+
+
+def _prove(text: str | Mapping[str, str], job: Job, dialect: Dialect, *, block_delete: bool = False) -> Proof:
+    """Simulate a program with the switch for optional lines off, or on."""
+    run = read(text, job, dialect, block_delete=block_delete)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
     scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
@@ -78,7 +104,7 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
         _leftover_check(left),
         held,
         details.cut(scene.paths, job),
-        follows(scene, lambda more: read(text, job, dialect, more)),
+        follows(scene, lambda more: read(text, job, dialect, more, block_delete=block_delete)),
     ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
@@ -124,19 +150,31 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
     return left, held, loose
 
 
-def read(text: str | Mapping[str, str], job: Job, dialect: Dialect, more: float = 0.0) -> Run:
+def read(
+    text: str | Mapping[str, str],
+    job: Job,
+    dialect: Dialect,
+    more: float = 0.0,
+    *,
+    block_delete: bool = False,
+) -> Run:
     """Run a program on the machine of a job; raises ProgramError that names file and line.
 
-    Every D is ``more`` mm larger than planned, as a radius.
+    Every D is ``more`` mm larger than planned, as a radius. With ``block_delete`` lines that start with ``/``
+    are skipped.
     """
     upper_end = job.settings.machine.retract_z
     diameters = {number: 2 * (d + more) for number, d in planned_offsets(job).items()}
+
+    def run(one: str) -> Run:
+        return interpret(one, dialect, block_delete=block_delete, upper_end=upper_end, diameters=diameters)
+
     if isinstance(text, str):
-        return interpret(text, dialect, upper_end=upper_end, diameters=diameters)
+        return run(text)
     runs = []
     for name, one in text.items():
         try:
-            runs.append(interpret(one, dialect, upper_end=upper_end, diameters=diameters))
+            runs.append(run(one))
         except ProgramError as error:
             raise ProgramError(f"{name}: {error}") from error
     return joined(tuple(text), runs)
@@ -231,14 +269,16 @@ def _leftover_check(left: Remains) -> Check:
             unit="mm",
         )
     x, y, z = left.at
+    found = (
+        f"{left.reachable:.3f} mm of stock stay" if math.isfinite(left.reachable) else "the stock stays whole"
+    )
     where = "where a cutter of the program could go"
     if left.bore is not None:
         where = f"on the wall of {left.bore.name}, which is to be cut to {left.bore.diameter:g} mm"
     return Check(
         "leftover",
         False,
-        f"{left.reachable:.3f} mm of stock stay {where}, "
-        f"the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
+        f"{found} {where}, the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}",
         None,
         left.reachable,
         limit,

@@ -1,9 +1,12 @@
 """All rules, in the order of the report."""
 
+from mechwright_cam.proof.cutting_rules import chips, cutting_speed, pecks
+from mechwright_cam.proof.depth_of_cut import depth_of_cut
 from mechwright_cam.proof.held import clamp
 from mechwright_cam.proof.machine_rules import (
     arcs,
     coolant,
+    diameter_offset,
     dwells,
     feeds,
     length_offset,
@@ -12,6 +15,7 @@ from mechwright_cam.proof.machine_rules import (
     program_end,
     speeds,
     spindle,
+    stops,
     tool_changes,
     tools_known,
     work_offset,
@@ -23,11 +27,26 @@ from mechwright_cam.proof.motion_rules import (
     rapid_height,
     rapids_in_stock,
     travel,
+    underside,
 )
 from mechwright_cam.proof.scene import Rule
 
 RULES: tuple[Rule, ...] = (
-    *(program_end, modes, tools_known, work_offset, length_offset, positions, tool_changes, spindle, coolant),
-    *(arcs, feeds, speeds, dwells, travel, flutes, rapid_height, rapids_in_stock, entries, holder, clamp),
+    *(program_end, modes, tools_known, work_offset, length_offset, diameter_offset, positions, tool_changes),
+    *(
+        stops,
+        spindle,
+        coolant,
+        arcs,
+        feeds,
+        speeds,
+        cutting_speed,
+        chips,
+        pecks,
+        depth_of_cut,
+        dwells,
+        travel,
+    ),
+    *(flutes, underside, rapid_height, rapids_in_stock, entries, holder, clamp),
 )
 """All rules, in the order of the report."""

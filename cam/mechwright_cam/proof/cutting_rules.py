@@ -1,0 +1,156 @@
+"""Rules about what the edges of a cutter bear: speed, chips, and how deep a drill goes in one go.
+
+They ask what the tool library says of the cutter in the material of the part; of one that it says nothing of
+they know nothing. Programs of others cut otherwise than ours, so only what is far beyond is refused.
+"""
+
+import math
+
+import numpy as np
+
+from mechwright.cutter import cutter
+from mechwright.materials import material
+from mechwright.tooling import MILLS, CuttingData, Tool, ToolKind
+from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene, in_work
+
+BEYOND = 1.5
+"""Speeds, depths, and feeds of what is no mill, may be so many times the library's: tables of makers differ
+by as much, and a wrong digit is more."""
+THIN = 3.0
+"""Feed per tooth of a mill in chip loads: where it takes little, chips are thinner. Beyond, nobody feeds into
+material."""
+MIDDLE = 0.5
+"""Radius of the middle of a mill in radii: beside it a quarter of the diameter may be in a wall."""
+SHAVES = 0.05
+"""A mill on its way through what is cleared may shave so much off a wall, mm."""
+PLAY = 0.1
+"""What roughing leaves on walls may be so much more than planned without being in the middle, mm."""
+UNBROKEN = 3.0
+"""Depth in diameters that a drill goes at once where chips are long; beyond, they jam."""
+UNBROKEN_SHORT = 5.0
+"""The same where chips break by themselves."""
+
+
+def cutting_data(scene: Scene) -> list[tuple[Tool, CuttingData]]:
+    """The tools whose edges the library knows in this material."""
+    name = scene.job.part.material
+    return [(tool, tool.cutting[name]) for tool in scene.tools.values() if name in tool.cutting]
+
+
+def cutting_speed(scene: Scene) -> Check:
+    """No edge runs much faster than the tool library says, unless the spindle turns no slower."""
+    run, machine = scene.run, scene.job.settings.machine
+    rpm = scene.of_states(lambda state: state.rpm)
+    working = in_work(scene)
+    for tool, data in cutting_data(scene):
+        highest = max(1000 * BEYOND * data.cutting_speed / (math.pi * tool.diameter), machine.spindle_min)
+        fast = np.flatnonzero(working & (run.tool == tool.number) & (rpm > highest + 1.0))
+        if fast.size:
+            step = int(fast[0])
+            speed = math.pi * tool.diameter * float(rpm[step]) / 1000
+            return scene.bad(
+                "cutting-speed",
+                step,
+                f"S{rpm[step]:g} turns T{tool.number} ({tool.name}) at {speed:.0f} m/min in "
+                f"{scene.job.part.material}, the tool library says {data.cutting_speed:g}; lower S, or set "
+                f"cutting_speed in [cam.cutting.{tool.name}]",
+                speed,
+                BEYOND * data.cutting_speed,
+                "m/min",
+            )
+    return Check("cutting-speed", True, "no edge runs much faster than the tool library says")
+
+
+def chips(scene: Scene) -> Check:
+    """Nothing is fed into material much faster than the tool library says."""
+    run, paths = scene.run, scene.paths
+    rpm = scene.of_states(lambda state: state.rpm)
+    working = paths.steps[in_work(scene)[paths.steps] & (rpm[paths.steps] > 0)]
+    for tool, data in cutting_data(scene):
+        steps = working[run.tool[working] == tool.number]
+        way = paths.end[steps] - paths.start[steps]
+        plunge = (way[:, 2] < 0) & (np.nan_to_num(run.length[steps]) <= -way[:, 2] + NEAR)
+        if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
+            steps, plunge = steps[plunge], plunge[plunge]
+        # Straight down a flat end has no place where chips are thin.
+        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN)
+        # Whole feeds are as near as some posts come to a small one.
+        fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
+        for index in np.flatnonzero(run.feed[steps] > fastest).tolist():
+            step = int(steps[index])
+            feed, turns = float(run.feed[step]), float(rpm[step])
+            tooth = feed / turns / tool.flutes
+            if not _too_thick(scene, tool, step, BEYOND * data.chip_load / tooth):
+                continue
+            message = (
+                f"F{feed:g} at S{turns:g} feeds T{tool.number} ({tool.name}) {tooth:.3f} mm per tooth into "
+                f"{scene.job.part.material}, the tool library says {data.chip_load:g}; lower F, or set "
+                f"chip_load in [cam.cutting.{tool.name}]"
+            )
+            return scene.bad("chips", step, message, tooth, float(share[index]) * data.chip_load, "mm")
+    return Check("chips", True, "nothing is fed into material much faster than the tool library says")
+
+
+def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:
+    """Whether a move meets material where chips are thicker than this share of the feed per tooth.
+
+    They are f_z sin θ with the engagement θ of a mill, which reaches in by r (1 - cos θ); where a rounded
+    corner cuts, less by the sine of the angle of its edge.
+    """
+    if tool.kind not in MILLS:
+        return scene.stock.meets(step)
+    on_nose = tool.radius - tool.nose * (1 - max(thin, MIDDLE))
+    radius = min(tool.radius * math.sqrt(1 - thin * thin) - SHAVES, on_nose)
+    return radius > 0 and scene.stock.meets(step, lift=float(cutter(tool).height_at(radius)), radius=radius)
+
+
+def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:
+    """Whether the middle of a mill meets material in a move, so far above the tip or higher, mm.
+
+    A move that only shaves a wall, or the cusps on a floor, does not.
+    """
+    radius = middle(scene, tool)
+    lift = max(above, float(cutter(tool).height_at(radius)))
+    return radius > 0 and scene.stock.meets(step, lift=lift, radius=radius)
+
+
+def middle(scene: Scene, tool: Tool) -> float:
+    """Radius of the middle of a mill, mm, 0 if it has none: what roughing leaves on a wall is beside it."""
+    beside = tool.radius - MIDDLE * tool.radius
+    return MIDDLE * tool.radius if scene.job.settings.stock_to_leave + PLAY <= beside else 0.0
+
+
+def pecks(scene: Scene) -> Check:
+    """Drills come out, or break the chip, before chips jam."""
+    paths, run, job = scene.paths, scene.run, scene.job
+    diameters = BEYOND * (UNBROKEN if material(job.part.material).long_chips else UNBROKEN_SHORT)
+    for tool in scene.tools.values():
+        if tool.kind is not ToolKind.DRILL:
+            continue
+        steps: Ints = paths.steps[run.cutting[paths.steps] & (run.tool[paths.steps] == tool.number)]
+        top = np.minimum(paths.start[steps, 2], 0.0)
+        # Steps of one hole that follow on each other without a way up are one.
+        deep = top - paths.end[steps, 2]
+        for index in np.flatnonzero(deep > diameters * tool.diameter + NEAR).tolist():
+            step = int(steps[index])
+            found = _in_material(scene, step)
+            if found > diameters * tool.diameter:
+                return scene.bad(
+                    "pecks",
+                    step,
+                    f"T{tool.number} ({tool.name}) drills {found:.1f} mm in one go, "
+                    f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q",
+                    found,
+                    diameters * tool.diameter,
+                    "mm",
+                )
+    return Check("pecks", True, "no drill goes too deep in one go")
+
+
+def _in_material(scene: Scene, step: int) -> float:
+    """How far a drill goes down in material that is there: what stands at the hole, before it."""
+    start, end = scene.paths.start[step], scene.paths.end[step]
+    return float(min(start[2], 0.0) - end[2]) if scene.stock.meets(step) else 0.0
