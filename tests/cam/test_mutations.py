@@ -266,3 +266,14 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
             before, after = (trace(read(text, one.job, dialect)) for text in (one.text, wrong.text))
             assert not differences(before, after), f"{operation} {control}, {wrong.line}: {wrong.change}"
     assert tried
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "grbl"])
+def test_what_stands_behind_the_end_is_not_taken_for_proven(control: str) -> None:
+    one = made("profile-outside", control)
+    assert prove(one.text + "(spare)\n\nwritten by hand\n", one.job, DIALECTS[control]).ok
+    rest = "M30\n(once more)\nG0 X0 Y0\nM30\n"
+    found = refused(one, "M30\n", rest, "program-end", control)
+    line = one.text[: one.text.index("M30\n")].count("\n") + 3
+    assert found.line == line
+    assert "behind the program's end" in found.message

@@ -121,7 +121,8 @@ def test_random_compensated_contours_are_read_alike(text: str) -> None:
     if not canon.ok:
         # LinuxCNC is stricter about arcs that one neighbour swallows; the proof judges the path itself.
         return
-    agree(text, run, slack=3e-4)  # where arcs meet flatly, the last decimals of both are worth less
+    # Where a line and an arc meet flatly, what four decimals leave open is ten times as much along them.
+    agree(text, run, slack=1e-3)
 
 
 @pytest.mark.parametrize(

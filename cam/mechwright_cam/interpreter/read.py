@@ -1,6 +1,8 @@
 """A program read from its first line to its end."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import compress
 
 from mechwright_cam.interpreter.blocks import read_block
@@ -10,6 +12,9 @@ from mechwright_cam.interpreter.macros import Lines, Macros, uses_macros
 from mechwright_cam.interpreter.plain import PlainLines
 from mechwright_cam.interpreter.run import Run
 from mechwright_cam.interpreter.stretch import run_stretch
+
+CODE = re.compile(r"\s*/?\s*[A-Z]\s*[-+.#\[\d]", re.IGNORECASE)
+"""How a line of a program begins, and no line of prose."""
 
 
 def interpret(
@@ -83,5 +88,19 @@ def interpret(
             continue
         machine.run(block)
         if machine.ended:
-            break
+            return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
     return machine.result(len(lines))
+
+
+def _beyond(lines: Sequence[str], end: int, dialect: Dialect) -> int:
+    """Number of the first line of a program behind the line of index ``end``, 0 if there is none.
+
+    Subroutines may stand there.
+    """
+    for index, raw in enumerate(lines[end + 1 :], end + 1):
+        if raw.strip() == "%":
+            break
+        if CODE.match(raw):
+            subroutine = dialect.variables and raw.strip()[0] in "oO"
+            return 0 if subroutine else index + 1
+    return 0

@@ -120,6 +120,8 @@ class Run:
         Whether the program says that it ends.
     lines
         Number of lines read.
+    beyond
+        Number of the first line of a program that stands behind its end, and is not run; 0 if none does.
     piece
         (n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one.
     files
@@ -142,6 +144,7 @@ class Run:
     remarks: tuple[Remark, ...] = field(default=())
     ended: bool = False
     lines: int = 0
+    beyond: int = 0
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     files: tuple[str, ...] = ()
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
@@ -199,6 +202,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         remarks=tuple(remarks),
         ended=all(run.ended for run in runs),
         lines=runs[-1].lines,
+        beyond=max(run.beyond for run in runs),
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
     )

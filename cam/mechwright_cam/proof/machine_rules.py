@@ -24,6 +24,14 @@ def program_end(scene: Scene) -> Check:
     if not run.ended:
         where = "" if run.files else f"line {run.lines}: "
         return Check("program-end", False, f"{where}the program has no end; write M30 or M2", run.lines)
+    if run.beyond:
+        return Check(
+            "program-end",
+            False,
+            f"line {run.beyond}: this stands behind the program's end and is not run; delete it, or verify "
+            "it as a program of its own",
+            run.beyond,
+        )
     moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
     if moved.size == 0 or not run.cutting.any():
         return Check("program-end", False, "the program cuts nothing", run.lines)
