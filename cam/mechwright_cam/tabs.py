@@ -24,6 +24,7 @@ from mechwright.sections import plan_view
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS
 from mechwright_cam.nest import Nest
+from mechwright_cam.tab_places import rows, tab_width
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import filled, opened
 
@@ -32,18 +33,6 @@ if TYPE_CHECKING:
 
 TAB_REACH = 1.0
 """How far a tab reaches under the part's edge, mm, so that rounding never leaves a gap between the two."""
-
-TAB_WIDTH = 2.0
-"""Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
-
-LEAST_TAB_WIDTH = 0.5
-"""A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
-
-SHIFTS = 8
-"""So many places between two tabs are tried where not all of the wall takes one."""
-
-HOLDS = 0.5
-"""Tabs are on this share of the wall at least: on less they leave much of the part without a neighbour."""
 
 DEEPER = 1.25
 """Factor between trial places of a ramped tab's ends."""
@@ -154,21 +143,13 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
     hold = job.settings.hold
     slopes = 2 * hold.tab_height / slope
     ring = shapely.LinearRing(feature.loop.flatten())
-    width = hold.tab_width or _tab_width(feature, hold.tabs, slopes)
-    places = _tab_places(feature, ring, hold.tabs, width, slopes)
+    width = hold.tab_width or tab_width(feature, hold.tabs, slopes)
     low = _lower_floors(job)
-    barred = [*low, *below]
-    rows = [places]
-    if (slopes or barred) and not feature.tab_sites:
-        rows = [
-            [(at + shift / SHIFTS * ring.length / len(places)) % ring.length for at in places]
-            for shift in range(SHIFTS)
-        ]
-        rows += _between(ring, hold.tabs, width + slopes, barred)
+    even, uneven = rows(feature, ring, hold.tabs, width, slopes, [*low, *below])
     refusal: DesignError | None = None
     best: list[Tab] = []
-    for number, row in enumerate(rows):
-        if best and number >= SHIFTS:  # no need for uneven steps
+    for number, row in enumerate([*even, *uneven]):
+        if best and number >= len(even):  # no need for uneven steps
             break
         tabs: list[Tab] = []
         try:
@@ -190,33 +171,6 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
     if refusal is not None and not best:
         raise refusal
     return best
-
-
-def _between(
-    ring: shapely.LinearRing, count: int, base: float, barred: Sequence[Feature]
-) -> list[list[float]]:
-    """Rows of places along a wall, in equal steps over all stretches that are clear of features.
-
-    None if these are so short that the tabs would hold the part on one side only.
-    """
-    if not barred:
-        return []
-    shut = shapely.buffer(shapely.union_all([plan_view(feature) for feature in barred]), base)
-    free = [line for line in shapely.get_parts(shapely.difference(ring, shut)) if line.length > 0]
-    total = sum(line.length for line in free)
-    if total < max(HOLDS * ring.length, 2 * count * base):
-        return []
-    starts = [ring.project(shapely.Point(line.coords[0])) for line in free]
-    ends = np.cumsum([line.length for line in free])
-    rows = []
-    for shift in range(SHIFTS):
-        row = []
-        for wish in (np.arange(count) + (shift + 0.5) / SHIFTS) * total / count:
-            at = int(np.searchsorted(ends, wish))
-            along = wish - (ends[at] - free[at].length)
-            row.append(float((starts[at] + along) % ring.length))
-        rows.append(sorted(row))
-    return rows
 
 
 def _slope(job: "Job") -> float:
@@ -324,53 +278,6 @@ def _check_below(job: "Job", below: Sequence[Feature], tabs: list[Tab]) -> None:
                 f"little of the outside for {len(tabs)} tabs; take fewer or narrower ones, or draw the "
                 "part the other way up"
             )
-
-
-def _tab_width(feature: Profile, count: int, slopes: float) -> float:
-    """The width of tabs that the design leaves open: the usual one, or the widest that all sites take."""
-    widest = sorted((longest - slopes for _, longest in feature.tab_sites), reverse=True)
-    if not widest:
-        return TAB_WIDTH
-    if len(widest) < count or widest[count - 1] < LEAST_TAB_WIDTH:
-        fit = sum(longest >= LEAST_TAB_WIDTH for longest in widest)
-        ramps = f" and two slopes of {slopes / 2:.1f} mm" if slopes else ""
-        instead = 'use tab_shape = "rectangular", or hold' if slopes else "hold"
-        raise DesignError(
-            f"cam.hold.tabs: {feature.name} has room for {fit} tabs of at least {LEAST_TAB_WIDTH:g} mm{ramps}"
-            f", not for {count}; {instead} the part by its bore"
-        )
-    return min(TAB_WIDTH, widest[count - 1])
-
-
-def _tab_places(
-    feature: Profile, ring: shapely.LinearRing, count: int, width: float, slopes: float
-) -> list[float]:
-    """Distances along the ring at which the tabs stand: near equal steps, on the sites if there are any."""
-    even = [ring.length * i / count for i in range(count)]
-    if not feature.tab_sites:
-        return even
-    fit = [
-        ring.project(shapely.Point(site)) for site, longest in feature.tab_sites if longest >= width + slopes
-    ]
-    if len(fit) < count:
-        widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
-        at_most = widest[min(count, len(widest)) - 1] - slopes
-        if at_most <= 0:
-            raise DesignError(
-                f"cam.hold.tab_shape: {feature.name} has no room for two slopes of {slopes / 2:.1f} mm at "
-                f'each of {count} tabs; use "rectangular"'
-            )
-        raise DesignError(
-            f"cam.hold.tab_width: {count} tabs of {width:g} mm do not fit on {feature.name}; "
-            f"use at most {at_most:.2f} mm, or fewer than {count} of cam.hold.tabs"
-        )
-    chosen: list[float] = []
-    for wish in even:
-        free = [at for at in fit if at not in chosen]
-        chosen.append(
-            min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2))
-        )
-    return sorted(chosen)
 
 
 def _frame_at(job: "Job", ring: shapely.LinearRing, place: tuple[float, float, Point], reach: float) -> float:
