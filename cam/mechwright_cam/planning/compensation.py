@@ -27,6 +27,7 @@ from mechwright_cam.job import LEAST_TURN, Job
 from mechwright_cam.planning.clearing import CLEAR
 from mechwright_cam.planning.contour_writer import ContourWriter, touching
 from mechwright_cam.planning.entry import Lead, lead_length, leads, offsets_of, starts, ways
+from mechwright_cam.planning.finishing import finish_depth
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zone import HEAVY, Zone
 from mechwright_cam.threads import prepared
@@ -109,7 +110,8 @@ class CompensatedFinishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all contours."""
         zone = self.zone
-        heights = levels(zone.top, zone.bottom, self.settings.finish_step * self.tool.diameter)
+        depth = finish_depth(self.settings, self.tool, self.job.part.material)
+        heights = levels(zone.top, zone.bottom, depth)
         heights += [zone.bottom] * self.settings.spring_passes
         waiting = self._contours()
         while waiting:

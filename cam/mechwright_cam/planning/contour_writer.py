@@ -8,6 +8,7 @@ from mechwright.part import Bore
 from mechwright.program import Feed, FeedArc, Move
 from mechwright_cam.job import Job
 from mechwright_cam.planning.entry import bore_lead, offsets_of
+from mechwright_cam.planning.finishing import finish_depth
 from mechwright_cam.planning.holes import CIRCLE_BIAS
 from mechwright_cam.planning.pen import Pen, levels
 from mechwright_cam.planning.zones import bottom_of
@@ -65,7 +66,7 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     )
     heading = side * math.pi / 2
     bottom = bottom_of(job, bore.top, bore.depth)
-    heights = levels(-bore.top, bottom, job.settings.finish_step * tool.diameter)
+    heights = levels(-bore.top, bottom, finish_depth(job.settings, tool, job.part.material))
     pen.above(start)
     run = ContourWriter(pen, side, offsets.planned)
     for z in heights + [bottom] * job.settings.spring_passes:

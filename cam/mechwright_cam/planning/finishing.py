@@ -19,11 +19,23 @@ from mechwright_cam.toolpath.offsets import ROUGH, Piece, densified, fit_toleran
 from mechwright_cam.toolpath.path import Path
 
 
+def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
+    """Depth of a finishing pass, mm: ``finish_step`` diameters, or less where much is left for a fine mill.
+
+    What stands on a wall is the allowance, or a little more: a pass has no larger section than a slot as deep
+    as ``step_down``.
+    """
+    slot = tool.cutting[material].step_down * tool.diameter * tool.diameter
+    return min(settings.finish_step * tool.diameter, slot / (settings.stock_to_leave + HEAVY))
+
+
 class Finishing:
     """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool, step_down: float) -> None:
-        self.zone, self.settings, self.tool, self.step_down = zone, settings, tool, step_down
+    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool, material: str) -> None:
+        self.zone, self.settings, self.tool = zone, settings, tool
+        self.depth = finish_depth(settings, tool, material)
+        self.step_down = tool.cutting[material].step_down * tool.diameter
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)
         self.room = zone.room(radius, finishing=True)
@@ -41,8 +53,7 @@ class Finishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all rings."""
         zone = self.zone
-        step = self.settings.finish_step * self.tool.diameter
-        heights = levels(zone.top, zone.bottom_for(self.tool), step)
+        heights = levels(zone.top, zone.bottom_for(self.tool), self.depth)
         heights += heights[-1:] * self.settings.spring_passes
         waiting = self._pieces()
         while waiting:

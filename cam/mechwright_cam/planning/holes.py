@@ -15,6 +15,7 @@ from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
 from mechwright_cam.planning.choice import ROOMY, usable_mills
 from mechwright_cam.planning.entry import enters
+from mechwright_cam.planning.finishing import finish_depth
 from mechwright_cam.planning.floors import floor_allowance
 from mechwright_cam.planning.pen import APPROACH, Pen, levels
 from mechwright_cam.planning.rates import rates
@@ -243,7 +244,7 @@ def finish_bore(job: Job, plan: BorePlan, pen: Pen) -> None:
             arc(turn.start, (x, y), middle, side),
         ),
     )
-    heights = levels(-bore.top, bottom, job.settings.finish_step * mill.diameter)
+    heights = levels(-bore.top, bottom, finish_depth(job.settings, mill, job.part.material))
     feed = pen.rates.inside(radius, mill.radius)
     pen.above((x, y))
     for z in heights + [bottom] * job.settings.spring_passes:

@@ -17,7 +17,7 @@ from mechwright_cam.planning.choice import entry_place, roughers
 from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
 from mechwright_cam.planning.congruent import Copies
-from mechwright_cam.planning.finishing import Finishing
+from mechwright_cam.planning.finishing import Finishing, finish_depth
 from mechwright_cam.planning.floors import layers, over_openings
 from mechwright_cam.planning.grooves import groove
 from mechwright_cam.planning.pen import Pen
@@ -199,14 +199,11 @@ class Walls:
         return cuts
 
     def _finish(self, zone: Zone, mill: Tool) -> Cut:
-        settings = self.job.settings
-        deep = _pass(zone, mill, settings.finish_step * mill.diameter)
+        settings, material = self.job.settings, self.job.part.material
+        deep = _pass(zone, mill, finish_depth(settings, mill, material))
         plain = settings.compensation == "computer"
-        step_down = mill.cutting[self.job.part.material].step_down * mill.diameter
         finishing = (
-            Finishing(zone, settings, mill, step_down)
-            if plain
-            else CompensatedFinishing(zone, self.job, mill)
+            Finishing(zone, settings, mill, material) if plain else CompensatedFinishing(zone, self.job, mill)
         )
         moves = self.moves(mill, finishing.write, depth=deep, over=zone.slopes)
         if not moves and mill is zone.finisher:
