@@ -351,7 +351,12 @@ class CamSettings(Parameters):
     )
     path: PathSettings = Field(PathSettings(), description="Accuracy of walls, and lines and arcs.")
     spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
-    finish_step: Ratio = Field(2.0, gt=0, le=10, description="Deepest finishing pass in cutter diameters.")
+    finish_step: Ratio = Field(
+        2.0,
+        gt=0,
+        le=10,
+        description="Deepest finishing pass in cutter diameters; less where much is left for a fine mill.",
+    )
     compensation: Compensation = Field(
         "computer",
         description="Where finishing allows for the cutter's radius: in the path, at the control (G41, G42 "
