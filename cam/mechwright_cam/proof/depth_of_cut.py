@@ -6,7 +6,9 @@ material. Most moves follow a path that a cut before them has gone nearly down t
 of them at once, and only what is left is looked at closely.
 """
 
+from collections.abc import Iterator
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -28,6 +30,8 @@ APART = 20
 """Moves shorter than that distance may have no place of their own: so many may lie between two with one."""
 CHORD = 0.1
 """Chord error of arcs here, mm: far less than the middle is narrower than the cutter."""
+HASH = np.array([3, 5, 7, 11, 13, 17, 19, 23], dtype=np.int64) ** 9
+"""Odd numbers, so large that rows of coordinates come out apart; rows are compared besides."""
 
 
 class _Cuts:
@@ -37,6 +41,29 @@ class _Cuts:
         self.paths = paths
         self.steps = paths.steps[paths.run.cutting[paths.steps]]
         self.low = np.minimum(paths.start[:, 2], paths.end[:, 2])
+
+    @cached_property
+    def _repeats(self) -> tuple[Ints, Array]:
+        """The cuts on whose way in plan view one of the same tool was before, and how much deeper they go."""
+        steps, paths = self.steps, self.paths
+        plan = [paths.start[steps, :2], paths.end[steps, :2], np.nan_to_num(paths.run.centre[steps])]
+        rows = np.column_stack((*plan, paths.run.tool[steps], paths.run.sweep[steps] > 0))
+        rows = np.round(rows / NEAR).astype(np.int64)
+        # Stable: those of one way stay in the program's order.
+        order = np.argsort(rows @ HASH[: rows.shape[1]], kind="stable")
+        same = np.flatnonzero((rows[order[:-1]] == rows[order[1:]]).all(axis=1))
+        one, two = steps[order[same]], steps[order[same + 1]]
+        height = np.maximum(paths.start[one, 2], paths.end[one, 2])
+        return two, height - self.low[two]
+
+    def repeated(self, limit: float) -> Ints:
+        """The cuts that go at most this much deeper than one before them, all along it, mm."""
+        steps, deeper = self._repeats
+        return steps[deeper <= limit + NEAR]
+
+    def radius_of(self, number: int) -> float:
+        """Radius of a tool, mm."""
+        return float(self.paths.tools[number].radius)
 
     @cached_property
     def _points(self) -> tuple[Array, Ints]:
@@ -67,7 +94,9 @@ def depth_of_cut(scene: Scene) -> Check:
             continue
         limit = BEYOND * _deepest(scene, data) * tool.diameter
         lasting, before = 0.0, -1
-        for step, length in zip(*_suspects(cuts, tool, limit, middle(scene, tool)), strict=True):
+        for step, length in _lasting(
+            *_suspects(cuts, tool, limit, middle(scene, tool)), LASTING * tool.diameter
+        ):
             if not meets_middle(scene, tool, step, limit):
                 continue
             lasting, before = (lasting if step <= before + APART else 0.0) + length, step
@@ -86,6 +115,14 @@ def depth_of_cut(scene: Scene) -> Check:
     return Check("depth-of-cut", True, "no mill takes much more depth at once than the tool library says")
 
 
+def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[tuple[int, float]]:
+    """Steps with their lengths, mm, where those on end are long enough together."""
+    ends = [n for n, (a, b) in enumerate(pairwise(steps), 1) if b > a + APART]
+    for a, b in pairwise([0, *ends, len(steps)]):
+        if sum(lengths[a:b]) >= least:
+            yield from zip(steps[a:b], lengths[a:b], strict=True)
+
+
 def _deepest(scene: Scene, data: CuttingData) -> float:
     """Depth of a planned pass in diameters."""
     settings = scene.job.settings
@@ -102,20 +139,30 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
     arc = paths.run.kind[cuts.steps] == Kind.ARC
     mine = paths.run.tool[cuts.steps] == tool.number
     deep = cuts.steps[mine & (low[cuts.steps] < -limit - NEAR) & (flat | arc)]
+    deep = np.setdiff1d(deep, cuts.repeated(limit), assume_unique=True)
     if not deep.size:
         return [], []
     first, last, before = cuts.pieces
     places, owner = _places(first, last, before, deep, SPACING * tool.diameter)
-    useful = np.flatnonzero((paths.radius[before] > middle) & (cuts.height <= low[deep].max() + limit + NEAR))
     covered = np.zeros(len(places), dtype=np.bool_)
-    if useful.size and len(places):
-        chords, before, height = Chords(first[useful], last[useful]), before[useful], cuts.height[useful]
-        reach = paths.radius[before] - middle
-        index, place = chords.pairs(places, float(reach.max()))
-        step = owner[place]
-        good = np.flatnonzero((before[index] < step) & (height[index] <= low[step] + limit + NEAR))
+    # Most follow the same way of the same cutter, which reaches least: only what is left asks wider ones.
+    numbers = paths.run.tool[before]
+    for number in sorted(set(numbers.tolist()), key=lambda n: (n != tool.number, -cuts.radius_of(n))):
+        reach = cuts.radius_of(number) - middle
+        open_ = np.flatnonzero(~covered)
+        if reach <= 0 or not open_.size:
+            continue
+        lowest = low[deep].max() + limit + NEAR
+        useful = np.flatnonzero((numbers == number) & (cuts.height <= lowest))
+        if not useful.size:
+            continue
+        chords = Chords(first[useful], last[useful])
+        index, place = chords.pairs(places[open_], reach)
+        step, piece = owner[open_][place], useful[index]
+        good = np.flatnonzero((before[piece] < step) & (cuts.height[piece] <= low[step] + limit + NEAR))
         index, place = index[good], place[good]
-        covered[place[chords.distances(places, place, index) <= reach[index]]] = True
+        close = chords.distances(places[open_], place, index) <= reach
+        covered[open_[place[close]]] = True
     steps, count = np.unique(owner[~covered], return_counts=True)
     return steps.tolist(), (count * SPACING * tool.diameter).tolist()
 
