@@ -8,14 +8,14 @@ from functools import partial
 
 import shapely
 
-from mechwright.errors import DesignError, GeometryError
+from mechwright.errors import DesignError, GeometryError, MechwrightError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
-from mechwright_cam.job import Job, wear_margin
+from mechwright_cam.job import Job, make_job, wear_margin
 from mechwright_cam.library import Library
 from mechwright_cam.limits import height_of
 from mechwright_cam.nest import Nest, outlines_of
-from mechwright_cam.planning.centre_lines import groove_mill
+from mechwright_cam.planning.centre_lines import groove_mill, grooves
 from mechwright_cam.planning.choice import (
     ROOMY,
     entry_place,
@@ -24,12 +24,21 @@ from mechwright_cam.planning.choice import (
     same_reach,
     usable_mills,
 )
+from mechwright_cam.planning.compensation import has_entries
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
-from mechwright_cam.planning.zones import bores, bottom_of, floor_mills, roughing_mills, through
+from mechwright_cam.planning.zones import (
+    bores,
+    bottom_of,
+    floor_mills,
+    inner_zones,
+    outer_zones,
+    roughing_mills,
+    through,
+)
 from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
 from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, polygons
@@ -84,7 +93,43 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
+    chosen |= {mill.name: mill for mill in _entering(every, [*drills, *chosen.values(), *details.values()])}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
+
+
+def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
+    """More mills, for walls at which compensation leaves those of ``tools`` no room for an entry.
+
+    Planning itself is asked, of the mills of the library from the largest down.
+    """
+    if every.settings.compensation == "computer":
+        return []
+    more: list[Tool] = []
+    try:
+        job = make_job(every.part, every.settings, tools)
+        lacking = _without_entries(job)
+    except MechwrightError:
+        return []  # what is wrong will be said when the job is laid out
+    for mill in every.mills:
+        if not lacking:
+            break
+        if mill in tools or every.part.material not in mill.cutting or mill.diameter >= max(lacking.values()):
+            continue
+        try:
+            trial = replace(job, tools=(*job.tools, mill))
+            rest = _without_entries(trial)
+        except MechwrightError:
+            continue
+        if len(rest) < len(lacking):
+            job, lacking = trial, rest
+            more.append(mill)
+    return more
+
+
+def _without_entries(job: Job) -> dict[str, float]:
+    """Names of walls that their mills cannot enter under compensation, with the finest diameter, mm."""
+    zones = [*inner_zones(job, skip=grooves(job)), *outer_zones(job)]
+    return {zone.name: zone.finisher.diameter for zone in zones if not has_entries(job, zone)}
 
 
 def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
