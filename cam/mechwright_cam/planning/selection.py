@@ -27,7 +27,7 @@ from mechwright_cam.planning.choice import (
 from mechwright_cam.planning.compensation import has_entries
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.entry import enters
-from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
+from mechwright_cam.planning.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
 from mechwright_cam.planning.zones import (
@@ -56,8 +56,9 @@ AMPLE = 1000.0
 """Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
 HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
-BRISK = 0.25
-"""A mill below this share of a bore's diameter bores too slowly to save another tool."""
+ONE_MORE = 60.0
+"""One more mill for bores is worth it if it saves this time, s, and that of changing to it: about what it
+takes to fetch it, to clamp it, and to measure its length."""
 OPENS = 0.6
 """A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
 then takes rings as wide as after the drill of the right size, only one or two more."""
@@ -161,8 +162,11 @@ def _mills(every: Job) -> list[Tool]:
     for feature in openings:
         chosen += _inside(every, feature)
     # From the smallest on: what bores a small hole may bore the larger ones as well.
-    for bore in sorted(bores(every), key=lambda bore: bore.diameter):
-        chosen += _boring(every, bore, chosen)
+    alike: dict[tuple[float, float, float], list[Bore]] = {}
+    for bore in bores(every):
+        alike.setdefault((bore.diameter, bore.top, bore.depth), []).append(bore)
+    for size in sorted(alike):
+        chosen += _boring(every, alike[size], chosen)
     return chosen or fit[:1]
 
 
@@ -281,16 +285,24 @@ def _worthwhile(
     return coarse
 
 
-def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
-    """A mill for a bore, unless one is chosen already or a drill makes the bore."""
+def _boring(every: Job, holes: list[Bore], chosen: list[Tool]) -> list[Tool]:
+    """A mill for bores of one size, unless one is chosen already or a drill makes them."""
+    bore = holes[0]
     depth = -bottom_of(every, bore.top, bore.depth)
     able = [m for m in usable_mills(every, depth) if enters(m, bore.diameter, every.settings)]
-    brisk = [mill for mill in chosen if BRISK * bore.diameter <= mill.diameter <= ROOMY * bore.diameter]
-    if any(mill in able for mill in brisk):
-        return []
     largest = max((mill.diameter for mill in chosen), default=math.inf)
     mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
-    return [] if mill is None else [mill]
+    if mill is None:
+        return []
+    roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * bore.diameter]
+    other = boring_mill(roomy, bore.diameter)
+    if other is not None:
+        first, second = (
+            boring_time(every, BorePlan(bore, plan_bore(every, bore).drill, m)) for m in (other, mill)
+        )
+        if len(holes) * (first - second) <= ONE_MORE + every.settings.machine.tool_change:
+            return []
+    return [mill]
 
 
 def _drills(every: Job) -> list[Tool]:
