@@ -8,7 +8,7 @@ from functools import partial
 
 import shapely
 
-from mechwright.errors import DesignError, GeometryError, MechwrightError
+from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
 from mechwright_cam.job import Job, make_job, wear_margin
@@ -28,6 +28,7 @@ from mechwright_cam.planning.compensation import has_entries
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.entry import enters
 from mechwright_cam.planning.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
+from mechwright_cam.planning.rates import runs_too_fast
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
 from mechwright_cam.planning.zones import (
@@ -86,6 +87,17 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     library = _low_enough(part, settings, library)
+    slow = _slow_enough(part, settings, library)
+    if len(slow.tools) < len(library.tools):
+        try:
+            return _chosen(part, settings, slow)
+        except ToolError:
+            pass  # then with one that runs too fast, which a warning tells of
+    return _chosen(part, settings, library)
+
+
+def _chosen(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, ...]:
+    """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in outlines_of(part):
@@ -142,6 +154,20 @@ def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
     low = tuple(tool for tool in library.tools if height_of(tool, settings, part.thickness) <= travel)
     cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in low)
     return Library(low) if cuts else library
+
+
+def _slow_enough(part: Part, settings: CamSettings, library: Library) -> Library:
+    """Without the mills and drills that the machine's slowest speed overspeeds: others may do their work.
+
+    Spot drills and the cutters of details have none that stand in for them.
+    """
+
+    def overspeeds(tool: Tool) -> bool:
+        replaceable = tool.kind in MILLS or tool.kind is ToolKind.DRILL
+        known = part.material in tool.cutting
+        return replaceable and known and runs_too_fast(tool, part.material, settings.machine)
+
+    return Library(tuple(tool for tool in library.tools if not overspeeds(tool)))
 
 
 def _mills(every: Job) -> list[Tool]:
