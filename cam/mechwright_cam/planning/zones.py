@@ -135,19 +135,16 @@ def _make_enter(
 ) -> None:
     """Where compensation leaves the mills that finish a wall no room for their entry, let finer ones do it.
 
-    ``choose`` gives those that finish of some; if none of ``mills`` has room it stays with the first choice,
-    and planning says why.
+    ``choose`` gives those that finish of some. The finest is not asked: if it has no room, planning says so.
     """
     from mechwright_cam.planning.compensation import has_entries
 
-    first = zones[0].last_mills
-    while not all(has_entries(job, zone) for zone in zones):
-        finer = [mill for mill in mills if mill.diameter < zones[0].finisher.diameter]
-        last = choose(finer) if finer else list(first)
+    while finer := [mill for mill in mills if mill.diameter < zones[0].finisher.diameter]:
+        if all(has_entries(job, zone) for zone in zones):
+            return
+        last = choose(finer)
         for zone in zones:
             zone.before, zone.finisher = tuple(last[:-1]), last[-1]
-        if not finer:
-            return
 
 
 def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Recess) -> None:
