@@ -1,14 +1,18 @@
 """Entries of cutter compensation at recesses that are open at the plate's edge: there is air to begin in."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from golden_compensation import WAYS
-from planning_parts import job, plate, rounded_box
+from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
+from mechwright.errors import ToolError
 from mechwright.geometry import Loop, circle
-from mechwright.part import Pocket, Profile
-from mechwright_cam.planning import plan
+from mechwright.part import Bore, Pocket, Profile
+from mechwright.tooling import CamSettings, ToolKind
+from mechwright_cam.job import make_job
+from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 
@@ -52,3 +56,43 @@ def test_the_mill_that_finishes_reaches_into_corners_with_the_largest_d() -> Non
     prove(LinuxCncPost().write(program), one).require()
     last = {o.name: s.tool.name for s in program.sections for o in s.operations if "finish" in o.name}
     assert last["r0.62: finish"] == last["r0.56: finish"] == "mill-0.8"
+
+
+SMALL = plate(machined=(Pocket("recess", rounded_box(10, 9, 3.2), (), 0.0, 3.0), OUTSIDE))
+"""Its corners are clean with a mill of 6 mm, which has no room in it for a straight entry longer than D."""
+
+
+@pytest.mark.parametrize(("way", "mill"), [("computer", "mill-6"), ("wear", "mill-6"), ("control", "mill-4")])
+def test_the_mill_that_is_chosen_has_room_for_its_entry(way: str, mill: str) -> None:
+    settings = CamSettings(compensation=way)
+    chosen = choose_tools(SMALL, settings, LIBRARY)
+    assert [tool.name for tool in chosen if tool.kind is ToolKind.END_MILL][-1] == mill
+    one = make_job(SMALL, settings, chosen)
+    program = plan(one)
+    prove(LinuxCncPost().write(program), one).require()
+    assert {s.tool.name for s in program.sections for o in s.operations if o.name == "recess: finish"} == {
+        mill
+    }
+
+
+def test_of_the_listed_mills_one_with_room_finishes() -> None:
+    """The outside stays with the larger one; and where none has room it is refused."""
+    one = job(SMALL, "mill-6", "mill-4", compensation="control")
+    program = plan(one)
+    prove(LinuxCncPost().write(program), one).require()
+    mills = {o.name: s.tool.name for s in program.sections for o in s.operations}
+    assert mills["recess: rough"] == "mill-6"
+    assert mills["recess: finish"] == "mill-4"
+    assert mills["outside: finish"] == "mill-6"
+    with pytest.raises(ToolError, match="mill-6 has no room for a straight entry"):
+        plan(job(SMALL, "mill-6", compensation="control"))
+
+
+def test_a_wall_that_ends_where_a_bore_begins_is_followed_forwards() -> None:
+    """The corner of both lies a hundredth before the start of the wall's last arc, which would go all round."""
+    recess = Pocket("recess", rounded_box(8.0168, 8.5694, 3.7307).moved(3.3746, 3.84901, 0), (), 0.0, 5.1)
+    of = plate(
+        bore(6.5), machined=(Bore("bore", (0.0, 0.0), 6.5, 0.0, 8.0), recess, replace(OUTSIDE, depth=8.0))
+    )
+    one = job(replace(of, thickness=8.0), "mill-5", "mill-4", "mill-3", compensation="control")
+    prove(LinuxCncPost().write(plan(one)), one).require()

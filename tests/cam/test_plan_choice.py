@@ -78,7 +78,12 @@ def test_findings():
         (plate(), {"tools": ["mill-99"]}, "cam.cannot-cut", "cam.tools"),
         (plate(), {"stock": {"margin": 1}}, "cam.cannot-cut", "cam.stock"),
         (plate(), {"hold": {"method": "bore"}}, "cam.cannot-cut", "cam.hold.method"),
-        (plate(), {"machine": {"spindle_min": 11900}}, "cam.too-fast", "cam.machine.spindle_min"),
+        (
+            plate(),
+            {"tools": ["mill-6"], "machine": {"spindle_min": 11900}},
+            "cam.too-fast",
+            "cam.machine.spindle_min",
+        ),
         (plate(), {"machine": {"max_feed": 200}}, "cam.rubbing", "cam.machine.max_feed"),
         (
             plate(),
@@ -162,3 +167,29 @@ def test_a_mill_too_wide_for_the_frame_is_not_used():
     program = plan(job)
     assert [section.tool.name for section in program.sections] == ["mill-2.5"]
     assert leftover(job, program) == 0
+
+
+@pytest.mark.parametrize(
+    ("material", "slowest", "expected"),
+    [
+        ("aluminium", 100, ["spot-6", "drill-6", "mill-6", "mill-5"]),
+        ("aluminium", 5000, ["spot-6", "drill-4", "mill-6", "mill-5"]),  # 70 m/min: up to 4.5 mm
+        ("steel", 5000, ["mill-5"]),  # 90 m/min: mills up to 5.7 mm, drills of 28 m/min up to 1.8 mm
+    ],
+)
+def test_cutters_that_the_slowest_speed_overspeeds_are_not_chosen(material, slowest, expected):
+    of = plate(bore(8), material=material)
+    settings = CamSettings.model_validate({"machine": {"spindle_min": slowest, "spindle_max": 24000}})
+    job, found = lay_out(of, settings, LIBRARY)
+    assert job is not None
+    assert [tool.name for tool in job.tools] == expected
+    assert "cam.too-fast" not in {finding.code for finding in found}
+    assert plan(job).sections
+
+
+def test_one_that_runs_too_fast_is_chosen_where_no_other_does_the_work():
+    """Of the mills that steel lets run at 9000 rev/min none is longer than 16 mm."""
+    settings = CamSettings.model_validate({"machine": {"spindle_min": 9000, "spindle_max": 24000}})
+    job, found = lay_out(plate(thickness=18, material="steel"), settings, LIBRARY)
+    assert job is not None
+    assert "cam.too-fast" in {finding.code for finding in found}

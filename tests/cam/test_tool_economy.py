@@ -1,5 +1,6 @@
 """Tools that a workshop would not change for nothing, and cutters that fit their holes."""
 
+import pytest
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
 from mechwright.tooling import CamSettings
@@ -53,3 +54,22 @@ def test_the_spindle_starts_again_if_the_tool_stays():
     after = lines[lines.index("M0") + 1 :]
     start = next(number for number, line in enumerate(after) if "M3" in line)
     assert start < next(number for number, line in enumerate(after) if line.startswith("G1"))
+
+
+def test_a_wide_bore_is_not_left_to_the_mill_of_a_narrow_one():
+    of = plate(bore(3, (-15, 0)), bore(6.75, (15, 0)), thickness=10)
+    program = plan(job(of, *names(of)))
+    bored = {o.name: s.tool.name for s in program.sections for o in s.operations}
+    assert bored["bore-1: finish"] == "mill-2"
+    assert bored["bore-2: finish"] == "mill-4"
+
+
+@pytest.mark.parametrize(
+    ("count", "change", "pays"), [(1, 0, False), (2, 0, True), (2, 90, False), (8, 90, True)]
+)
+def test_one_more_mill_for_bores_has_to_save_more_than_its_change(count, change, pays):
+    """Each of 5 mm takes half a minute longer with the mill that another bore asks for anyway."""
+    wide = [bore(5, (7 * i - 22, -11)) for i in range(count)]
+    found = names(plate(bore(3, (-15, 0)), *wide), machine={"tool_change": change})
+    assert "mill-2" in found
+    assert ("mill-3" in found) == pays

@@ -77,6 +77,27 @@ def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
         )
 
 
+def has_entries(job: Job, zone: Zone) -> bool:
+    """Whether the mills that finish a zone have room to enter all of its contours, once it is roughed.
+
+    It is what planning asks in the end, but that corners which wider mills leave count as roughed.
+    """
+    if job.settings.compensation == "computer" or zone.slopes:  # slopes are refused, whatever the mill
+        return True
+    for mill in zone.last_mills:
+        roughed = replace(zone)
+        reach = mill.radius + job.settings.stock_to_leave
+        free = shapely.difference(zone.room(mill.radius), grow(zone.keep, reach, ROUGH))
+        if zone.kind != "outside":
+            free = shapely.intersection(free, grow(zone.clear, -mill.radius, ROUGH))
+        roughed.left = shapely.difference(zone.left, grow(free, mill.radius, ROUGH))
+        try:
+            CompensatedFinishing(roughed, job, mill).enter()
+        except ToolError:
+            return False
+    return True
+
+
 class CompensatedFinishing:
     """The finishing of one zone with cutter compensation, when ``left`` holds only what roughing left."""
 
@@ -120,6 +141,11 @@ class CompensatedFinishing:
             x, y = pen.place or (0.0, 0.0)
             waiting.sort(key=lambda other: math.hypot(other.start[0] - x, other.start[1] - y))
         pen.retract()
+
+    def enter(self) -> None:
+        """Look for the entries of all contours; raises ToolError where there is no room for one."""
+        for contour in self._contours():
+            self._entered(contour)
 
     def _contours(self) -> list[Path]:
         """The contours, closed ones anywhere entered yet."""

@@ -9,7 +9,7 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.materials import material
 from mechwright.part import Bore
-from mechwright.program import Drill, Move, Rapid
+from mechwright.program import Drill, Feed, FeedArc, Move, Rapid
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool, ToolKind
 from mechwright_cam.job import Job
@@ -164,6 +164,25 @@ def _holes(
             moves.append(Rapid(x=x, y=y))
         moves.append(Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking))
     return (*moves, Rapid(z=clearance))
+
+
+def boring_time(job: Job, plan: BorePlan) -> float:
+    """Time in which the mill of a bore roughs and finishes it, s; rapids and corners do not count."""
+    assert plan.mill is not None  # noqa: S101 - the caller has one
+    settings = job.settings
+    speed = rates(plan.mill, job.part.material, settings.machine)
+    pen = Pen(plan.mill, speed, settings.clearance, math.tan(math.radians(settings.ramp_angle)))
+    rough_bore(job, plan, pen)
+    finish_bore(job, plan, pen)
+    minutes, x, y = 0.0, *plan.bore.centre
+    for move in pen.moves:
+        if isinstance(move, FeedArc):
+            begin, end = math.atan2(-move.j, -move.i), math.atan2(move.y - y - move.j, move.x - x - move.i)
+            turn = ((end - begin) * (1 if move.ccw else -1)) % math.tau or math.tau
+            minutes += turn * math.hypot(move.i, move.j) / move.feed
+        if isinstance(move, FeedArc | Feed | Rapid):
+            x, y = x if move.x is None else move.x, y if move.y is None else move.y
+    return 60 * minutes
 
 
 def open_radius(job: Job, bore: Bore) -> float:

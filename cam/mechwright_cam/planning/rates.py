@@ -19,6 +19,9 @@ SLOWEST = 0.5
 """Where the machine's fastest feed is too slow, the spindle gives way, down to this share of the cutting
 speed: chips stay as thick as planned. Slower still, aluminium and steel build up on the edge."""
 
+TOO_FAST = 1.01
+"""Beyond this share of its cutting speed a cutter runs too fast: less is rounding."""
+
 
 @dataclass(frozen=True)
 class Rates:
@@ -49,6 +52,15 @@ def cutting_data(tool: Tool, material: str) -> CuttingData:
             f"cam.tools: tool {tool.name} has no cutting data for {material}, only for {known}; "
             f"add [tool.cutting] {material} to the tool library"
         ) from None
+
+
+def runs_too_fast(tool: Tool, material: str, machine: Machine, diameter: float | None = None) -> bool:
+    """Whether the machine's slowest speed overspeeds a tool that has data for the material.
+
+    It cuts with all of its width, or up to a ``diameter``, mm, as a spot drill does.
+    """
+    most = 1000 * cutting_data(tool, material).cutting_speed * TOO_FAST
+    return machine.spindle_min * math.pi * (tool.diameter if diameter is None else diameter) > most
 
 
 def rates(

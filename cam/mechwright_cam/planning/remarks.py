@@ -14,7 +14,7 @@ from mechwright.materials import HSS_SPEED
 from mechwright.materials import material as material_of
 from mechwright.part import Feature, Part
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool
+from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool, ToolKind
 from mechwright_cam.job import Job, make_job
 from mechwright_cam.library import Library
 from mechwright_cam.nest import Nest
@@ -22,8 +22,8 @@ from mechwright_cam.planning.bending import MOST, deflection
 from mechwright_cam.planning.centre_lines import grooves
 from mechwright_cam.planning.choice import long_enough, roughers
 from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.holes import plan_bore
-from mechwright_cam.planning.rates import Rates, rates
+from mechwright_cam.planning.holes import SPOT, plan_bore
+from mechwright_cam.planning.rates import Rates, rates, runs_too_fast
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.planning.zone import Zone
 from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
@@ -211,6 +211,12 @@ def _fillet(job: Job, zone: Zone) -> list[Finding]:
     ]
 
 
+def _spotted(job: Job, spot: Tool) -> float:
+    """Diameter of the widest spot that a spot drill makes, mm."""
+    drills = [tool.diameter for tool in job.tools if tool.kind is ToolKind.DRILL]
+    return min(SPOT * max(drills), spot.diameter) if drills else spot.diameter
+
+
 def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
     """What is worth knowing of the cutters; one whose depth is not known is taken to cut through."""
     found = []
@@ -229,11 +235,8 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
             )
             continue
         planned = rates(tool, material, machine)
-        speed = planned.spindle
-        if (
-            speed <= machine.spindle_min
-            and speed * tool.diameter * math.pi > 1000 * data.cutting_speed * 1.01
-        ):
+        width = _spotted(job, tool) if tool.kind is ToolKind.SPOT_DRILL else tool.diameter
+        if runs_too_fast(tool, material, machine, width):
             found.append(
                 Finding(
                     "cam.too-fast",
@@ -241,7 +244,7 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
                     "cam.machine.spindle_min",
                     f"{tool.name} runs faster than {data.cutting_speed:g} m/min in {material}",
                     machine.spindle_min,
-                    1000 * data.cutting_speed / (math.pi * tool.diameter),
+                    1000 * data.cutting_speed / (math.pi * width),
                     "rpm",
                     "take a smaller tool",
                 )

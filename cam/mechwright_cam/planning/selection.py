@@ -8,14 +8,14 @@ from functools import partial
 
 import shapely
 
-from mechwright.errors import DesignError, GeometryError
+from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
-from mechwright_cam.job import Job, wear_margin
+from mechwright_cam.job import Job, make_job, wear_margin
 from mechwright_cam.library import Library
 from mechwright_cam.limits import height_of
 from mechwright_cam.nest import Nest, outlines_of
-from mechwright_cam.planning.centre_lines import groove_mill
+from mechwright_cam.planning.centre_lines import groove_mill, grooves
 from mechwright_cam.planning.choice import (
     ROOMY,
     entry_place,
@@ -24,12 +24,22 @@ from mechwright_cam.planning.choice import (
     same_reach,
     usable_mills,
 )
+from mechwright_cam.planning.compensation import has_entries
 from mechwright_cam.planning.details import plan_detail
 from mechwright_cam.planning.entry import enters
-from mechwright_cam.planning.holes import boring_mill, plan_bore, starting_drill
+from mechwright_cam.planning.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
+from mechwright_cam.planning.rates import runs_too_fast
 from mechwright_cam.planning.recess import recess
 from mechwright_cam.planning.slots import fills_a_slot
-from mechwright_cam.planning.zones import bores, bottom_of, floor_mills, roughing_mills, through
+from mechwright_cam.planning.zones import (
+    bores,
+    bottom_of,
+    floor_mills,
+    inner_zones,
+    outer_zones,
+    roughing_mills,
+    through,
+)
 from mechwright_cam.plate import plate_box
 from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
 from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, polygons
@@ -47,8 +57,9 @@ AMPLE = 1000.0
 """Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
 HALF = 0.5
 """It takes at least this share of what the finishing mill would have to rough."""
-BRISK = 0.25
-"""A mill below this share of a bore's diameter bores too slowly to save another tool."""
+ONE_MORE = 60.0
+"""One more mill for bores is worth it if it saves this time, s, and that of changing to it: about what it
+takes to fetch it, to clamp it, and to measure its length."""
 OPENS = 0.6
 """A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
 then takes rings as wide as after the drill of the right size, only one or two more."""
@@ -76,6 +87,17 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     library = _low_enough(part, settings, library)
+    slow = _slow_enough(part, settings, library)
+    if len(slow.tools) < len(library.tools):
+        try:
+            return _chosen(part, settings, slow)
+        except ToolError:
+            pass  # then with one that runs too fast, which a warning tells of
+    return _chosen(part, settings, library)
+
+
+def _chosen(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, ...]:
+    """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
     for outline in outlines_of(part):
@@ -84,7 +106,43 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
     chosen = {mill.name: mill for mill in mills}
     drills = _drills(every)
     details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
+    chosen |= {mill.name: mill for mill in _entering(every, [*drills, *chosen.values(), *details.values()])}
     return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
+
+
+def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
+    """More mills, for walls at which compensation leaves those of ``tools`` no room for an entry.
+
+    Planning itself is asked, of the mills of the library from the largest down.
+    """
+    if every.settings.compensation == "computer":
+        return []
+    more: list[Tool] = []
+    try:
+        job = make_job(every.part, every.settings, tools)
+        lacking = _without_entries(job)
+    except MechwrightError:
+        return []  # what is wrong will be said when the job is laid out
+    for mill in every.mills:
+        if not lacking:
+            break
+        if mill in tools or every.part.material not in mill.cutting or mill.diameter >= max(lacking.values()):
+            continue
+        try:
+            trial = replace(job, tools=(*job.tools, mill))
+            rest = _without_entries(trial)
+        except MechwrightError:
+            continue
+        if len(rest) < len(lacking):
+            job, lacking = trial, rest
+            more.append(mill)
+    return more
+
+
+def _without_entries(job: Job) -> dict[str, float]:
+    """Names of walls that their mills cannot enter under compensation, with the finest diameter, mm."""
+    zones = [*inner_zones(job, skip=grooves(job)), *outer_zones(job)]
+    return {zone.name: zone.finisher.diameter for zone in zones if not has_entries(job, zone)}
 
 
 def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
@@ -96,6 +154,20 @@ def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
     low = tuple(tool for tool in library.tools if height_of(tool, settings, part.thickness) <= travel)
     cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in low)
     return Library(low) if cuts else library
+
+
+def _slow_enough(part: Part, settings: CamSettings, library: Library) -> Library:
+    """Without the mills and drills that the machine's slowest speed overspeeds: others may do their work.
+
+    Spot drills and the cutters of details have none that stand in for them.
+    """
+
+    def overspeeds(tool: Tool) -> bool:
+        replaceable = tool.kind in MILLS or tool.kind is ToolKind.DRILL
+        known = part.material in tool.cutting
+        return replaceable and known and runs_too_fast(tool, part.material, settings.machine)
+
+    return Library(tuple(tool for tool in library.tools if not overspeeds(tool)))
 
 
 def _mills(every: Job) -> list[Tool]:
@@ -116,8 +188,11 @@ def _mills(every: Job) -> list[Tool]:
     for feature in openings:
         chosen += _inside(every, feature)
     # From the smallest on: what bores a small hole may bore the larger ones as well.
-    for bore in sorted(bores(every), key=lambda bore: bore.diameter):
-        chosen += _boring(every, bore, chosen)
+    alike: dict[tuple[float, float, float], list[Bore]] = {}
+    for bore in bores(every):
+        alike.setdefault((bore.diameter, bore.top, bore.depth), []).append(bore)
+    for size in sorted(alike):
+        chosen += _boring(every, alike[size], chosen)
     return chosen or fit[:1]
 
 
@@ -236,16 +311,24 @@ def _worthwhile(
     return coarse
 
 
-def _boring(every: Job, bore: Bore, chosen: list[Tool]) -> list[Tool]:
-    """A mill for a bore, unless one is chosen already or a drill makes the bore."""
+def _boring(every: Job, holes: list[Bore], chosen: list[Tool]) -> list[Tool]:
+    """A mill for bores of one size, unless one is chosen already or a drill makes them."""
+    bore = holes[0]
     depth = -bottom_of(every, bore.top, bore.depth)
     able = [m for m in usable_mills(every, depth) if enters(m, bore.diameter, every.settings)]
-    brisk = [mill for mill in chosen if BRISK * bore.diameter <= mill.diameter <= ROOMY * bore.diameter]
-    if any(mill in able for mill in brisk):
-        return []
     largest = max((mill.diameter for mill in chosen), default=math.inf)
     mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
-    return [] if mill is None else [mill]
+    if mill is None:
+        return []
+    roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * bore.diameter]
+    other = boring_mill(roomy, bore.diameter)
+    if other is not None:
+        first, second = (
+            boring_time(every, BorePlan(bore, plan_bore(every, bore).drill, m)) for m in (other, mill)
+        )
+        if len(holes) * (first - second) <= ONE_MORE + every.settings.machine.tool_change:
+            return []
+    return [mill]
 
 
 def _drills(every: Job) -> list[Tool]:

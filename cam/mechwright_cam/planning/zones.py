@@ -1,7 +1,7 @@
 """The zones of a job: recesses and openings, and the channel around the outside in its layers."""
 
 import math
-from collections.abc import Container, Sequence
+from collections.abc import Callable, Container, Sequence
 from functools import partial
 
 import numpy as np
@@ -75,6 +75,8 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
         if shapely.is_empty(shapes.must):
             raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
         walls, snug = _walls(job, feature, mills), False
+        finishing: list[Tool] = []
+        choose = partial(last_mills, settings=job.settings)
         if radius > 0:
             last, snug = floor_mills(job, feature, mills, shapes)
             if not snug:
@@ -94,9 +96,10 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
                     f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
                 )
             able, mills = mills, roomy_mills(mills, shapes.must)
-            last = with_sharper(able, mills, lambda mill: reached(mill) >= SCRATCH)
-            last = last_mills(last, shapes.keep, job.settings, shapes.must if shapes.open else None, high)
-        finisher = last[-1]
+            finishing = with_sharper(able, mills, lambda mill: reached(mill) >= SCRATCH)
+            near = shapes.must if shapes.open else None
+            choose = partial(choose, keep=shapes.keep, near=near, height=high)
+            last = choose(finishing)
         if shapes.open:  # once more, to run out no further than the finishing cutters need
             run_out = max(mill.diameter + lead_length(mill, job.settings) for mill in last)
             run_out += job.settings.stock_to_leave + HEAVY
@@ -108,7 +111,7 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
             -feature.top,
             bottom,
             mills,
-            finisher,
+            last[-1],
             "pocket" if isinstance(feature, Pocket) else "inside",
             bottom == job.floor,
             feature,
@@ -122,8 +125,26 @@ def inner_zones(job: Job, skip: Container[str] = ()) -> list[Zone]:
         )
         if shapes.open:
             zone.left = areas(shapely.intersection(zone.clear, shapely.box(*job.stock)))
+        _make_enter(job, [zone], finishing, choose)
         zones.append(zone)
     return zones
+
+
+def _make_enter(
+    job: Job, zones: list[Zone], mills: Sequence[Tool], choose: Callable[[list[Tool]], list[Tool]]
+) -> None:
+    """Where compensation leaves the mills that finish a wall no room for their entry, let finer ones do it.
+
+    ``choose`` gives those that finish of some. The finest is not asked: if it has no room, planning says so.
+    """
+    from mechwright_cam.planning.compensation import has_entries
+
+    while finer := [mill for mill in mills if mill.diameter < zones[0].finisher.diameter]:
+        if all(has_entries(job, zone) for zone in zones):
+            return
+        last = choose(finer)
+        for zone in zones:
+            zone.before, zone.finisher = tuple(last[:-1]), last[-1]
 
 
 def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Recess) -> None:
@@ -208,14 +229,14 @@ def outer_walls(job: Job) -> list[list[Zone]]:
         mills = roughing_mills(job, able, part)
         mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
         clear, channel = _channel(job, part, mills[0])
-        last = last_mills(mills, part, job.settings)
-        finisher = last[-1]
+        choose = partial(last_mills, keep=part, settings=job.settings)
+        last = choose(mills)
 
         layer = partial(
             Zone,
             wall=part,
             mills=mills,
-            finisher=finisher,
+            finisher=last[-1],
             kind="outside",
             through=True,
             path=path,
@@ -242,6 +263,7 @@ def outer_walls(job: Job) -> list[list[Zone]]:
                 zones.append(layer(name, clear=below, top=height, bottom=job.floor, tabs=tabs, below=True))
         else:
             zones.append(layer(feature.name, clear=clear, top=top, bottom=job.floor, below=True))
+        _make_enter(job, zones, mills, choose)
         walls.append(zones)
     return walls
 

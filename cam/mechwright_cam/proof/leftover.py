@@ -108,6 +108,14 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         floors,
         round_floors,
     )
+    beside = [_tabs_at(job, one, slack) for one in every]
+    held = free
+    if any(beside):
+        layers = [
+            (b.top, entered(shapely.union_all([b.keep, *t]), smallest, play(job), job, b))
+            for b, t in zip(every, beside, strict=True)
+        ]
+        held = replace(free, layers=layers)
     rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
     unseen: dict[int, Shape | None] = {}
@@ -122,14 +130,9 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
             reached = along(reached, play(job), job, band, mills, level)
         if key not in lowest:
             rests[key], lowest[key] = reached, (band, groups)
-        beside = [_tabs_at(job, one, slack) for one in every]
         aside = None
         if beside[place]:
-            held = [
-                (b.top, entered(shapely.union_all([b.keep, *t]), smallest, play(job), job, b))
-                for b, t in zip(every, beside, strict=True)
-            ]
-            reached = reach.rest(replace(free, layers=held), place, level)
+            reached = reach.rest(held, place, level)
             if reach.noses:
                 reached = along(reached, play(job), job, band, mills, level)
             # Beside a tab the cutter lifts, and what it leaves there goes with the tab.

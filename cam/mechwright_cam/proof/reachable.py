@@ -16,7 +16,7 @@ narrow end would go round corners step by step, do not count: that is no milling
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
@@ -43,6 +43,15 @@ class Surroundings:
     underside: float
     floors: Sequence[Layer] = ()
     fillets: Sequence[Fillet] = ()
+    blocked: dict[tuple[int, float, float], Shape] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    """Where the axis of a cutter must not be, by its T number, the height of its tip and its play: every band
+    asks for the same ones."""
+    free: dict[tuple[int, int, float], Shape] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    """Where it may be on a floor, by its T number, the index of the floor and its play."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +106,7 @@ class Reach:
             found = shapely.box(
                 *grow(shapely.union_all(shapes), 2 * max(tool.diameter for tool in self.mills)).bounds
             )
+        gone = []
         for tool in self.mills:
             if self._is_plain(tool) or (tool.radius + self.play >= self.flat and not around.fillets):
                 continue
@@ -108,24 +118,24 @@ class Reach:
                 blocked = self._blocked(tool, around, tip)
                 left = shapely.union(keep, grow(blocked, -self._swept(tool, height - tip)))
                 found = shapely.intersection(found, left)
-            for floor, view in around.floors:
+            for at, (floor, _) in enumerate(around.floors):
                 if floor < top - NEAR and _cuts(tool, -floor):
-                    if others and self._served(others, around, floor, view, tool):
+                    if others and self._served(others, around, at, tool):
                         continue
-                    free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
-                    gone = grow(free, self._swept(tool, height - floor))
-                    found = shapely.union(keep, shapely.difference(found, gone))
+                    free = self._free(tool, around, at)
+                    gone.append(grow(free, self._swept(tool, height - floor)))
+        if gone:
+            found = shapely.union(keep, shapely.difference(found, shapely.union_all(gone)))
         return areas(self._with_made(areas(found), around, place, height))
 
-    def _served(
-        self, others: Sequence[Tool], around: Surroundings, floor: float, view: Shape, ball: Tool
-    ) -> bool:
+    def _served(self, others: Sequence[Tool], around: Surroundings, at: int, ball: Tool) -> bool:
         """Whether other mills make a floor, so that a ball, which makes none in good time, need not."""
+        floor, view = around.floors[at]
         if any(abs(one.floor - floor) < NEAR and makes_floor(ball, one.radius) for one in around.fillets):
             return False
         for tool in others:
             if _cuts(tool, -floor):
-                free = shapely.difference(grow(view, tool.radius), self._blocked(tool, around, floor))
+                free = self._free(tool, around, at)
                 if shapely.intersection(grow(free, tool.radius), view).area >= LEAST_SHARE * view.area:
                     return True
         return False
@@ -135,16 +145,23 @@ class Reach:
 
         Others would leave terraces there. A passage is no corner, nor is what no such mill enters.
         """
+        left_by: dict[float, Shape] = {}  # by the radius of the fillet: in a nest many have the same
         for fillet in around.fillets:
             makers = [tool for tool in self.mills if makes_floor(tool, fillet.radius)]
             others = len(makers) < len(self.mills)
             if makers and others and fillet.floor <= height < -fillet.feature.top:
-                left = Reach(makers, self.play, self.through).rest(around, place, height)
+                if fillet.radius not in left_by:
+                    reach = Reach(makers, self.play, self.through)
+                    left_by[fillet.radius] = reach.rest(around, place, height)
+                left = left_by[fillet.radius]
                 # A skin into the wall, or rounding leaves a crack between the two.
                 more = shapely.intersection(left, grow(fillet.inside, SKIN))
                 wide = CORNER_SHARE * min(tool.radius for tool in makers)
                 beyond = polygons(shapely.difference(more, rest))
-                passages = [piece for piece in beyond if not grow(piece, -wide).is_empty]
+                # Most are slivers: smaller than a disc of that radius, they need no closer look.
+                passages = [
+                    piece for piece in beyond if piece.area > wide**2 and not grow(piece, -wide).is_empty
+                ]
                 kept = polygons(shapely.difference(more, shapely.union_all(passages)))
                 rest = shapely.union_all([rest, *kept])
         return rest
@@ -153,8 +170,23 @@ class Reach:
         """How far a cutter sweeps around its axis at a height above its tip, and its play, mm."""
         return float(cutter(tool).radius_at(height)) + self.play
 
+    def _free(self, tool: Tool, around: Surroundings, at: int) -> Shape:
+        """Where the axis of a cutter may be with its tip on the floor of this index."""
+        key = tool.number, at, self.play
+        if key not in around.free:
+            floor, view = around.floors[at]
+            blocked = self._blocked(tool, around, floor)
+            around.free[key] = shapely.difference(grow(view, tool.radius), blocked)
+        return around.free[key]
+
     def _blocked(self, tool: Tool, around: Surroundings, tip: float) -> Shape:
         """Where the axis of a cutter must not be with its tip at one height."""
+        key = tool.number, tip, self.play
+        if key not in around.blocked:
+            around.blocked[key] = self._blocked_anew(tool, around, tip)
+        return around.blocked[key]
+
+    def _blocked_anew(self, tool: Tool, around: Surroundings, tip: float) -> Shape:
         blocked: dict[int, tuple[float, Shape]] = {}
         for top, keep in around.layers:
             if top > tip + NEAR:

@@ -267,7 +267,11 @@ def _without_crumbs(bends: list[Bend], closed: bool) -> list[Bend]:
 
 
 def _joined(found: list[Bend], numbers: list[int], count: int, closed: bool) -> list[Bend]:
-    """Bends that meet where others between them are left out; their ``numbers`` are those among ``count``."""
+    """Bends that meet where others between them are left out; their ``numbers`` are those among ``count``.
+
+    One that would run backwards then, for its corner lies before its start, shrinks to nothing.
+    """
+    before = list(found)
     for place in range(len(found) if closed else len(found) - 1):
         after = (place + 1) % len(found)
         if (numbers[after] - numbers[place]) % count == 1 or after == place:
@@ -275,7 +279,20 @@ def _joined(found: list[Bend], numbers: list[int], count: int, closed: bool) -> 
         corner = meeting(found[place], found[after])
         found[place] = replace(found[place], end=corner)
         found[after] = replace(found[after], start=corner)
-    return found
+    if len(found) <= 2:
+        return found
+    return [
+        replace(bend, end=bend.start) if _runs_back(bend, old) else bend
+        for bend, old in zip(found, before, strict=True)
+    ]
+
+
+def _runs_back(bend: Bend, old: Bend) -> bool:
+    """Whether a bend whose ends have moved runs back: an arc then goes all but round."""
+    if bend.turn:
+        return bend.sweep > math.pi + old.sweep / 2
+    (x, y), (u, v) = (np.subtract(b.end, b.start).tolist() for b in (bend, old))
+    return bool(x * u + y * v < 0)
 
 
 def _path(bends: list[Bend], closed: bool) -> Path:
