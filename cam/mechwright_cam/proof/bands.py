@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeVar
 
 import shapely
 
+from mechwright.motion import Array
 from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright.sections import plan_view
 from mechwright.tolerances import TOLERANCES
@@ -26,7 +28,10 @@ SPARE = 3.0
 """And by so much more, mm: wear, the allowance, and what leads and groove ends go on for."""
 
 
-def run_out(diameter: float) -> float:
+Length = TypeVar("Length", float, Array)
+
+
+def run_out(diameter: Length) -> Length:
     """How far beyond a rim the edge of a cutter may go that runs out there, mm."""
     return RUN_OUT * diameter + SPARE
 
