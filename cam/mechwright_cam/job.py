@@ -8,6 +8,8 @@ target
     The finished part seen from above.
 keep
     What must stay at a height: the target, and below the top of the tabs the tabs as well.
+body
+    What features lie in: the target, and when the plate has been turned over the part in it.
 cut
     What the cutters leave of the target's surroundings: the target with the corners filled that a round
     cutter cannot enter.
@@ -30,6 +32,7 @@ from mechwright.tooling import MILLS, CamSettings, Tool, ToolKind
 from mechwright_cam.nest import Nest, moved_feature, outlines_of
 from mechwright_cam.plate import plate_box
 from mechwright_cam.tabs import Tab, lay_tabs
+from mechwright_cam.turned import Frame, TurnedOver
 from mechwright_cam.vice import Jaw, lay_jaws
 
 LEVEL = 1e-6
@@ -140,6 +143,19 @@ class Job:
         plates = [outline.polygon() for outline in outlines_of(self.part)]
         whole = plates[0] if len(plates) == 1 else shapely.MultiPolygon(plates)
         return shapely.transform(whole, lambda points: points - (self.origin[0], self.origin[1]))
+
+    @cached_property
+    def frame(self) -> Frame | None:
+        """What tells the part from its frame, if the plate has been turned over."""
+        if not isinstance(self.part, TurnedOver):
+            return None
+        shapes = (self.part.frame.body, self.part.frame.holds)
+        return Frame(*(shapely.transform(shape, lambda points: points - self.origin) for shape in shapes))
+
+    @property
+    def body(self) -> shapely.Geometry:
+        """What features lie in; beyond it they are open, and nothing of them has to be cut."""
+        return self.target if self.frame is None else self.frame.body
 
     @cached_property
     def features(self) -> tuple[Feature, ...]:

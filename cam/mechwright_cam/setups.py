@@ -28,6 +28,8 @@ from mechwright_cam.library import Library
 from mechwright_cam.planning import lay_out
 from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.thin_floors import thin_floors
+from mechwright_cam.toolpath.offsets import ROUGH, filled, grow
+from mechwright_cam.turned import Frame, TurnedOver
 
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
@@ -41,6 +43,8 @@ WALL = 3.0
 
 MIRRORED: dict[str, Literal["left", "right", "on"]] = {"left": "right", "right": "left", "on": "on"}
 """Side of a path to its side when the plate has been turned over."""
+SIGNS = {"x": (1.0, -1.0), "y": (-1.0, 1.0)}
+"""Factors of X and Y when the plate is turned over about an axis."""
 
 
 def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
@@ -164,13 +168,16 @@ def _second(
     ox, oy = first.origin
     plate = Loop.polygon([(x0 + ox, y0 + oy), (x1 + ox, y0 + oy), (x1 + ox, y1 + oy), (x0 + ox, y1 + oy)])
     features = tuple(_over(feature, part.thickness, side.flip) for feature in under)
-    over = replace(
-        part,
-        name=part.name + UNDERSIDE,
-        outline=Outline(turned_over(plate, side.flip)),
-        machined=features,
-        build=None,
-        details=(),
+    dowels = [bore for bore in bores if bore not in part.features]
+    over = TurnedOver(
+        part.name + UNDERSIDE,
+        Outline(turned_over(plate, side.flip)),
+        part.thickness,
+        part.material,
+        part.instances,
+        part.colour,
+        features,
+        frame=_frame(first, dowels, side.flip),
     )
     # The plate lies elsewhere now: what was measured for the first side must not be written into this offset.
     place = {"x": side.x, "y": side.y, "z": side.z}
@@ -191,15 +198,27 @@ def _second(
         case "bore":
             located = [max(bores, key=lambda bore: bore.diameter)]
         case "dowels":
-            located = [bore for bore in bores if bore not in part.features]
+            located = dowels
     turned = (turned_point(bore.centre, side.flip) for bore in located)
     pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
     return replace(job, side="underside", pick_up=pick_up), found
 
 
+def _frame(first: Job, dowels: Sequence[Bore], flip: Literal["x", "y"]) -> Frame:
+    """The part in its frame when the plate has been turned over, in the part's coordinates."""
+    sign, body = np.array(SIGNS[flip]), filled(first.target)
+    tabs = [shapely.difference(tab.shape, body) for tab in first.tabs]
+    holds = shapely.transform(shapely.union_all(tabs), lambda points: points + first.origin)
+    pins = [grow(inside_of(dowel), WALL, ROUGH) for dowel in dowels]  # they stand in their holes
+    return Frame(
+        shapely.transform(body, lambda points: (points + first.origin) * sign),
+        shapely.transform(shapely.union_all([holds, *pins]), lambda points: points * sign),
+    )
+
+
 def turned_shape(shape: shapely.Geometry, first: Job, second: Job) -> shapely.Geometry:
     """A shape of the first setup's work coordinates in those of the second."""
-    sign = np.array((1.0, -1.0) if first.settings.second_side.flip == "x" else (-1.0, 1.0))
+    sign = np.array(SIGNS[first.settings.second_side.flip])
     return shapely.transform(shape, lambda p: (p + first.origin) * sign - second.origin)
 
 

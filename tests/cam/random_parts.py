@@ -317,6 +317,19 @@ def second_side(rng: Rng) -> Drawn:
     return Drawn(plate(rng, [bore, under], rim, thick), how)
 
 
+def underside_rim(rng: Rng) -> Drawn:
+    """A recess, step or groove of the underside, most of them over the rim, in a plate larger than the part."""
+    drawn = (rim if rng.random() < 0.5 else open_profile)(rng)
+    thick = drawn.part.thickness
+    below: list[Feature] = []
+    for f in drawn.part.machined:
+        if isinstance(f, OpenProfile):  # not just as wide as a mill: what those do stands in ``open-profile``
+            f = replace(f, width=f.width + 0.37)
+        below.append(replace(f, top=thick - f.depth, floor_radius=0.0) if isinstance(f, Pocket) else f)
+    side = {"flip": str(rng.choice(["x", "y"])), "locate": str(rng.choice(["dowels", "edges"]))}
+    return Drawn(replace(drawn.part, machined=tuple(below)), {**drawn.settings, "second_side": side})
+
+
 OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
     "outside": outside,
     "inside": inside,
@@ -334,6 +347,7 @@ OPERATIONS: dict[str, Callable[[Rng], Drawn]] = {
     "chamfer": chamfer,
     "engrave": engrave,
     "second-side": second_side,
+    "underside-rim": underside_rim,
 }
 
 

@@ -387,6 +387,37 @@ def test_a_length_that_was_not_measured_so_is_noticed() -> None:
     assert "G43.1 Z53 while the measured length of T2 is 52 mm" in found.message
 
 
+@pytest.mark.parametrize(
+    ("control", "retract_z", "words"),
+    [
+        ("linuxcnc", 0.0, "retract with G53 G0 Z0"),
+        ("linuxcnc", -1.5, "retract with G53 G0 Z-1.5"),
+        ("mach3", 0.0, "retract with G53 G0 Z0"),
+        ("haas", 0.0, "retract with G53 G0 Z0."),
+        ("fanuc", 0.0, "retract with G91 G28 Z0., then G90"),
+        ("grbl", -2.0, "retract with G53 G0 Z-2"),
+        (
+            "grbl",
+            0.0,
+            "retract with G53 G0 Z0, after setting cam.machine.retract_z below the homing switch, such as -2",
+        ),
+    ],
+)
+def test_a_retract_is_advised_as_the_control_and_the_machine_do_it(control, retract_z, words) -> None:
+    made = plate_job()
+    mill = made.settings.machine.model_copy(update={"retract_z": retract_z})
+    made = replace(made, settings=made.settings.model_copy(update={"machine": mill}))
+    text = post_of(control).write(replace(plate_program(), machine=mill))
+    assert prove(text, made, DIALECTS[control]).checks["positions"].passed
+    retract = (
+        "G91 G28 Z0.\nG90\n" if control == "fanuc" else words.removeprefix("retract with ").split(",")[0]
+    )
+    assert retract in text  # it is what the post writes
+    found = prove(text.replace(retract, ""), made, DIALECTS[control]).checks["positions"]
+    assert not found.passed
+    assert f"{words}, at X" in found.message
+
+
 def test_whoever_touches_off_leaves_the_tool_low() -> None:
     text = post_of("grbl").write(plate_program())
     careless = text.replace("M0\nG53 G0 Z0\n", "M0\n")

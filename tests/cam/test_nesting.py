@@ -124,6 +124,22 @@ def test_random_nests_are_planned_and_proven(seed):
     assert {"leftover", "depth"} <= failed
 
 
+def test_the_program_of_a_nest_is_none_for_one_of_its_parts():
+    wanted = CamSettings()
+    plates = [box("a", 60, 40), box("b", 60, 40), box("c", 60, 40)]
+    nest = nest_of("nest", plates, wanted, 2 * channel_of(plates, wanted, LIBRARY) + 3.0)
+    job = make_job(nest, wanted, choose_tools(nest, wanted, LIBRARY))
+    text = pipeline.machine(job, POST).text
+    assert pipeline.prove(text, job).checks["beside"].passed
+    # The first of them lies at the nest's origin, where the part alone would lie.
+    alone = make_job(plates[0], wanted, job.tools)
+    found = pipeline.prove(text, alone).checks["beside"]
+    assert not found.passed
+    assert found.line is not None
+    assert "mm outside of the stock" in found.message
+    assert "another part" in found.message
+
+
 def test_what_the_cutters_leave_comes_back_in_each_parts_own_coordinates():
     outer = Loop.polygon([(-9, -9), (40, -9), (40, 9), (9, 9), (9, 25), (-9, 25)])
     angle = Part("angle", Outline(outer, (bore(6.0),)), 3.0, "aluminium", (Instance("a"), Instance("b")))

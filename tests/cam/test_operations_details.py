@@ -10,15 +10,19 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 
 from mechwright.details import Chamfer, Engraving, Thread
 from mechwright.errors import DesignError, GeometryError, ToolError
-from mechwright.geometry import Loop, circle
+from mechwright.geometry import Loop, Outline, circle
 from mechwright.lettering import LETTERS, lettering
-from mechwright.part import Bore, Profile
+from mechwright.part import Bore, Pocket, Profile
 from mechwright.program import FeedArc
 from mechwright.tooling import CamSettings, ToolKind
+from mechwright_cam.interpreter import LINUXCNC
 from mechwright_cam.job import make_job
 from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.proof import prove, read
+from mechwright_cam.proof.details import deepest_in_fillet
+from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.paths import Paths
 
 TOOLS = ("mill-6", "mill-4", "chamfer-6", "engrave-3", "thread-m6", "spot-6", "drill-4")
 RIM = rounded_box(60, 40, 6)
@@ -100,6 +104,39 @@ def test_a_detail_that_differs_fails(planned, asked):
     _, program, proof = made(planned)
     assert proof.ok
     assert not prove(LinuxCncPost().write(program), job(detailed(asked), *TOOLS)).ok
+
+
+def across(depth, floor_radius, width):
+    """A chamfered rim, with a recess across it whose floor has a fillet."""
+    over = Pocket("over", rounded_box(24, 12, 4).moved(30.0, 2.0), (), 0.0, depth, floor_radius)
+    part = plate(machined=(over, Profile("outside", RIM, "outside", 0, 6)))
+    part = dataclasses.replace(part, outline=Outline(RIM), details=(Chamfer("rim", RIM, "outside", width),))
+    return make_job(part, CamSettings(), choose_tools(part, CamSettings(), LIBRARY))
+
+
+@pytest.mark.parametrize(
+    ("depth", "floor_radius", "width"), [(1.3, 1.0, 0.4), (1.3, 1.0, 0.8), (3.0, 3.0, 0.5), (2.0, 1.0, 0.3)]
+)
+def test_a_rim_is_chamfered_across_the_fillet_of_an_open_recess(depth, floor_radius, width):
+    """Where the fillet is higher than the chamfer's foot, the part has the chamfer, as its sections say."""
+    of = across(depth, floor_radius, width)
+    proof = prove(LinuxCncPost().write(plan(of)), of)
+    assert proof.ok, [check.message for check in proof.failures]
+
+
+def test_a_chamfer_mill_that_cuts_into_a_fillet_is_seen():
+    of = across(1.3, 1.0, 0.4)
+    text = LinuxCncPost().write(plan(of))
+    (fillet,) = fillets(of)
+    (mill,) = (tool for tool in of.tools if tool.kind is ToolKind.CHAMFER)
+    deepest = []
+    for planted in ("", f"G0 X25 Y-3.6\nG43 H{mill.number} Z5\nG1 Z-1.2 F99\nX26\n"):
+        run = read(text.replace("M9\nM5\nG53 G0 Z0\nM30", planted + "M9\nM5\nG53 G0 Z0\nM30"), of, LINUXCNC)
+        cuts = deepest_in_fillet(Paths(run, {tool.number: tool for tool in of.tools}), of, fillet)
+        deepest.append(max((cut.depth for cut in cuts if cut is not None), default=0.0))
+    # 0.4 mm off the wall, 0.1 mm above the floor: a cone of 45 degrees meets the fillet.
+    assert deepest[0] <= 0.005
+    assert 0.05 < deepest[1] < 0.5
 
 
 def test_the_chamfer_is_as_wide_as_drawn():

@@ -95,6 +95,12 @@ DEFECTS = {
         1,
     ),
     "travel": (swap("G0 X0 Y0", "G0 X0 Y600", 2), "travel", "span .* mm in Y", 0),
+    "beside the stock": (
+        swap("G0 Z5\nM9\nM5\n", "G1 X-61 Y-12\nG0 Z5\nM9\nM5\n"),
+        "beside",
+        "cuts 22.0 mm outside of the stock, 21 mm at most",
+        0,
+    ),
     "over-speed": (swap("S8000", "S12500"), "speeds", "S12500 is above the spindle's 12000 rpm", None),
     "under-speed": (swap("S8000", "S50"), "speeds", "S50 is below the spindle's 100 rpm", None),
     "over-feed": (swap("Z-1.2 F600", "Z-1.2 F6000"), "feeds", "F6000 is above", 0),

@@ -227,6 +227,64 @@ def test_tabs_stay_clear_of_what_is_cut_from_below(feature, tabs) -> None:
     assert tabs < 3 or middle.convex_hull.area > 0.1 * first.job.target.area
 
 
+OVER_THE_RIM = {
+    "step": STEP_BELOW,
+    "groove": OpenProfile("groove", 5.0, 3.0, path=(Line((-40.0, 8.0), (40.0, 8.0)),), side="on", width=7.0),
+    "mouth": Pocket("mouth", rounded_box(30, 14, 3).moved(30.0, 6.0), (), 5.0, 3.0),
+}
+
+
+@pytest.mark.parametrize("locate", ["dowels", "edges"])
+@pytest.mark.parametrize("feature", OVER_THE_RIM.values(), ids=OVER_THE_RIM)
+def test_a_recess_over_the_rim_is_open_into_the_frame(feature, locate) -> None:
+    wanted = CamSettings.model_validate({"second_side": {"locate": locate, "flip": "y"}})
+    jobs, found = lay_out_setups(part(feature), wanted, LIBRARY)
+    # No corner of it is one: those drawn out in the frame are no walls, and no fine mill is taken for them.
+    assert not [f for f in found if f.code == "cam.unreachable"]
+    assert min(mill.diameter for mill in jobs[1].mills) >= 4.0
+    first = machine(jobs[0], host().post("linuxcnc"))
+    second = machine(second_setup(first, jobs[1], host().post("linuxcnc")), host().post("linuxcnc"))
+    assert second.proof.unreachable_max_mm < 0.01
+    # The cutter runs out over the rim, and no further into the frame than it needs.
+    run, mill = interpret(second.text), second.program.sections[-1].tool
+    drawn = shapely.intersection(inside_of(second.job.features[0]), second.job.body)
+    ends = shapely.points(run.end[run.cutting & (run.end[:, 2] < 0), :2])
+    assert shapely.distance(ends, second.job.body).max() > 0.9 * mill.radius
+    assert shapely.distance(ends, drawn).max() < 1.5 * mill.diameter
+
+
+def test_the_proof_knows_how_much_of_the_frame_may_go() -> None:
+    first, second = both(part(STEP_BELOW), second_side={"locate": "dowels", "flip": "y"})
+    job = second.job
+
+    def into(at, z=-3.0):
+        tool = second.program.sections[-1].tool.number
+        down = f"G54\nG55\nG0 X{at.x:.3f} Y{at.y:.3f}\nG43 H{tool} Z5\nG1 Z{z} F100\nG53 G0 Z0\n"
+        return prove(second.text.replace("M30\n", down + "M30\n"), job).checks["gouge"]
+
+    x0, _, x1, y1 = job.body.bounds
+    assert into(shapely.Point(x1 + 3.0, y1 - 4.0)).passed  # beside the end of the step
+    assert not into(shapely.Point(x1 + 3.0, y1 - 4.0), -3.1).passed  # deeper than it is
+    assert not into(shapely.Point(x1 + 3.0, -y1 - 4.0)).passed  # far from it
+    assert not into(shapely.Point(x0 + 3.0, -y1 + 4.0)).passed  # in the part
+    holes = [inside_of(f) for f in first.job.features if f.name.startswith("dowel")]
+    assert len(holes) == 2
+    for one in [*holes, *(shapely.difference(tab.shape, first.job.target) for tab in first.job.tabs)]:
+        held = turned_shape(one.representative_point(), first.job, job)
+        assert not into(held, -0.1).passed
+
+
+def test_a_step_drawn_over_a_dowel_leaves_it_alone() -> None:
+    wide = replace(STEP_BELOW, width=40.0)
+    first, second = both(part(wide), second_side={"locate": "dowels", "flip": "y"})
+    assert second.proof.ok
+    for dowel in (f for f in first.job.features if f.name.startswith("dowel")):
+        pin = turned_shape(inside_of(dowel), first.job, second.job)
+        run = interpret(second.text)
+        ends = shapely.points(run.end[run.cutting & (run.end[:, 2] < 0), :2])
+        assert shapely.distance(ends, pin).min() > second.program.sections[-1].tool.radius
+
+
 def box_at(name, x, top, depth, width=12.0):
     return Pocket(name, rounded_box(width, 8, 3).moved(x, 8.0), (), top, depth)
 

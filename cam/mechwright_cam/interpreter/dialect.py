@@ -65,6 +65,10 @@ class Dialect:
         Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
     home_cancels_length
         Whether G28 of Z may end G43, so that it has to be stated anew.
+    retract
+        How a full retract is written; the machine's Z of it stands for ``{}``.
+    switch_at_zero
+        Whether machine Z0 is where the homing switch is, so that a retract ends below it.
     forbidden
         Characters that the control obeys out of the stream, wherever they stand.
     """
@@ -93,6 +97,8 @@ class Dialect:
     program_numbers: bool = False
     tool_by_t: bool = False
     length_table: bool = True
+    retract: str = "G53 G0 Z{}"
+    switch_at_zero: bool = False
     forbidden: str = ""
     variables: bool = False
     home_cancels_length: bool = False

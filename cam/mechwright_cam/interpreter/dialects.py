@@ -30,6 +30,7 @@ _SHARED = (
 
 FANUC = Dialect(
     name="Fanuc",
+    retract="G91 G28 Z0., then G90",
     home_cancels_length=True,
     numbers_needed="DH",
     percent_ends=False,
@@ -85,6 +86,7 @@ MACH3 = Dialect(
 
 GRBL = Dialect(
     name="Grbl",
+    switch_at_zero=True,
     g_codes=frozenset(
         {0, 10, 20, 30, 40, 100, 280, 300, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900, 910, 911}
         | {540, 550, 560, 570, 580, 590, 610, 940}

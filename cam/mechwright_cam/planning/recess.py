@@ -5,8 +5,8 @@ Glossary
 must
     The plan view of the feature on the part.
 open
-    No wall stands along a stretch of the boundary: the feature reaches over the part's edge, or into another
-    feature that is at least as deep.
+    No wall stands along a stretch of the boundary: the feature reaches over the part's edge, out of the plate
+    or into the frame that is scrap, or into another feature that is at least as deep.
 around
     Where the cutter's edge may be: ``must``, and beyond its open stretches a strip to run out into.
 """
@@ -69,7 +69,7 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     """
     shape = plan_view(feature)
     others = _at_least_as_deep(job, feature)
-    inside = filled(job.target)
+    inside = filled(job.body)
     edge = grow(inside, -SKIN, ROUGH)
     edge = prepared(edge)
     near = [other for other in others if shapely.dwithin(shape, other, SKIN)]
@@ -84,9 +84,11 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     if shapely.is_empty(shapely.buffer(must, -TOLERANCES.leftover / 2, quad_segs=2)):
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
     gone = shapely.union_all([shapely.difference(window, inside), *near])
-    keep = shapely.difference(shapely.intersection(job.target, window), shapely.union_all([must, gone]))
+    keep = shapely.difference(shapely.intersection(job.body, window), shapely.union_all([must, gone]))
     keep = _without_skin(keep)
     tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
+    if job.frame is not None:
+        tabs.append(shapely.intersection(job.frame.holds, window))
     keep = shapely.union_all([*polygons(keep), *tabs])
     free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
     around = shapely.union_all([part for part in free if shapely.intersects(part, must)])
@@ -105,7 +107,7 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
         if not (isinstance(other, Profile) and other.side == "outside")
         and shapely.intersects(plan_view(other), around)
     ]
-    plate = areas(shapely.intersection(job.target, around))
+    plate = areas(shapely.intersection(job.body, around))
     layers: list[Layer] = []
     for section in reversed(sections.cut_layers(plate, beside, floor)):
         wall = _without_skin(areas(section.shape))

@@ -29,6 +29,7 @@ from mechwright_cam.toolpath.offsets import (
     ROUGH,
     grow,
     simplified,
+    sound,
     thinned,
 )
 from mechwright_cam.vice import RUN_OUT
@@ -149,7 +150,7 @@ class Zone:
         With an ``allowance`` for roughing: that much stays on the walls besides, which are thinned.
         """
         radius = self.radius_of(mill) + away
-        near = grow(self.keep, radius) if allowance is None else self.rough_keep(allowance, radius)
+        near = sound(grow(self.keep, radius)) if allowance is None else self.rough_keep(allowance, radius)
         if self.radius_of(mill) == mill.radius:
             return near
         more = away + (allowance or 0.0)

@@ -2,15 +2,38 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeVar
 
 import shapely
 
+from mechwright.motion import Array
 from mechwright.part import Bore, Feature, Pocket, Profile
 from mechwright.sections import plan_view
+from mechwright.tolerances import TOLERANCES
+from mechwright.tooling import MILLS
 from mechwright_cam.job import Job
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, quarter
+from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import filled
+from mechwright_cam.turned import Frame
+
+OPEN = 2 * TOLERANCES.flatten
+"""A recess that comes so near to the rim of the part is open there, mm: what chords of both may be off."""
+
+RUN_OUT = 3.0
+"""The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
+lead that is as long again with the largest D."""
+SPARE = 3.0
+"""And by so much more, mm: wear, the allowance, and what leads and groove ends go on for."""
+
+
+Length = TypeVar("Length", float, Array)
+
+
+def run_out(diameter: Length) -> Length:
+    """How far beyond a rim the edge of a cutter may go that runs out there, mm."""
+    return RUN_OUT * diameter + SPARE
 
 
 @dataclass(frozen=True)
@@ -43,7 +66,7 @@ def floor_of(feature: Feature, job: Job) -> Shape:
     """The part of :func:`inside_of` that lies on the plate: a recess may be drawn beyond its edge."""
     view = inside_of(feature)
     if isinstance(feature, Pocket):
-        view = shapely.intersection(view, filled(job.target))
+        view = shapely.intersection(view, filled(job.body))
     return view
 
 
@@ -67,20 +90,45 @@ def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
         depth = -(top + bottom) / 2
         here = tuple(feature for feature in partial if feature.top < depth < feature.top + feature.depth)
         if here not in known:
-            known[here] = _section(job.target, here)
+            known[here] = _section(job, here)
         layers.append(Band(top, bottom, known[here]))
     return layers
 
 
-def _section(whole: Shape, features: tuple[Feature, ...]) -> Shape:
-    keep = whole
+def _section(job: Job, features: tuple[Feature, ...]) -> Shape:
+    keep = job.target
     for feature in features:
         shape = inside_of(feature)
         if isinstance(feature, Profile) and feature.side == "outside":
             keep = shapely.intersection(keep, shape)
         else:
             keep = shapely.difference(keep, shape)
+    if job.frame is not None and features:
+        keep = shapely.difference(keep, _run_outs(job, job.frame, features))
+        keep = shapely.union(keep, job.frame.holds)
     return keep
+
+
+def _run_outs(job: Job, frame: Frame, features: tuple[Feature, ...]) -> Shape:
+    """What of the frame may go besides: beyond the rim of the part, near the recesses that are open there."""
+    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
+    within = prepared(grow(frame.body, -OPEN))
+    drawn = [shape for shape in map(inside_of, features) if not shapely.contains_properly(within, shape)]
+    floors = shapely.intersection(shapely.union_all(drawn), frame.body)
+    beyond: Shape = shapely.difference(grow(floors, run_out(widest)), frame.body)
+    return beyond
+
+
+def asked(job: Job) -> Shape | None:
+    """Where walls have to be cut, if that is not everywhere: on what is drawn in a part in its frame.
+
+    It ends just before the rim: what stands in the frame beyond may end there, as the foot of a wall does.
+    """
+    if job.frame is None:
+        return None
+    limit, drawn = TOLERANCES.leftover, shapely.union_all(list(map(inside_of, job.features)))
+    found: Shape = shapely.intersection(grow(drawn, limit), grow(job.frame.body, -limit))
+    return found
 
 
 def stock_shape(job: Job) -> shapely.Polygon:
@@ -88,4 +136,4 @@ def stock_shape(job: Job) -> shapely.Polygon:
     return shapely.box(*job.stock)
 
 
-__all__ = ["Band", "bands", "floor_of", "grow", "inside_of", "stock_shape"]
+__all__ = ["Band", "asked", "bands", "floor_of", "grow", "inside_of", "run_out", "stock_shape"]

@@ -14,6 +14,7 @@ from mechwright.tooling import ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import Band
+from mechwright_cam.proof.fillets import Fillet
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
@@ -25,6 +26,9 @@ OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.
 """Which kind of tool may cut which detail."""
 SPACING = 0.2
 """Distance of the places along an edge or a stroke at which its cut is measured, mm."""
+FINE = 24
+"""A fillet is looked at, at so many heights, for what is not as a mill: in between it is within 0.1 % of its
+radius of both."""
 FITS = 0.02
 """A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
 BESIDE = 0.003
@@ -33,10 +37,7 @@ BESIDE = 0.003
 
 def heights(job: Job) -> tuple[float, ...]:
     """Heights z at which the details end, mm."""
-    found = []
-    for detail in job.details:
-        found.append(-detail.width if isinstance(detail, Chamfer) else -detail.depth)
-    return tuple(max(z, -job.thickness) for z in found)
+    return tuple(max(-_depth(detail), -job.thickness) for detail in job.details)
 
 
 def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
@@ -54,16 +55,40 @@ def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
     return found
 
 
+def deepest_in_fillet(paths: Paths, job: Job, fillet: Fillet) -> list[Gouge | None]:
+    """The deepest cut into a fillet; where a detail takes some of it, its tool may.
+
+    A chamfer goes on over the mouth of a recess, and takes the upper end of the fillet there.
+    """
+    special = {OWN[type(detail)] for detail in job.details}
+    if not special:
+        return [fillet.deepest(paths)]
+    found = [fillet.deepest(paths.of_kinds(set(ToolKind) - special))]
+    for kind in sorted(special):
+        own = paths.of_kinds({kind})
+        if own.steps.size == 0:
+            continue
+        for z in fillet.heights_in(FINE):
+            given = [_given(d, -z) for d in job.details if OWN[type(d)] is kind and _depth(d) > NEAR - z]
+            keep = fillet.solid(z)
+            found.append(deepest_cut(own, shapely.difference(keep, shapely.union_all(given)), z))
+    return found
+
+
 def _reaches(detail: Detail, band: Band) -> bool:
-    depth = detail.width if isinstance(detail, Chamfer) else detail.depth
-    return band.top > -depth + NEAR
+    return band.top > -_depth(detail) + NEAR
 
 
-def _given(detail: Detail) -> Shape:
-    """What of the plate a detail takes at the top face."""
+def _depth(detail: Detail) -> float:
+    """How deep a detail goes, mm."""
+    return detail.width if isinstance(detail, Chamfer) else detail.depth
+
+
+def _given(detail: Detail, depth: float = 0.0) -> Shape:
+    """What of the plate a detail takes so far below the top face: a chamfer less and less."""
     match detail:
         case Chamfer():
-            return grow(shapely.LinearRing(detail.loop.flatten()), detail.width)
+            return grow(shapely.LinearRing(detail.loop.flatten()), detail.width - depth)
         case Thread():
             return grow(shapely.Point(detail.centre), detail.diameter / 2)
         case Engraving():

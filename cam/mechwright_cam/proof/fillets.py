@@ -59,7 +59,11 @@ class Fillet:
     @property
     def heights(self) -> tuple[float, ...]:
         """The heights z at which it is looked at, from just above the floor to where it ends, mm."""
-        angles = np.linspace(0.0, np.pi / 2, STEPS + 1)[1:]
+        return self.heights_in(STEPS)
+
+    def heights_in(self, steps: int) -> tuple[float, ...]:
+        """So many heights, at even angles."""
+        angles = np.linspace(0.0, np.pi / 2, steps + 1)[1:]
         return tuple((self.floor + self.radius * (1 - np.cos(angles))).tolist())
 
     def solid(self, z: float) -> Shape:

@@ -24,7 +24,7 @@ from mechwright.part import Bore, Feature, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import MILLS, PathSettings
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
+from mechwright_cam.proof.bands import Band, asked, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.grooves import along, entered
@@ -119,6 +119,7 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
     rests: dict[int, Shape] = {}
     lowest: dict[int, tuple[Band, list[Sweep]]] = {}
     unseen: dict[int, Shape | None] = {}
+    drawn = asked(job)
     for place, band in reversed(list(enumerate(every))):
         underside = band.bottom <= -job.thickness + NEAR
         height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
@@ -142,6 +143,8 @@ def remains(sweeps: Sweeps, job: Job) -> Remains:
         thick, where = 0.0, None
         if not alike or key not in unseen or unseen[key] is not None:
             within = unseen.get(key) if alike else None
+            if drawn is not None:
+                within = drawn if within is None else shapely.intersection(within, drawn)
             thick, where = _on_walls(reached, within, aside, job, groups, narrow)
         unseen[key] = aside
         uncut = _on_floors(reached, band, job, groups)
@@ -281,7 +284,8 @@ def _beyond(
 ) -> list[tuple[float, float, float, float, float]]:
     """The places between the part and its closing that nothing has cut."""
     rest = shapely.difference(reached, grow(band.keep, VISIBLE / 2))
-    parts = shapely.get_parts(shapely.intersection(rest, stock_shape(job)))
+    inside = stock_shape(job) if job.frame is None else job.frame.body
+    parts = shapely.get_parts(shapely.intersection(rest, inside))
     if parts.size == 0:
         return []
     drills = [shapely.union_all(grow(g.chains, g.radius)) for g in groups if _round_ended(g, job)]

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.interpreter import Kind
+from mechwright_cam.posts.text import number as written
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work, moving
@@ -16,6 +17,15 @@ MAX_DWELL = 10.0
 LENGTH = 1e-3
 """A length in the program is the measured one if it differs by its last decimal at most, mm."""
 SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compensation": "G40"}
+
+
+def retract(scene: Scene) -> str:
+    """What to write for a full retract on this control and machine, as its post does."""
+    dialect, z = scene.dialect, scene.job.settings.machine.retract_z
+    words = dialect.retract.format(written(z, dialect.decimals, dialect.point_needed))
+    if dialect.switch_at_zero and z >= 0:
+        words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
+    return f"retract with {words}"
 
 
 def program_end(scene: Scene) -> Check:
@@ -39,7 +49,7 @@ def program_end(scene: Scene) -> Check:
     height = float(run.end[last, 2])
     if not height >= scene.job.settings.clearance - NEAR:
         return scene.bad(
-            "program-end", last, "the program ends with the tool down; retract with G53 G0 Z0", height
+            "program-end", last, f"the program ends with the tool down; {retract(scene)}", height
         )
     return Check("program-end", True, "the program ends with the tool up")
 
@@ -155,7 +165,7 @@ def stops(scene: Scene) -> Check:
     step = first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))
     if step is not None:
         return scene.bad(
-            "stops", step, "M0 stops the program with the tool down; retract with G53 G0 Z0 first"
+            "stops", step, f"M0 stops the program with the tool down; before it {retract(scene)}"
         )
     return Check("stops", True, "at stops the spindle stands still and the tool is up")
 
@@ -179,9 +189,7 @@ def positions(scene: Scene) -> Check:
     lost = np.isnan(run.start[:, 2]) | np.isnan(run.end[:, 2])
     step = first((run.cutting & unknown) | ((run.kind == Kind.RAPID) & sideways & lost))
     if step is not None:
-        return scene.bad(
-            "positions", step, "moves from an unknown height or place; retract with G53 G0 Z0 first"
-        )
+        return scene.bad("positions", step, f"moves from an unknown height or place; first {retract(scene)}")
     return Check("positions", True, "every move starts from a known height")
 
 
@@ -284,6 +292,6 @@ def tool_changes(scene: Scene) -> Check:
     step = first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= clearance - NEAR))
     if step is not None:
         return scene.bad(
-            "tool-change", step, "a tool is changed without a retract; write G53 G0 Z0 before it"
+            "tool-change", step, f"a tool is changed without a retract; before it {retract(scene)}"
         )
     return Check("tool-change", True, "tools are changed at the machine's upper end")

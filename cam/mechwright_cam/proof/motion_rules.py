@@ -7,10 +7,11 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.motion import Array
+from mechwright.part import Pocket
 from mechwright.tooling import MILLS, Tool, ToolKind
 from mechwright_cam.interpreter import Kind
 from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.proof.bands import stock_shape
+from mechwright_cam.proof.bands import inside_of, run_out, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
@@ -124,6 +125,30 @@ def underside(scene: Scene) -> Check:
             "mm",
         )
     return Check("underside", True, "no tool goes further below the plate than cuts through it have to")
+
+
+def beside(scene: Scene) -> Check:
+    """No cut goes on far outside of the stock and of what is drawn: that is a program for another plate."""
+    job, cuts = scene.job, scene.stock.cuts
+    if cuts.size:
+        least, most = scene.stock.extents
+        drawn = [inside_of(feature).bounds for feature in job.features if isinstance(feature, Pocket)]
+        x0, y0, x1, y1 = shapely.total_bounds(shapely.box(*np.array([job.stock, *drawn]).T))
+        away = np.maximum((x0, y0) - least, most - (x1, y1)).max(axis=1)
+        limit = run_out(2 * scene.paths.radius[cuts])
+        worst = int(np.argmax(away - limit))
+        if away[worst] > limit[worst]:
+            found, allowed = float(away[worst]), float(limit[worst])
+            return scene.bad(
+                "beside",
+                int(cuts[worst]),
+                f"cuts {found:.1f} mm outside of the stock, {allowed:g} mm at most; the program is for "
+                "another part, place or work offset",
+                found,
+                allowed,
+                "mm",
+            )
+    return Check("beside", True, "no cut goes on far outside of the stock")
 
 
 def rapid_height(scene: Scene) -> Check:

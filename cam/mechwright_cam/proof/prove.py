@@ -130,7 +130,7 @@ def _cuts(scene: Scene) -> tuple[Gouge | None, Gouge | None]:
     gouge = _deepest(
         [
             *details.deepest(paths, job, bands(job, details.heights(job))),
-            *(fillet.deepest(paths) for fillet in fillets(job)),
+            *(cut for fillet in fillets(job) for cut in details.deepest_in_fillet(paths, job, fillet)),
         ]
     )
     upright = [tab for tab in job.tabs if not tab.ramped]

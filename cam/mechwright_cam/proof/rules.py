@@ -21,6 +21,7 @@ from mechwright_cam.proof.machine_rules import (
     work_offset,
 )
 from mechwright_cam.proof.motion_rules import (
+    beside,
     entries,
     flutes,
     holder,
@@ -47,6 +48,6 @@ RULES: tuple[Rule, ...] = (
         dwells,
         travel,
     ),
-    *(flutes, underside, rapid_height, rapids_in_stock, entries, holder, clamp),
+    *(flutes, underside, beside, rapid_height, rapids_in_stock, entries, holder, clamp),
 )
 """All rules, in the order of the report."""

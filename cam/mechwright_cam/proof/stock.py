@@ -34,20 +34,21 @@ class Stock:
         self.cuts: Ints = paths.steps[cutting & (low < 0)]
 
     @cached_property
-    def _extents(self) -> tuple[Array, Array]:
+    def extents(self) -> tuple[Array, Array]:
+        """Least and greatest x and y (n, 2) of each of the cuts, mm."""
         return self.paths.extent(self.cuts)
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
         """Rectangles around so many cuts at a time."""
-        least, most = self._extents
+        least, most = self.extents
         first = np.arange(0, self.cuts.size, TOGETHER)
         low, high = np.minimum.reduceat(least, first), np.maximum.reduceat(most, first)
         return shapely.STRtree(shapely.box(*low.T, *high.T))
 
     def _cuts_near(self, body: Shape, reach: float, before: int) -> Ints:
         """The steps that cut before a step, within ``reach`` of a shape."""
-        least, most = self._extents
+        least, most = self.extents
         group = np.sort(self._tree.query(body, predicate="dwithin", distance=reach + NEAR))
         index = (group[:, None] * TOGETHER + np.arange(TOGETHER)).ravel()
         index = index[index < np.searchsorted(self.cuts, before)]

@@ -24,7 +24,7 @@ from mechwright.tooling import MILLS
 from mechwright_cam.interpreter import Run
 from mechwright_cam.interpreter.run import Ints
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import Band, bands
+from mechwright_cam.proof.bands import Band, asked, bands
 from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
@@ -114,6 +114,7 @@ def wall_deviation(run: Run, job: Job) -> Walls:
     smallest = min((tool.radius for tool in mills), default=0.0)
     widest = max((tool.diameter for tool in mills), default=0.0)
     nose = max((tool.nose for tool in mills), default=0.0)
+    drawn = asked(job)
     seen: list[Shape] = []
     found: list[tuple[Array, ...]] = []
     for band in reversed(bands(job, tuple(tab.top + TAB_SLACK for tab in job.tabs))):
@@ -123,8 +124,10 @@ def wall_deviation(run: Run, job: Job) -> Walls:
         if wall.length == 0:
             continue
         points, outward = wall.at(wall.stations(max(SPACING, wall.length / SAMPLES)))
-        asked = _in_stock(points, job) & ~_within([*aside, *seen], points)
-        points, outward = points[asked], outward[asked]
+        told = _in_stock(points, job) & ~_within([*aside, *seen], points)
+        if drawn is not None:
+            told &= _within([drawn], points)
+        points, outward = points[told], outward[told]
         edge = shapely.boundary(band.keep)
         seen.append(grow(shapely.difference(edge, shapely.union_all(aside)) if aside else edge, SEEN, SEEN))
         if not len(points):
