@@ -7,7 +7,7 @@ from functools import lru_cache
 import shapely
 
 from mechwright.cutter import cutter, makes_floor
-from mechwright.part import Pocket
+from mechwright.part import OpenProfile, Pocket
 from mechwright.tolerances import TOLERANCES
 from mechwright.tooling import Tool
 from mechwright_cam.job import Job
@@ -91,12 +91,14 @@ def _makers(feature: Pocket, mills: Sequence[Tool]) -> list[Tool]:
 
 
 def _recesses(job: Job, band: Band) -> list[Pocket]:
-    """The recesses that a band crosses."""
+    """The recesses that a band crosses and that a mill of their width may make: grooves, or with a fillet."""
     depth = -(band.top + band.bottom) / 2
     return [
         feature
         for feature in job.features
-        if isinstance(feature, Pocket) and feature.top < depth < feature.top + feature.depth
+        if isinstance(feature, Pocket)
+        and feature.top < depth < feature.top + feature.depth
+        and (feature.floor_radius > 0 or (isinstance(feature, OpenProfile) and feature.side == "on"))
     ]
 
 
