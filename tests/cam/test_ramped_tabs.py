@@ -43,6 +43,13 @@ def layer_of(text):
     return text[text.index("over the tabs: rough") :].splitlines()
 
 
+def test_a_slope_is_no_deep_cut():
+    """One move goes down the whole slope, further than mill-2 may cut in steel, lap by lap a little deeper."""
+    proven(
+        job(replace(plate(), material="steel"), "mill-2", hold={**RAMPED, "tab_height": 2.5, "tab_angle": 40})
+    )
+
+
 @pytest.mark.parametrize(
     ("angle", "height", "tools"),
     [(8, 0.6, ("mill-6",)), (15, 1.5, ("mill-6", "mill-3")), (40, 1.5, ("mill-6",))],

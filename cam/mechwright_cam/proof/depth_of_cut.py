@@ -41,10 +41,16 @@ class _Cuts:
         self.paths = paths
         self.steps = paths.steps[paths.run.cutting[paths.steps]]
         self.low = np.minimum(paths.start[:, 2], paths.end[:, 2])
+        self.top: Array = np.maximum(paths.start[:, 2], paths.end[:, 2])
+
+    def asked(self, limit: float) -> Array:
+        """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
+        height: Array = np.maximum(self.low, self.top - limit)
+        return height
 
     @cached_property
     def _repeats(self) -> tuple[Ints, Array]:
-        """The cuts on whose way in plan view one of the same tool was before, and how much deeper they go."""
+        """The cuts on whose way in plan view one of the same tool was before, and the top of that one, z."""
         steps, paths = self.steps, self.paths
         plan = [paths.start[steps, :2], paths.end[steps, :2], np.nan_to_num(paths.run.centre[steps])]
         rows = np.column_stack((*plan, paths.run.tool[steps], paths.run.sweep[steps] > 0))
@@ -53,13 +59,12 @@ class _Cuts:
         order = np.argsort(rows @ HASH[: rows.shape[1]], kind="stable")
         same = np.flatnonzero((rows[order[:-1]] == rows[order[1:]]).all(axis=1))
         one, two = steps[order[same]], steps[order[same + 1]]
-        height = np.maximum(paths.start[one, 2], paths.end[one, 2])
-        return two, height - self.low[two]
+        return two, self.top[one]
 
     def repeated(self, limit: float) -> Ints:
         """The cuts that go at most this much deeper than one before them, all along it, mm."""
-        steps, deeper = self._repeats
-        return steps[deeper <= limit + NEAR]
+        steps, before = self._repeats
+        return steps[before <= self.asked(limit)[steps] + limit + NEAR]
 
     def radius_of(self, number: int) -> float:
         """Radius of a tool, mm."""
@@ -80,8 +85,7 @@ class _Cuts:
     def height(self) -> Array:
         """(m,) height down to which a piece cuts, mm; what a rounded corner leaves is not asked."""
         step = self.pieces[2]
-        top: Array = np.maximum(self.paths.start[step, 2], self.paths.end[step, 2])
-        return top
+        return self.top[step]
 
 
 def depth_of_cut(scene: Scene) -> Check:
@@ -97,7 +101,7 @@ def depth_of_cut(scene: Scene) -> Check:
         for step, length in _lasting(
             *_suspects(cuts, tool, limit, middle(scene, tool)), LASTING * tool.diameter
         ):
-            if not meets_middle(scene, tool, step, limit):
+            if not meets_middle(scene, tool, step, max(limit, float(cuts.top[step] - cuts.low[step]))):
                 continue
             lasting, before = (lasting if step <= before + APART else 0.0) + length, step
             if lasting >= LASTING * tool.diameter:
@@ -134,7 +138,7 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
 
     With each the length of it, mm, that does not.
     """
-    paths, low = cuts.paths, cuts.low
+    paths, low = cuts.paths, cuts.asked(limit)
     flat = np.hypot(*(paths.end - paths.start)[cuts.steps, :2].T) > NEAR
     arc = paths.run.kind[cuts.steps] == Kind.ARC
     mine = paths.run.tool[cuts.steps] == tool.number
