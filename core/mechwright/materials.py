@@ -51,6 +51,16 @@ class Material:
     force_exponent: float
     long_chips: bool
 
+    @property
+    def unbroken(self) -> float:
+        """How deep a drill goes at once, in diameters: from there on long chips have to be broken."""
+        return UNBROKEN if self.long_chips else JAMS
+
+
+UNBROKEN = 3.0
+"""From this depth in diameters the chip of a drill has to be broken, where the material's does not break."""
+JAMS = 5.0
+"""From this depth in diameters chips of any kind jam, and the drill comes out of the hole after each peck."""
 
 HSS_SPEED = 1 / 3
 """Cutting speed of high-speed steel in that of carbide: what both may be heated to."""

@@ -7,7 +7,7 @@ import shapely
 
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
-from mechwright.materials import material
+from mechwright.materials import JAMS, material
 from mechwright.part import Bore
 from mechwright.program import Drill, Feed, FeedArc, Move, Rapid
 from mechwright.tolerances import TOLERANCES
@@ -22,10 +22,6 @@ from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.zones import bottom_of, through
 from mechwright_cam.toolpath.path import Path, arc, circle, rounded
 
-DEEP = 3.0
-"""From this depth in diameters the chip of a drill has to be broken, where the material's does not break."""
-DEEPER = 5.0
-"""From this depth in diameters chips jam, and the drill comes out of the hole after each peck."""
 SPOT = 0.6
 """Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""
 SNUG = 0.9
@@ -128,12 +124,12 @@ def drill_moves(
     """Drill holes of full diameter to ``depth`` mm below the stock's top."""
     speed = rates(drill, job.part.material, job.settings.machine)
     ratio = depth / drill.diameter
-    deep = ratio > (DEEP if material(job.part.material).long_chips else DEEPER)
+    deep = ratio > material(job.part.material).unbroken
     peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
     bottom = rounded(-depth - point_length(drill))
     peck = None if peck is None else rounded(peck)
     holes = [(place, bottom) for place in places]
-    return _holes(holes, speed.feed, clearance, peck, breaking=deep and ratio <= DEEPER)
+    return _holes(holes, speed.feed, clearance, peck, breaking=deep and ratio <= JAMS)
 
 
 def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:

@@ -18,8 +18,8 @@ from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import filled
 from mechwright_cam.turned import Frame
 
-OPEN = 2 * TOLERANCES.flatten
-"""A recess that comes so near to the rim of the part is open there, mm: what chords of both may be off."""
+SKIN = 2 * TOLERANCES.flatten
+"""A boundary within this of the part is a wall, or its rim, mm: what chords of both may be off together."""
 
 RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
@@ -112,7 +112,7 @@ def _section(job: Job, features: tuple[Feature, ...]) -> Shape:
 def _run_outs(job: Job, frame: Frame, features: tuple[Feature, ...]) -> Shape:
     """What of the frame may go besides: beyond the rim of the part, near the recesses that are open there."""
     widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    within = prepared(grow(frame.body, -OPEN))
+    within = prepared(grow(frame.body, -SKIN))
     drawn = [shape for shape in map(inside_of, features) if not shapely.contains_properly(within, shape)]
     floors = shapely.intersection(shapely.union_all(drawn), frame.body)
     beyond: Shape = shapely.difference(grow(floors, run_out(widest)), frame.body)

@@ -28,10 +28,6 @@ SHAVES = 0.05
 """A mill on its way through what is cleared may shave so much off a wall, mm."""
 PLAY = 0.1
 """What roughing leaves on walls may be so much more than planned without being in the middle, mm."""
-UNBROKEN = 3.0
-"""Depth in diameters that a drill goes at once where chips are long; beyond, they jam."""
-UNBROKEN_SHORT = 5.0
-"""The same where chips break by themselves."""
 
 
 def cutting_data(scene: Scene) -> list[tuple[Tool, CuttingData]]:
@@ -125,14 +121,13 @@ def middle(scene: Scene, tool: Tool) -> float:
 
 def pecks(scene: Scene) -> Check:
     """Drills come out, or break the chip, before chips jam."""
-    paths, run, job = scene.paths, scene.run, scene.job
-    diameters = BEYOND * (UNBROKEN if material(job.part.material).long_chips else UNBROKEN_SHORT)
+    paths, run = scene.paths, scene.run
+    diameters = BEYOND * material(scene.job.part.material).unbroken
     for tool in scene.tools.values():
         if tool.kind is not ToolKind.DRILL:
             continue
         steps: Ints = paths.steps[run.cutting[paths.steps] & (run.tool[paths.steps] == tool.number)]
         top = np.minimum(paths.start[steps, 2], 0.0)
-        # Steps of one hole that follow on each other without a way up are one.
         deep = top - paths.end[steps, 2]
         for index in np.flatnonzero(deep > diameters * tool.diameter + NEAR).tolist():
             step = int(steps[index])

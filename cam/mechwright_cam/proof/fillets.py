@@ -14,17 +14,14 @@ import shapely
 
 from mechwright.motion import Array
 from mechwright.part import Pocket
-from mechwright.tolerances import TOLERANCES
 from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, floor_of, inside_of
+from mechwright_cam.proof.bands import SKIN, bands, floor_of, inside_of
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, grow
 from mechwright_cam.threads import prepared
 from mechwright_cam.toolpath.offsets import polygons
 
-SKIN = 2 * TOLERANCES.flatten
-"""A boundary within this of the part is a wall, mm: what the chords of both may be off together."""
 STEPS = 6
 """A fillet's leftover is measured at so many heights, at even angles: in between it differs by 1 % of the
 radius from a straight wall, and a cutter that has made both ends has made that as well."""

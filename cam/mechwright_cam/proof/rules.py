@@ -34,20 +34,7 @@ from mechwright_cam.proof.scene import Rule
 
 RULES: tuple[Rule, ...] = (
     *(program_end, modes, tools_known, work_offset, length_offset, diameter_offset, positions, tool_changes),
-    *(
-        stops,
-        spindle,
-        coolant,
-        arcs,
-        feeds,
-        speeds,
-        cutting_speed,
-        chips,
-        pecks,
-        depth_of_cut,
-        dwells,
-        travel,
-    ),
-    *(flutes, underside, beside, rapid_height, rapids_in_stock, entries, holder, clamp),
+    *(stops, spindle, coolant, arcs, feeds, speeds, cutting_speed, chips, pecks, depth_of_cut, dwells),
+    *(travel, flutes, underside, beside, rapid_height, rapids_in_stock, entries, holder, clamp),
 )
 """All rules, in the order of the report."""
