@@ -177,7 +177,10 @@ def check(design: Design, host: Host) -> list[Finding]:
 def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
     """What the control cannot do, for both sides."""
     every = [cam, *(job.settings for job in jobs)]
-    return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
+    found = [finding for settings in every for finding in post.check(settings)]
+    for job in jobs:
+        found += post.check_tools(job.settings, [_measured(tool, job.settings) for tool in job.tools])
+    return list(dict.fromkeys(found))
 
 
 def second_setup(first: Machined, job: Job, post: Post) -> Job:
@@ -200,7 +203,11 @@ def machine(job: Job, post: Post, place: int = 0) -> Machined:
     """
     cam = job.settings
     job = replace(job, tools=tuple(_measured(tool, cam) for tool in job.tools))
-    posting = cam.post.model_copy(update={"program_number": cam.post.program_number + place})
+    stated = {
+        "program_number": cam.post.program_number + place,
+        "tool_change": cam.post.tool_change or post.by_hand,
+    }
+    posting = cam.post.model_copy(update=stated)
     program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
     files = post.files(program)
     named = {name + post.suffix: text for name, text in files.items()}

@@ -207,6 +207,10 @@ WorkOffset = Annotated[str, AfterValidator(_work_offset)]
 """Every work offset that some control has; its post says which."""
 
 
+ToolChange = Literal["pause", "files"]
+"""How a tool is changed by hand: at a stop in the program, or between files of one tool each."""
+
+
 class Posting(Parameters):
     """How the program is written, whatever it does."""
 
@@ -220,8 +224,10 @@ class Posting(Parameters):
     d_value: Literal["radius", "diameter"] = Field(
         "radius", description="What Fanuc and Haas keep in a D offset; LinuxCNC and Mach3 keep the diameter."
     )
-    tool_change: Literal["pause", "files"] = Field(
-        "pause", description="Where the control has no tool change: stop for it, or one file per tool."
+    tool_change: ToolChange | None = Field(
+        None,
+        description="Where the control has no tool change: stop for it, or one file per tool; by default as "
+        "the control wants it.",
     )
 
 
