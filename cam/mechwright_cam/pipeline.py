@@ -10,7 +10,7 @@ import shapely
 from mechwright.design import Design
 from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.files import Output
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, Stage, at_stage, errors
 from mechwright.host import Host
 from mechwright.host import host as default_host
 from mechwright.output import Post
@@ -96,7 +96,7 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
             cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
             findings += [f for f in design.family.check_cut(design.params, cut) if f not in findings]
         findings += _unused_data(design, jobs)
-    return findings, jobs
+    return at_stage(Stage.MACHINING, findings), jobs
 
 
 def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
@@ -180,7 +180,7 @@ def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]
     found = [finding for settings in every for finding in post.check(settings)]
     for job in jobs:
         found += post.check_tools(job.settings, [_measured(tool, job.settings) for tool in job.tools])
-    return list(dict.fromkeys(found))
+    return at_stage(Stage.MACHINING, dict.fromkeys(found))
 
 
 def second_setup(first: Machined, job: Job, post: Post) -> Job:

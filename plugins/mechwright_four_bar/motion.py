@@ -5,11 +5,12 @@ import math
 import numpy as np
 
 from mechwright.errors import DesignError, KinematicsError
-from mechwright.findings import errors
+from mechwright.findings import Stage, errors
+from mechwright.linkage import Mass
 from mechwright.motion import Array, Channel, Motion, Scalar, Trace
 from mechwright.planar import BodyMotion, PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.loop import Loop, close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
@@ -26,18 +27,21 @@ def speed_of(params: FourBarParams) -> float:
 def motion_of(params: FourBarParams, samples: int) -> Motion:
     """Sample one turn of the crank at constant speed, both ends included.
 
+    Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
+
     Raises
     ------
     DesignError
         Fewer than two samples.
     KinematicsError
-        ``check`` finds an error; the message is that of the first one.
+        ``check`` finds an error of the motion; the message is that of the first one.
     """
     from mechwright_four_bar.checks import findings
 
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
-    for finding in errors(findings(params)):
+    found = findings(params)
+    for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     bar, omega = bar_of(params), speed_of(params)
     phi = crank_angles(params, samples)
@@ -68,15 +72,21 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         "xG_coupler": Channel(pole.moving.real, "mm"),
         "yG_coupler": Channel(pole.moving.imag, "mm"),
     }
-    masses = masses_of(params)
-    carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
-    for joint, force in carried.joints.items():
-        channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
-    channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
-    channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+    figures = _figures(bar)
+    if not errors(found):
+        masses = masses_of(params)
+        carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
+        for joint, force in carried.joints.items():
+            channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
+        channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
+        channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+        figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
+        figures |= _mass_figures(bar, masses)
+    else:
+        figures |= {f"{name}_max": value for name, value in _rate_peaks(_turn(bar, omega)[1]).items()}
     point = params.coupler_point
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, frames_of(params, bodies), _figures(params, bar, omega), traces)
+    return Motion("phi", channels, frames_of(params, bodies), figures, traces)
 
 
 def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:
@@ -93,7 +103,7 @@ def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, 
     return found
 
 
-def _figures(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
+def _figures(bar: FourBar) -> dict[str, Scalar]:
     figures = {
         "least_transmission_angle": Scalar(bar.least_transmission_angle(), "rad"),
         "greatest_transmission_angle": Scalar(bar.greatest_transmission_angle(), "rad"),
@@ -107,13 +117,12 @@ def _figures(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Sca
             "limit_extended": Scalar((limits.extended + bar.ground_angle) % math.tau, "rad"),
             "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
         }
-    for name, value in peaks_of(params, bar, omega).items():
-        figures[f"{name}_max"] = value
-    masses = masses_of(params)
-    for name, mass in masses.items():
-        figures[f"mass_{name}"] = Scalar(mass.mass, "kg")
-    balance = force_balance(bar, masses)
-    return figures | _balance_figures(balance)
+    return figures
+
+
+def _mass_figures(bar: FourBar, masses: dict[str, Mass]) -> dict[str, Scalar]:
+    figures = {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses.items()}
+    return figures | _balance_figures(force_balance(bar, masses))
 
 
 def _balance_figures(balance: Balance) -> dict[str, Scalar]:
@@ -126,22 +135,29 @@ def _balance_figures(balance: Balance) -> dict[str, Scalar]:
 
 def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
     """Largest sizes over a turn of rates, joint forces and drive torque."""
-    phi = np.linspace(0, math.tau, PEAK_SAMPLES)
-    loop = close(bar, phi)
-    bodies: dict[str, BodyMotion] = loop.bodies(bar, omega)
+    loop, bodies = _turn(bar, omega)
     carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
-    turning = bodies["follower"].turning
-
-    def most(values: Array, unit: str) -> Scalar:
-        return Scalar(float(np.abs(values).max()), unit)
-
     return {
-        "omega_b": most(turning.omega, "rad/s"),
-        "alpha_b": most(turning.alpha, "rad/s^2"),
-        "drive_torque": most(carried.drive * MICRO, "N*m"),
-        "shaking_force": most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
+        **_rate_peaks(bodies),
+        "drive_torque": _most(carried.drive * MICRO, "N*m"),
+        "shaking_force": _most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
         **{
-            f"force_{joint}": most(np.asarray(np.abs(force)) * MILLI, "N")
+            f"force_{joint}": _most(np.asarray(np.abs(force)) * MILLI, "N")
             for joint, force in carried.joints.items()
         },
     }
+
+
+def _turn(bar: FourBar, omega: float) -> tuple[Loop, dict[str, BodyMotion]]:
+    """The turn over which peaks are sought."""
+    loop = close(bar, np.linspace(0, math.tau, PEAK_SAMPLES))
+    return loop, loop.bodies(bar, omega)
+
+
+def _rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
+    turning = bodies["follower"].turning
+    return {"omega_b": _most(turning.omega, "rad/s"), "alpha_b": _most(turning.alpha, "rad/s^2")}
+
+
+def _most(values: Array, unit: str) -> Scalar:
+    return Scalar(float(np.abs(values).max()), unit)

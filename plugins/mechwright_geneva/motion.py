@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright.errors import DesignError
-from mechwright.findings import refuse
+from mechwright.findings import Stage, refuse
 from mechwright.laws import Peaks
 from mechwright.motion import Array, Channel, Motion, Poses, Scalar
 from mechwright_geneva.contact import contact, loads
@@ -39,7 +39,8 @@ def straight_peaks(slots: int) -> Peaks:
 def motion_of(params: GenevaParams, samples: int) -> Motion:
     """Sample one turn of the crank at constant speed, both ends included.
 
-    The stroke begins at θd = 0. During dwell rates, forces and the pressure angle are 0.
+    The stroke begins at θd = 0. During dwell rates, forces and the pressure angle are 0. The Hertz pressure
+    is left out where gap and floor leave the rollers no length.
 
     Raises
     ------
@@ -50,7 +51,7 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     from mechwright_geneva.feasible import feasibility
 
-    refuse(feasibility(params))
+    refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60
     theta_d = np.linspace(0, math.tau, samples)
@@ -75,7 +76,7 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         "jerk_w": Channel(still(run.third) * omega**3, "rad/s^3"),
         "pressure_angle": Channel(still(forces.pressure_angle), "rad"),
         "contact_force": Channel(still(forces.force), "N"),
-        "contact_pressure": Channel(still(forces.pressure), "MPa"),
+        **({"contact_pressure": Channel(still(forces.pressure), "MPa")} if m.roller_length > 0 else {}),
         "crank_torque": Channel(still(forces.crank_torque), "N*m"),
     }
     poses = {
@@ -125,6 +126,6 @@ def _figures(m: Mechanism, omega: float) -> dict[str, Scalar]:
         "straight_jerk_peak": Scalar(straight.j, ""),
         "entry_acceleration_jump": Scalar(abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
         "contact_force_max": Scalar(load.force, "N"),
-        "contact_pressure_max": Scalar(load.pressure, "MPa"),
+        **({"contact_pressure_max": Scalar(load.pressure, "MPa")} if m.roller_length > 0 else {}),
         "crank_torque_max": Scalar(load.crank_torque, "N*m"),
     }

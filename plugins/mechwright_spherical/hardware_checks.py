@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
+from mechwright.findings import Finding, Severity, Stage, of_stage
 from mechwright.motion import Array
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
@@ -35,6 +35,7 @@ def clear_radius(diameter: float, angle: float) -> float:
     return diameter / 2 / math.tan(angle / 2)
 
 
+@of_stage(Stage.PARTS)
 def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
     """All of them."""
     linkage, shells = linkage_of(params), shells_of(params)

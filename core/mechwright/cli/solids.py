@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from mechwright.cli.beside import Beside, cores
 from mechwright.design import Design
+from mechwright.errors import MechwrightError
 from mechwright.files import Output
 from mechwright.findings import Finding, errors
 from mechwright.output import Exporter
@@ -82,6 +83,29 @@ def motion_page(design: Design, *, solids: bool, parts: "Sequence[Part] | None" 
 
     page = page_of(design.name, design.family, design.params, solids=solids, parts=parts)
     return {MOTION: page.encode()}
+
+
+def motion_alone(design: Design) -> tuple[dict[str, bytes], list[Finding], str]:
+    """The page of a design of which the motion alone is certain.
+
+    Returns
+    -------
+    files
+        The page: of the bodies where they can be drawn, else of the motion without them.
+    met
+        Which plates collide.
+    fault
+        What could not be done with the bodies, and why; empty if all could.
+    """
+    try:
+        page = motion_page(design, solids=False)
+    except MechwrightError as error:
+        fault = f"motion.html shows no bodies, which cannot be drawn: {error}"
+        return motion_page(design, solids=False, parts=()), [], fault
+    try:
+        return page, errors(collisions(design, solids=False)), ""
+    except MechwrightError as error:
+        return page, [], f"it is not known whether bodies collide: {error}"
 
 
 def compared_and_made(work: Work) -> Made:

@@ -11,16 +11,19 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
-from mechwright.cli.solids import SolidWork, collisions, motion_page
+from mechwright.cli.solids import SolidWork, collisions, motion_alone
 from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
 from mechwright.errors import DesignError, MechwrightError, PluginError, ProgramError
 from mechwright.files import Output, check_folder, write_folder
-from mechwright.findings import Finding, Severity, errors
+from mechwright.findings import Finding, Severity, Stage, errors
 from mechwright.host import Host, host
 from mechwright.output import Exporter
 
 if TYPE_CHECKING:
     from mechwright.motion import Motion
+
+STAGES = {"solve": Stage.MOTION, "model": Stage.PARTS}
+"""The last stage of a command's work; of the others it is machining."""
 
 PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
 """Bytes: surfacing programs are long, but not longer than this."""
@@ -37,9 +40,13 @@ def _open(path: Path) -> tuple[Design, Host]:
     return load(path, found), found
 
 
+def _tell(path: Path, words: object) -> None:
+    typer.echo(f"mechwright: {path}: {words}", err=True)
+
+
 def _refuse(findings: list[Finding], path: Path) -> NoReturn:
-    for finding in errors(findings):
-        typer.echo(f"mechwright: {path}: {finding}", err=True)
+    for finding in findings:
+        _tell(path, finding)
     raise typer.Exit(1)
 
 
@@ -89,6 +96,7 @@ def write(
     exporters = _more_formats(found, also, {"step", "dxf"} if command == "build" else {"step"})
     check_folder(folder)
     output = Output()
+    fault = ""
     with ExitStack() as stack:
         step = stack.enter_context(progress({"build": 6, "solve": 3}.get(command, 4)))
         work = None
@@ -98,8 +106,9 @@ def write(
         step("checking")
         design = load(path, found)
         findings = list(design.family.check(design.params))
-        if errors(findings):
-            _refuse(findings, path)
+        stage = STAGES.get(command, Stage.MACHINING)
+        if stopping := errors(findings, stage):
+            _refuse(stopping, path)
 
         def add(files: Mapping[str, bytes]) -> None:
             for name, content in files.items():
@@ -115,14 +124,16 @@ def write(
             output.add("motion.csv", motion_csv(motion))
             output.add("summary.json", summary_json(motion))
             if command == "solve":
-                add(motion_page(design, solids=False))
+                page, met, fault = motion_alone(design)
+                add(page)
+                findings += met
 
         def compare() -> None:
             step("interference")
             met = collisions(design, solids=False) if work is None else work.collisions()
             findings.extend(met)
             if errors(met):
-                _refuse(met, path)
+                _refuse(errors(met), path)
 
         # What a second process compares is asked for last; a collision is told first all the same.
         late = work is not None and work.beside
@@ -140,7 +151,7 @@ def write(
                 compare()
             findings += made
             if errors(made):
-                _refuse(made, path)
+                _refuse(errors(made), path)
             if command == "cam" and not output.files:
                 raise DesignError(
                     f"{path}: family {design.family.name} makes no plate part, so there is nothing to mill; "
@@ -152,8 +163,12 @@ def write(
         step("writing")
         write_folder(folder, output, command, _facts(design, found))
     for finding in findings:
-        if finding.severity is Severity.WARNING:
-            typer.echo(f"mechwright: {path}: {finding}", err=True)
+        if finding.severity is not Severity.NOTE:
+            _tell(path, finding)
+    if errors(findings):
+        _tell(path, f"written up to the {stage}; the errors above forbid what follows")
+    if fault:
+        _tell(path, fault)
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
 
@@ -208,7 +223,7 @@ def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, 
     program += f" to {rest[-1]}" if rest else ""
     findings = list(design.family.check(design.params))
     if errors(findings):
-        _refuse(findings, path)
+        _refuse(errors(findings), path)
     parts = pipeline.cut_parts(design)
     from mechwright_cam.setups import UNDERSIDE
 
