@@ -91,7 +91,7 @@ def test_a_finding_of_severity_error_is_exit_code_1_and_writes_nothing(run: Run,
     assert code == 1
     assert "gear.undercut" in out
     assert "cannot be built" in out
-    for command in ("solve", "model", "cam", "build"):
+    for command in ("model", "cam", "build"):
         code, _, err = run(command, path, "-o", tmp_path / "out")
         assert code == 1
         assert "gear.undercut" in err
