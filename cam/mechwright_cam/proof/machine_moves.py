@@ -16,7 +16,17 @@ def machine_moves(scene: Scene) -> Check:
     run, limit = scene.run, scene.job.settings.clearance
     least = limit - NEAR
     start, end = run.start[:, 2], run.end[:, 2]  # NaN, an unknown height, is no safe one
-    step = first(run.machine_xy & ~(start >= least))
+    step = first(run.machine_xy & ~((start >= least) & (end >= least)))
+    if step is not None and start[step] >= least:
+        return scene.bad(
+            NAME,
+            step,
+            f"Z comes below the clearance plane, Z{limit:g}, while X or Y go to a place in machine "
+            "coordinates; leave Z out of the line",
+            None,
+            limit,
+            "mm",
+        )
     if step is not None:
         z = float(start[step])
         found = "an unknown height" if np.isnan(z) else f"Z{z:g}"
@@ -26,17 +36,6 @@ def machine_moves(scene: Scene) -> Check:
             f"X or Y go to a place in machine coordinates from {found}, the clearance plane is Z{limit:g}; "
             f"before it {retract(scene)}",
             None if np.isnan(z) else z,
-            limit,
-            "mm",
-        )
-    step = first(run.machine_xy & ~(end >= least))
-    if step is not None:
-        return scene.bad(
-            NAME,
-            step,
-            f"Z comes below the clearance plane, Z{limit:g}, while X or Y go to a place in machine "
-            "coordinates; leave Z out of the line",
-            None,
             limit,
             "mm",
         )
