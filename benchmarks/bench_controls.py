@@ -15,8 +15,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
 from long_program import long_program
 from shop import plate_job
 
-from mechwright.host import host
-from mechwright_cam.interpreter import DIALECTS, interpret
+from mechwright.plugins.host import host
+from mechwright_cam.controls.reading import DIALECTS, interpret
 from mechwright_cam.proof import prove
 
 MOVES = 100_000

@@ -11,12 +11,12 @@ from pathlib import Path
 
 from harness import child, race, report, require
 
-from mechwright.design import load
-from mechwright.host import host
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright.design.design import load
+from mechwright.plugins.host import host
 from mechwright_cam.pipeline import machine
 from mechwright_cam.planning import choose_tools
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.library import load_library
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
@@ -27,7 +27,7 @@ CAM = "import sys; sys.argv = ['mechwright', *sys.argv[1:]]; from mechwright.cli
 def forget() -> None:
     """Empty what planning and proof remember of shapes: a command cuts every part for the first time."""
     for name, module in list(sys.modules.items()):
-        if name.startswith("mechwright_cam.") and name != "mechwright_cam.library":
+        if name.startswith("mechwright_cam.") and name != "mechwright_cam.shop.library":
             for value in vars(module).values():
                 if hasattr(value, "cache_clear"):
                     value.cache_clear()

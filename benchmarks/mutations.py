@@ -28,10 +28,10 @@ import random_parts
 from mutants import FAULTS, Mutant, differences, mutant, trace
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, Dialect, Kind, Run
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import DIALECTS, Dialect, Kind, Run
 from mechwright_cam.proof import prove, read
 from mechwright_cam.proof.paths import Paths
+from mechwright_cam.setup.job import Job
 
 PROCESSES = 2
 RANDOM = 2

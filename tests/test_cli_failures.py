@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-import mechwright.host as hosting
+import mechwright.plugins.host as hosting
 from mechwright.cli import failure
+from mechwright.contracts.family import Family
+from mechwright.contracts.motion import Channel, Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
-from mechwright.family import Family
 from mechwright.geometry import Line, Loop, Outline
-from mechwright.host import Registered
-from mechwright.motion import Channel, Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
+from mechwright.plugins.host import Registered
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 Run = Callable[..., tuple[int, str, str]]

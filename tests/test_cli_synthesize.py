@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-import mechwright.host as hosting
-from mechwright.design import load
-from mechwright.host import Registered
-from mechwright.requirement import load_requirement
+import mechwright.plugins.host as hosting
+from mechwright.design.design import load
+from mechwright.design.requirement import load_requirement
+from mechwright.plugins.host import Registered
 
 sys.path.insert(0, str(Path(__file__).parent / "core"))
 from disc_family import Disc
@@ -132,7 +132,7 @@ def test_a_new_requirement_file_can_be_met(command_line: Run, tmp_path: Path) ->
 
 
 def test_a_tool_library_goes_with_the_designs(command_line: Run, tmp_path: Path) -> None:
-    library = Path(hosting.__file__).parents[2] / "cam" / "mechwright_cam" / "data" / "tools.toml"
+    library = Path(hosting.__file__).parents[2] / "cam" / "mechwright_cam" / "shop" / "tools.toml"
     (tmp_path / "shop").mkdir()
     (tmp_path / "shop" / "own.toml").write_text(library.read_text())
     path = requirement(tmp_path, 'family = "disc"\n[cam]\ntool_library = "shop/own.toml"\n')

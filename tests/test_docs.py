@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mechwright import hookspecs
+from mechwright.plugins import hookspecs
 
 ROOT = Path(__file__).parents[1]
 TEMPLATE = ROOT / "examples" / "plugin-template"
@@ -128,7 +128,7 @@ def test_there_are_texts_to_look_at():
 
 
 def test_the_tool_library_on_the_page_on_machining_can_be_read(tmp_path):
-    from mechwright_cam.library import load_library
+    from mechwright_cam.shop.library import load_library
 
     page = (ROOT / "docs" / "machining.md").read_text(encoding="utf-8")
     (library,) = re.findall(r"^```toml\n(# my-tools.*?)^```$", page, re.M | re.S)

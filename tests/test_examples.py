@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.design import load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.requirement import load_requirement
+from mechwright.contracts.finding import Severity
+from mechwright.design.design import load
+from mechwright.design.requirement import load_requirement
+from mechwright.plugins.host import host
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]

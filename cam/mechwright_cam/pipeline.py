@@ -7,33 +7,34 @@ from typing import cast, get_args
 
 import shapely
 
-from mechwright.design import Design
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.part import Part
+from mechwright.design.design import Design
 from mechwright.errors import DesignError, PluginError, ToolError
-from mechwright.files import Output
-from mechwright.findings import Finding, Severity, errors
-from mechwright.host import Host
-from mechwright.host import host as default_host
-from mechwright.output import Post
-from mechwright.part import Part
-from mechwright.program import Program
-from mechwright.tooling import CamSettings, Tool
-from mechwright_cam.exporters import Curves, DxfExporter
-from mechwright_cam.interpreter import DIALECTS, LINUXCNC, Dialect
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library, load_library
-from mechwright_cam.limits import check_machine
-from mechwright_cam.measured import check_measured
-from mechwright_cam.nest import Nest
-from mechwright_cam.nesting import arranged
+from mechwright.output.folder import Output
+from mechwright.plugins.host import Host
+from mechwright.plugins.host import host as default_host
+from mechwright_cad.exporters import Curves, DxfExporter
+from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.reading import DIALECTS, LINUXCNC, Dialect
+from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
+from mechwright_cam.pages.setup_sheet.raster import simulated_view
+from mechwright_cam.pages.setup_sheet.walls import walls_view
 from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.nesting import arranged
+from mechwright_cam.planning.setups import carried, lay_out_setups, sides
+from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Proof, cut_away, prove, read
 from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.proof.walls import wall_deviation
-from mechwright_cam.reach import cut_outlines
-from mechwright_cam.setup_sheet import SHEET, setup_html, summary_html
-from mechwright_cam.setup_sheet.raster import simulated_view
-from mechwright_cam.setup_sheet.walls import walls_view
-from mechwright_cam.setups import carried, lay_out_setups, sides
+from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.limits import check_machine
+from mechwright_cam.setup.measured import check_measured
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 SUMMARY = "setup.html"
 """The page of the whole job."""

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mechwright.planar import acceleration_pole
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.diagnostics import diagnostics as four_bar_diagnostics
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.locus import locus as four_bar_locus

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mechwright.laws import LAWS, Law
+from mechwright.mechanics.laws import LAWS, Law
 from mechwright_geneva import printed, undercut
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.mechanism import mechanism_of

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright_cam.svg import path as polyline
+from mechwright.arrays import Array
+from mechwright_cam.pages.svg import path as polyline
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, Severity, errors
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright_elliptic_gears.gear import opening_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams

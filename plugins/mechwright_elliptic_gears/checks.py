@@ -8,9 +8,9 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
+from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright.contracts.materials import material
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, until_error
-from mechwright.materials import material
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
     fillet_mill,

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.geometry import BSpline, Loop
 from mechwright.geometry.fit import fit_nets
 from mechwright.geometry.segments import Segment
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.teeth import SIDES, Teeth
 

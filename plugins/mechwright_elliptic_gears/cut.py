@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Finding, Severity
 from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.gear_parts import Gear, gears_of

@@ -6,7 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.motion import Array, Scalar
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Scalar
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import Turning, driven, steepest_shaft_pressure_angle, train
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 """Points, directions or vectors as x + i y."""

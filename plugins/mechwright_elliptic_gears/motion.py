@@ -5,8 +5,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Channel, Motion, Poses, Trace
 from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Poses, Trace
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import (

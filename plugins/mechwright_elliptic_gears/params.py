@@ -5,9 +5,9 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
-from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.parameters import Parameters
+from mechwright.design.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 MaterialName = Annotated[
     str,

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from mechwright.family import Family
-from mechwright.hookspecs import hookimpl
+from mechwright.contracts.family import Family
+from mechwright.plugins.hookspecs import hookimpl
 from mechwright_elliptic_gears.family import EllipticGears
 
 

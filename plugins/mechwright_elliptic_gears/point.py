@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_elliptic_gears.kinematics import Complex, Turning, mate_pointer, ratio
 
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of

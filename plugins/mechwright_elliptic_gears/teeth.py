@@ -17,8 +17,8 @@ from functools import cached_property
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
-from mechwright.motion import Array
 from mechwright_elliptic_gears.ellipse import Ellipse, Frame
 from mechwright_elliptic_gears.rack import Rack
 

@@ -24,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="the polynomial as JSON")
     given = parser.parse_args(arguments)
     try:
-        from mechwright.algebra import exact
+        from mechwright.mechanics.algebra import exact
         from mechwright_four_bar.locus import locus
 
         lengths = [exact(text) for text in (given.crank, given.coupler, given.follower, given.ground)]

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from mechwright.findings import errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate
+from mechwright.contracts.finding import errors
+from mechwright.contracts.motion import Scalar
+from mechwright.contracts.synthesis import Candidate
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 

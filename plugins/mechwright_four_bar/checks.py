@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 
+from mechwright.contracts.finding import Finding, Severity, until_error
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of

@@ -9,8 +9,8 @@ crank and follower, where coupler and ground line meet. With u = exp(i φ):
 * (6), (7) x and y of the pole in the coupler, (8), (9) X and Y on the ground.
 
 These forms are 0/0 where crank and follower are parallel, where P = A, and where P B and Q P are parallel;
-the pole itself is finite there. Compute with :func:`mechwright.planar.acceleration_pole`, and use these to
-compare.
+the pole itself is finite there. Compute with :func:`mechwright.mechanics.planar.acceleration_pole`, and use
+these to compare.
 """
 
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 

@@ -22,7 +22,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 
 CHANGE_POINT = 1e-9
 """Part of the sum of all links by which Grashof's condition may miss equality and still be taken for it: the

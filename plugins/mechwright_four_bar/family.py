@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, refuse
+from mechwright.contracts.parameters import Parameters
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
-    from mechwright.synthesis import Progress, Synthesis
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+    from mechwright.contracts.synthesis import Progress, Synthesis
 
 
 class FourBars(Family[FourBarParams]):

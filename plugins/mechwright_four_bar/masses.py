@@ -7,10 +7,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.linkage import Mass, cylinder_mass, plate_mass, together
-from mechwright.motion import Array
-from mechwright.planar import BodyMotion
-from mechwright.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
+from mechwright.arrays import Array
+from mechwright.mechanics.linkage import Mass, cylinder_mass, plate_mass, together
+from mechwright.mechanics.planar import BodyMotion
+from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import Loop
 from mechwright_four_bar.params import FourBarParams

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.finding import errors
+from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
-from mechwright.findings import errors
-from mechwright.motion import Array, Channel, Motion, Scalar, Trace
-from mechwright.planar import BodyMotion, PointMotion, acceleration_pole
+from mechwright.mechanics.planar import BodyMotion, PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of

@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.compiled import compiled
 
 SHAPE, LINEAR = 3, 6

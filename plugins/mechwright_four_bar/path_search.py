@@ -7,8 +7,8 @@ from typing import Literal
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.path_kernels import lengths, linear, polish, screen

@@ -22,8 +22,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 
 SPREAD = 100.0

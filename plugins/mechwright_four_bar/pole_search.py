@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.multistart import distinct, least_squares
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.multistart import distinct, least_squares
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
@@ -132,7 +132,7 @@ def _features(bar: FourBar, phi: Array) -> Array:
 
 def poles_of(bar: FourBar, phi: Array) -> Plane:
     """Acceleration poles (n,) of the coupler in double precision, mm from A0."""
-    from mechwright.planar import acceleration_pole
+    from mechwright.mechanics.planar import acceleration_pole
     from mechwright_four_bar.loop import close
 
     return acceleration_pole(close(bar, phi).bodies(bar, 1.0)["coupler"]).fixed

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_four_bar.compiled import AVAILABLE, compiled
 from mechwright_four_bar.dimensions import FourBar
 

@@ -35,8 +35,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.laws import Law
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.mechanics.laws import Law
 
 Points = NDArray[np.complex128]
 """Points of the plane, mm."""

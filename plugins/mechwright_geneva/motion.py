@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.finding import refuse
+from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.errors import DesignError
-from mechwright.findings import refuse
-from mechwright.laws import Peaks
-from mechwright.motion import Array, Channel, Motion, Poses, Scalar
+from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.findings import Finding, Severity
+from mechwright.contracts.finding import Finding, Severity
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright_geneva.params import GenevaParams
 

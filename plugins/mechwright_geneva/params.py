@@ -4,10 +4,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from mechwright.fits import HoleClass
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
-from mechwright.units import Millimetres, RevPerMin, Unit
+from mechwright.contracts.fits import HoleClass
+from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.parameters import Parameters
+from mechwright.design.units import Millimetres, RevPerMin, Unit
 
 MaterialName = Annotated[
     str,

@@ -12,8 +12,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.laws import Law
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, alpha, stroke
 
 

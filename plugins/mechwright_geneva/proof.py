@@ -13,8 +13,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
-from mechwright.part import Part, Pocket
+from mechwright.arrays import Array
+from mechwright.contracts.part import Part, Pocket
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import Points
 from mechwright_geneva.mechanism import Mechanism

@@ -24,11 +24,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Line, Loop
 from mechwright.geometry.fit import fit_curves
 from mechwright.geometry.segments import Point, Segment
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import LEFT, RIGHT, Points
 from mechwright_geneva.mechanism import Mechanism

@@ -9,9 +9,9 @@ import math
 import numpy as np
 import shapely
 
+from mechwright.arrays import Array
 from mechwright.geometry import Loop
 from mechwright.geometry.segments import Point
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 HARMLESS = frozenset({"rim", "relief", "crank", "hub"})

@@ -16,7 +16,7 @@ F is a square: it touches 0 without changing its sign, and it is 0 as well at a 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_geneva.kinematics import LEFT, Frame, Stroke, alpha
 
 

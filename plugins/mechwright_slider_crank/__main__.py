@@ -24,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="the polynomial as JSON")
     given = parser.parse_args(arguments)
     try:
-        from mechwright.algebra import exact
+        from mechwright.mechanics.algebra import exact
         from mechwright_slider_crank.locus import locus
 
         curve, _ = locus(exact(given.crank), exact(given.rod), exact(given.offset), given.plane)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_slider_crank.kinematics import SliderCrank, slide
 
 Kernel = Callable[[Array, float, float, float, float, int, Array], None]

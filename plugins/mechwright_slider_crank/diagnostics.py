@@ -9,7 +9,7 @@ relative centre of crank and slider, where the coupler's line meets the normal t
 * (10), (11) x and y of the pole in the coupler, (12), (13) X and Y on the ground.
 
 These forms are 0/0 where P is at infinity (cos φ' = 0), where P = A, and where the lines are parallel; the
-pole itself is finite there. Compute it with :func:`mechwright.planar.acceleration_pole`.
+pole itself is finite there. Compute it with :func:`mechwright.mechanics.planar.acceleration_pole`.
 """
 
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright.arrays import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_slider_crank.kinematics import SliderCrank
 
 

@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechwright.arrays import Array
 from mechwright.errors import KinematicsError
-from mechwright.motion import Array
-from mechwright.planar import BodyMotion, PointMotion, Turning
+from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
 
 
 def slide(cos: Any, sin: Any, w: Any, crank: Any, offset: Any) -> Any:

@@ -5,9 +5,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Scalar, Trace
-from mechwright.planar import Plane, acceleration_pole
+from mechwright.mechanics.planar import Plane, acceleration_pole
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank

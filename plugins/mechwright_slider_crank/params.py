@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
-from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
+from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.parameters import Parameters
+from mechwright.design.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
 
 MaterialName = Annotated[

@@ -10,9 +10,12 @@ from functools import lru_cache
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Poses
+from mechwright.contracts.part import Colour, Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
-from mechwright.linkage import (
+from mechwright.mechanics.linkage import (
     Boss,
     Mass,
     Plate,
@@ -30,9 +33,7 @@ from mechwright.linkage import (
     together,
     web_link,
 )
-from mechwright.motion import Array, Poses
-from mechwright.part import Colour, Instance, Part
-from mechwright.planar import BodyMotion, Turning
+from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_slider_crank.figures import Limits, limits
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.motion import Scalar
+from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams

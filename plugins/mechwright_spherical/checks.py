@@ -10,8 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, until_error
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Finding, Severity, until_error
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of

@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
-from mechwright.synthesis import Progress, Synthesis
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, refuse
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.synthesis import Progress, Synthesis
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
 
 
 class Spherical(Family[SphericalParams]):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_spherical.chain import EDGE
 from mechwright_spherical.jets import Turning, turning_about
 from mechwright_spherical.loop import Loop, State

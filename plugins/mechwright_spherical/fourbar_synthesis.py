@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.motion import Scalar
+from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Array, Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
 from mechwright_spherical import checks
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Turning

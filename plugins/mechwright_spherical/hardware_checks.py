@@ -6,8 +6,8 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Finding, Severity
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip

@@ -4,9 +4,9 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
-from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.parameters import Parameters
+from mechwright.design.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 
 MaterialName = Annotated[

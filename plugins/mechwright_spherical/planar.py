@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 
 Complex = NDArray[np.complex128]
 

@@ -10,8 +10,8 @@ in the plane.
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
-from mechwright.motion import Array
 
 HORIZON = 1e-6
 """Part of its length by which a direction must rise above the plane's horizon, z = 0: beyond a million

@@ -12,8 +12,8 @@ from enum import Enum
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import KinematicsError
-from mechwright.motion import Array
 from mechwright_spherical.fivebar import AdjustableFiveBar, chord, mean
 from mechwright_spherical.vectors import column, cross, dot, norm
 

@@ -10,10 +10,10 @@ from pathlib import Path
 from planning_parts import LIBRARY, bore, part
 
 from mechwright.geometry import Loop
-from mechwright.host import host
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
+from mechwright.plugins.host import host
 from mechwright_cam.pipeline import Machined, machine
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 FOLDER = Path(__file__).parents[1] / "golden" / "compensation"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3")

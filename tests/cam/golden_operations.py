@@ -13,15 +13,15 @@ from pathlib import Path
 
 from planning_parts import LIBRARY, rounded_box
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
-from mechwright.findings import errors
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.host import host
-from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
+from mechwright.geometry.lettering import lettering
+from mechwright.plugins.host import host
 from mechwright_cam.pipeline import Machined, machine, second_setup
-from mechwright_cam.setups import lay_out_setups
+from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.shop.settings import CamSettings
 
 FOLDER = Path(__file__).parents[1] / "golden" / "operations"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")

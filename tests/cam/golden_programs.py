@@ -6,10 +6,11 @@ Every text has been read line by line as a machinist would before it was kept; r
 from dataclasses import replace
 from pathlib import Path
 
-from mechwright.host import host
-from mechwright.machine import Machine
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import Measured, Posting, Tool, ToolKind
+from mechwright.plugins.host import host
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Measured, Posting
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 FOLDER = Path(__file__).parents[1] / "golden"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")

@@ -2,11 +2,11 @@
 
 from planning_simulation import check_rules, gouge
 
-from mechwright.program import Program
-from mechwright_cam.job import Job
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Proof, prove
+from mechwright_cam.setup.job import Job
 
 
 def proven(of: Job) -> tuple[Program, str, Proof]:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechwright_cam.interpreter import DIALECTS, Kind, interpret
+from mechwright_cam.controls.reading import DIALECTS, Kind, interpret
 
 FOLDER = os.environ.get("MECHWRIGHT_PYGCODE", "")
 needs_pygcode = pytest.mark.skipif(

@@ -11,20 +11,21 @@ import numpy as np
 from planning_parts import LIBRARY, rounded_box
 from random_shapes import Rng, polygon, ring, slot
 
-from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.errors import MechwrightError
-from mechwright.findings import errors
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.host import host
-from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Tool, ToolKind
-from mechwright_cam.job import Job
-from mechwright_cam.library import Library
+from mechwright.geometry.lettering import lettering
+from mechwright.plugins.host import host
 from mechwright_cam.pipeline import Machined, dialect_of, second_setup
 from mechwright_cam.planning import plan
+from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.proof import Proof, prove
-from mechwright_cam.setups import lay_out_setups
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")

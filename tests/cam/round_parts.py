@@ -6,14 +6,14 @@ import numpy as np
 from height_map import Simulation, cutters, read
 from random_pockets import rounded
 
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library, load_library
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import Proof, prove
+from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 WIDE, HIGH, THICK = 50.0, 36.0, 8.0

@@ -13,15 +13,15 @@ import pytest
 import shapely
 from scipy.spatial.transform import Rotation
 
-from mechwright.design import load
+from mechwright.contracts.motion import Channel, Motion, Poses, Trace
+from mechwright.contracts.part import Instance, Part, Pocket
+from mechwright.design.design import load
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.host import host
-from mechwright.motion import Channel, Motion, Poses, Trace
-from mechwright.part import Instance, Part, Pocket
-from mechwright_cam.animation import motion_html, page_of
-from mechwright_cam.animation.figures import significant
-from mechwright_cam.animation.scene import SAMPLES, scene
-from mechwright_cam.animation.space import CHORD
+from mechwright.plugins.host import host
+from mechwright_cad.animation import motion_html, page_of
+from mechwright_cad.animation.figures import significant
+from mechwright_cad.animation.scene import SAMPLES, scene
+from mechwright_cad.animation.space import CHORD
 
 EXAMPLES = sorted(
     path for path in (Path(__file__).parents[2] / "examples").glob("*.toml") if "requirement" not in path.stem

@@ -9,21 +9,21 @@ import pytest
 import shapely
 from planning_parts import LIBRARY, bore, rounded_box
 
-from mechwright.details import Chamfer
-from mechwright.findings import errors
+from mechwright.contracts.details import Chamfer
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Outline
-from mechwright.host import host
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.job import Air
+from mechwright.plugins.host import host
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import DIALECTS, interpret
 from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.planning.setups import carried, lay_out_setups, turned_shape
 from mechwright_cam.proof import cut_away, prove
 from mechwright_cam.proof.carried import SWEPT
 from mechwright_cam.proof.simulation import simulate
-from mechwright_cam.setups import carried, lay_out_setups, turned_shape
+from mechwright_cam.setup.job import Air
+from mechwright_cam.shop.settings import CamSettings
 
 THICKNESS = 8.0
 RIM = rounded_box(60, 40, 6)

@@ -7,14 +7,15 @@ import pytest
 from golden_compensation import WAYS
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import ToolError
 from mechwright.geometry import Loop, circle
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.job import make_job
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 ROUND = Loop((circle((0.0, 0.0), 10.0),))

@@ -15,19 +15,21 @@ from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_job, plate_program
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
+from mechwright.contracts.finding import Severity
 from mechwright.errors import ProgramError
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.machine import Machine
-from mechwright.output import Post
-from mechwright.program import Drill, Program, Rapid
-from mechwright.testing import PostContract, sample_program
-from mechwright.tooling import CamSettings, Measured, Posting, Tool
-from mechwright_cam.interpreter import DIALECTS, Kind, Run, interpret
-from mechwright_cam.job import Job
+from mechwright.plugins.host import host
+from mechwright_cam.controls import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
+from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.reading import DIALECTS, Kind, Run, interpret
 from mechwright_cam.pipeline import machine
-from mechwright_cam.posts import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
+from mechwright_cam.program.moves import Drill, Program, Rapid
 from mechwright_cam.proof import prove
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Measured, Posting
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+from mechwright_cam.testing import PostContract, sample_program
 
 
 def planned_job(**settings: object) -> Job:
@@ -441,7 +443,7 @@ def test_whoever_touches_off_leaves_the_tool_low() -> None:
 def test_three_decimals_keep_arcs_consistent(arcs) -> None:
     from math import cos, sin
 
-    from mechwright.program import Feed, FeedArc, Operation, ToolSection
+    from mechwright_cam.program.moves import Feed, FeedArc, Operation, ToolSection
 
     moves = [Rapid(0.0, 0.0, 1.0)]
     for x, y, radius, start, sweep in arcs:
@@ -457,7 +459,7 @@ def test_three_decimals_keep_arcs_consistent(arcs) -> None:
 
 
 def test_through_cuts_stay_through_when_rounded() -> None:
-    from mechwright_cam.posts.writer import Writer
+    from mechwright_cam.controls.writing.writer import Writer
 
     out = Writer(every_operation(), 3, False)
     assert out.height(-6.00004) == "-6.001"

@@ -10,14 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, part, rounded_box
 
+from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Pocket, Profile
-from mechwright_cam.planning import adaptive, plan
-from mechwright_cam.planning.adaptive import clear
-from mechwright_cam.planning.congruent import Copies, Turn, same, turn_between
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations import adaptive
+from mechwright_cam.operations.adaptive import clear
+from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
+from mechwright_cam.plane.offsets import ROUGH
+from mechwright_cam.planning import plan
 from mechwright_cam.proof import prove
-from mechwright_cam.toolpath.offsets import ROUGH
 
 MILL = LIBRARY.get("mill-6")
 HOOK = [(6.0, -4.0), (18.0, -4.0), (18.0, 9.0), (10.0, 9.0), (10.0, 4.0), (6.0, 4.0)]
@@ -107,7 +108,7 @@ def planned(monkeypatch):
         areas.append(area)
         return adaptive.clear(area, *rest)
 
-    monkeypatch.setattr("mechwright_cam.planning.congruent.clear", counted)
+    monkeypatch.setattr("mechwright_cam.operations.congruent.clear", counted)
     return areas
 
 

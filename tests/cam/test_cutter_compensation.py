@@ -18,21 +18,22 @@ from rs274 import needs_rs274, run_rs274
 from test_rs274 import distinct
 
 from mechwright.errors import MechwrightError, ProgramError, ToolError
-from mechwright.host import host
-from mechwright.tooling import CamSettings, Posting
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.job import Job
-from mechwright_cam.library import Library
+from mechwright.plugins.host import host
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.writing.offsets import d_offset
+from mechwright_cam.operations.entry import bore_lead, enters, lead_to, offsets_of
+from mechwright_cam.pages.setup_sheet import setup_html, summary_html
+from mechwright_cam.pages.trace import trace
+from mechwright_cam.plane.contour import contour_beside
+from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.entry import bore_lead, enters, lead_to, offsets_of
-from mechwright_cam.posts.offsets import d_offset
 from mechwright_cam.proof import prove, read
 from mechwright_cam.proof.compensation import planned_offsets
 from mechwright_cam.proof.paths import Paths, Pieces
-from mechwright_cam.setup_sheet import setup_html, summary_html
-from mechwright_cam.toolpath.contour import contour_beside
-from mechwright_cam.toolpath.offsets import BIAS, FIT, grow, rings
-from mechwright_cam.trace import trace
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.posting import Posting
+from mechwright_cam.shop.settings import CamSettings
 
 LINUXCNC = host().post("linuxcnc")
 TABS = {"method": "tabs", "tabs": 2}
@@ -48,7 +49,7 @@ def text_of(one: Job, control: str = "linuxcnc") -> str:
 
 
 def dialect(control: str = "linuxcnc"):
-    from mechwright_cam.interpreter import DIALECTS
+    from mechwright_cam.controls.reading import DIALECTS
 
     return DIALECTS[control]
 

@@ -15,14 +15,14 @@ from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.design import Design, load
+from mechwright.contracts.finding import errors
+from mechwright.design.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
-from mechwright.findings import errors
-from mechwright.host import host
+from mechwright.plugins.host import host
+from mechwright_cad.exporters import StepExporter
+from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cam import pipeline
-from mechwright_cam.exporters import StepExporter
-from mechwright_cam.exporters.step_read import read_step_outline
-from mechwright_cam.interpreter import interpret
+from mechwright_cam.controls.reading import interpret
 from mechwright_cam.pipeline import Machined
 from mechwright_elliptic_gears.proof import prove_outlines
 

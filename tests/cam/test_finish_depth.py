@@ -5,12 +5,12 @@ import re
 import pytest
 from planning_parts import LIBRARY, job, plate, rounded_box
 
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings
+from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.finishing import finish_depth
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 FEATURES = {

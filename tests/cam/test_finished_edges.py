@@ -13,18 +13,18 @@ from planning_parts import LIBRARY, bore, part, plate, rounded_box
 from proving import proven
 from rs274 import needs_rs274, run_rs274
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Arc, Line, Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.nest import Placed, make_nest
-from mechwright_cam.picture import plan_view
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.pages.picture import plan_view
+from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.proof import prove
-from mechwright_cam.setup_sheet.procedure import steps
-from mechwright_cam.setups import lay_out_setups
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.nest import Placed, make_nest
+from mechwright_cam.shop.settings import CamSettings
 
 BAR = {"finished": ["front", "rear"]}
 VICE = {"method": "vice"}

@@ -11,14 +11,14 @@ from planning_parts import bore, job, part, plate, rounded_box
 from planning_simulation import check_rules, leftover, motions
 from random_pockets import HIGH, LIBRARY, THICK, WIDE, random_pocket
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 RECESS = Pocket("recess", rounded_box(34, 24, 3), (), 0, 2.0)

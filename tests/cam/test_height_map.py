@@ -9,12 +9,13 @@ from height_map import Simulation, cutters, read
 from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate, rounded_box
 from planning_simulation import keep_at
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.job import make_job
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 PITCH = 0.15
 BOX = rounded_box(44, 28, 6)

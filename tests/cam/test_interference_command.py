@@ -8,13 +8,13 @@ import pytest
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Loop, Outline
-from mechwright.host import host
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Instance, Part
+from mechwright.plugins.host import host
 from mechwright.testing import commands
-from mechwright_cam.interference import check as module
-from mechwright_cam.interference import faithful_motion, interference, report, slabs, surface
+from mechwright_cad.interference import check as module
+from mechwright_cad.interference import faithful_motion, interference, report, slabs, surface
 
 PAGE = Path(__file__).parents[2] / "docs" / "interference.md"
 DESIGN = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
@@ -84,7 +84,7 @@ def test_samples_are_added_until_the_motion_is_smooth_between_them():
     assert asked[0] == module.SAMPLES
     assert motion.samples == asked[-1] > module.SAMPLES
     # Half-way between two samples the cubic is as near as is promised.
-    from mechwright_cam.interference.path import space_path
+    from mechwright_cad.interference.path import space_path
 
     poses = motion.poses["a"]
     path = space_path(poses.rotation, poses.position)

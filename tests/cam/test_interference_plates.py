@@ -8,12 +8,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
-from mechwright_cam.interference import interference
-from mechwright_cam.interference.slabs import SURE, TOUCH
+from mechwright_cad.interference import interference
+from mechwright_cad.interference.slabs import SURE, TOUCH
 
 TURN = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))

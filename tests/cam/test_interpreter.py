@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import LINUXCNC, Kind, interpret
+from mechwright_cam.controls.reading import LINUXCNC, Kind, interpret
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
 

@@ -6,18 +6,19 @@ import pytest
 from planning_parts import LIBRARY, bore, job, plate
 from shop import plate_job, plate_program
 
-from mechwright.design import load, read_toml
+from mechwright.contracts.finding import Severity
+from mechwright.design.design import load, read_toml
 from mechwright.errors import MechwrightError
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.machine import MACHINES, Machine
-from mechwright.tooling import MILLS, CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.limits import check_machine
+from mechwright.plugins.host import host
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.pipeline import machine as build
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.limits import check_machine
+from mechwright_cam.shop.machine import MACHINES, Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS
 
 HEAD = 'family = "elliptic-gears"\n'
 KNOWN = read_toml(MACHINES)[0]

@@ -10,8 +10,8 @@ from rs274 import needs_rs274, run_rs274
 from test_rs274 import distinct
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.interpreter.expressions import Reader
+from mechwright_cam.controls.reading import DIALECTS, interpret
+from mechwright_cam.controls.reading.expressions import Reader
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -142,7 +142,7 @@ def test_mistakes_name_their_line(lines: str, said: str) -> None:
 
 
 def test_an_endless_loop_and_an_endless_descent_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mechwright_cam.interpreter.macros.MOST_LINES", 5_000)
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 5_000)
     with pytest.raises(ProgramError, match="nested more than 10 deep"):
         interpret("O1 sub\nO1 call\nO1 endsub\nO1 call\nM2")
     with pytest.raises(ProgramError, match="does a loop not end"):

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from plate_shapes import PLATES, Part, turning, wavy_part
 
-from mechwright_cam import tessellate
-from mechwright_cam.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
-from mechwright_cam.solids import part_solid
+from mechwright_cad.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
+from mechwright_cad.solids import tessellate
+from mechwright_cad.solids.solid import part_solid
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 

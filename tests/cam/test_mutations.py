@@ -13,13 +13,13 @@ from golden_operations import SHARP
 from mutants import differences, mutant, trace
 from planning_parts import LIBRARY, job, part, rounded_box
 
+from mechwright.contracts.part import Pocket
 from mechwright.errors import ProgramError
-from mechwright.host import host
-from mechwright.part import Pocket
-from mechwright_cam.interpreter import DIALECTS
-from mechwright_cam.job import Job
+from mechwright.plugins.host import host
+from mechwright_cam.controls.reading import DIALECTS
 from mechwright_cam.pipeline import Machined, machine
 from mechwright_cam.proof import Check, prove, read
+from mechwright_cam.setup.job import Job
 
 
 def made(operation: str, control: str = "linuxcnc") -> Machined:

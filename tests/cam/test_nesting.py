@@ -15,20 +15,20 @@ from rs274 import needs_rs274, run_rs274
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
-from mechwright.design import load
-from mechwright.details import Chamfer, Engraving, Thread, moved
+from mechwright.contracts.details import Chamfer, Engraving, Thread, moved
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.design.design import load
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop, Outline
-from mechwright.host import host
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings
 from mechwright_cam import pipeline
-from mechwright_cam.job import make_job
-from mechwright_cam.nest import Nest, Placed, make_nest, moved_feature
-from mechwright_cam.nesting import arranged, channel_of, nest_of
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.reach import cut_outlines
+from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
+from mechwright_cam.shop.settings import CamSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAIR = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'

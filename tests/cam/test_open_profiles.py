@@ -15,17 +15,17 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import leftover
 from proving import proven
 
+from mechwright.contracts.part import Bore, OpenProfile, Part, Profile
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line
-from mechwright.part import Bore, OpenProfile, Part, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.exporters import dxf
-from mechwright_cam.job import make_job
-from mechwright_cam.nest import moved_feature
+from mechwright_cad.exporters import dxf
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.planning.setups import lay_out_setups, sides
 from mechwright_cam.proof import prove
-from mechwright_cam.setups import lay_out_setups, sides
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.nest import moved_feature
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 BENT = (Line((-40.0, -8.0), (0.0, -8.0)), Arc((0.0, 2.0), 10.0, -math.pi / 2, 1.2))
@@ -135,8 +135,8 @@ def test_a_groove_narrower_than_every_cutter_is_refused():
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_solid_and_drawing_follow_from_the_feature(name):
-    from mechwright.sections import volume
-    from mechwright_cam.solids import part_solid
+    from mechwright.contracts.sections import volume
+    from mechwright_cad.solids.solid import part_solid
 
     of = opened(*LIMITS[name])
     assert part_solid(of).Volume() == pytest.approx(volume(of), rel=1e-5)

@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import check_rules
 
-from mechwright.part import Pocket, Profile
-from mechwright.program import FeedArc
+from mechwright.contracts.part import Pocket, Profile
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations.adaptive import BENDS, clear, straight_layer
+from mechwright_cam.operations.adaptive import engagements as planned
+from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.adaptive import BENDS, clear, straight_layer
-from mechwright_cam.planning.adaptive import engagements as planned
-from mechwright_cam.planning.clearing import COARSE_FROM
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.proof import prove
 
 MILL = LIBRARY.get("mill-8")

@@ -8,21 +8,22 @@ import pytest
 import shapely
 from planning_parts import LIBRARY, job, plate, rounded_box
 
-from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.lettering import LETTERS, lettering
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import FeedArc
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.interpreter import LINUXCNC
-from mechwright_cam.job import make_job
+from mechwright.geometry.lettering import LETTERS, lettering
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import LINUXCNC
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.proof import prove, read
 from mechwright_cam.proof.details import deepest_in_fillet
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import Paths
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 TOOLS = ("mill-6", "mill-4", "chamfer-6", "engrave-3", "thread-m6", "spot-6", "drill-4")
 RIM = rounded_box(60, 40, 6)

@@ -6,11 +6,11 @@ import pytest
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
-from mechwright.design import load
+from mechwright.design.design import load
 from mechwright.errors import DesignError
-from mechwright.host import host
-from mechwright.part_settings import WHOLE_JOB
-from mechwright.tooling import CamSettings
+from mechwright.plugins.host import host
+from mechwright_cam.shop.part_settings import WHOLE_JOB
+from mechwright_cam.shop.settings import CamSettings
 
 HEAD = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
 

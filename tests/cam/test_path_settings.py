@@ -13,22 +13,22 @@ from planning_simulation import motions
 from pydantic import ValidationError
 from random_pockets import case
 
-from mechwright.design import load
+from mechwright.contracts.part import Pocket, Profile
+from mechwright.design.design import load
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
-from mechwright.host import host
-from mechwright.part import Pocket, Profile
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings, PathSettings
-from mechwright_cam.job import make_job
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations.holes import plan_bore
 from mechwright_cam.pipeline import dialect_of
+from mechwright_cam.plane.arcfit import fit
+from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.holes import plan_bore
 from mechwright_cam.planning.zones import bores, inner_zones
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
-from mechwright_cam.reach import closing
-from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings, PathSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ZONES = [(0.0, 0.003), (0.001, 0.004), (0.003, 0.003), (0.0045, 0.0045), (0.0, 0.008), (0.0045, 0.008)]

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, Dialect, Kind, Run, interpret, stretch
-from mechwright_cam.interpreter.blocks import Block, read_block
-from mechwright_cam.interpreter.plain import LETTERS, PlainLines
+from mechwright_cam.controls.reading import DIALECTS, Dialect, Kind, Run, interpret, stretch
+from mechwright_cam.controls.reading.blocks import Block, read_block
+from mechwright_cam.controls.reading.plain import LETTERS, PlainLines
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 PLAIN = re.compile(
@@ -179,7 +179,7 @@ def test_a_stretch_in_a_loop_is_run_every_time() -> None:
 
 
 def test_lines_of_a_loop_count_however_they_are_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mechwright_cam.interpreter.macros.MOST_LINES", 500)
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 500)
     body = "".join(f"X{k % 2}\n" for k in range(100))
     with stretches_from(1), pytest.raises(ProgramError, match="more than 500 lines are run"):
         interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nO1 while [1]\n{body}O1 endwhile\nM2\n")
@@ -193,6 +193,6 @@ def test_most_lines_of_a_program_are_run_in_stretches(monkeypatch: pytest.Monkey
         read.append(line)
         return read_block(line, text, dialect)
 
-    monkeypatch.setattr("mechwright_cam.interpreter.read.read_block", counted)
+    monkeypatch.setattr("mechwright_cam.controls.reading.read.read_block", counted)
     interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}(again)\n{STRAIGHT}M2\n")
     assert read == [1, 2, 3, 43, 83]

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from shop import DRILL, MILL, SPOT, TOOLS
 
 from mechwright.errors import ProgramError
-from mechwright.host import Host
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright.plugins.host import Host
 from mechwright_cam import plugin
-from mechwright_cam.interpreter import Kind, interpret
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.posts.text import COMMENT_WIDTH, comment_lines
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import Kind, interpret
+from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 
 POST = LinuxCncPost()
 

@@ -1,7 +1,7 @@
 """The built-in post under the kit that third parties use."""
 
-from mechwright.testing import PostContract
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.testing import PostContract
 
 
 class TestLinuxCnc(PostContract):

@@ -12,15 +12,27 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.errors import ProgramError, ProofError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.program import Drill, Feed, FeedArc, Move, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import CamSettings, Hold, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.program.moves import (
+    Drill,
+    Feed,
+    FeedArc,
+    Move,
+    Operation,
+    Pause,
+    Program,
+    Rapid,
+    ToolSection,
+)
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.proof.plane import closing
+from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 CLEAN = LinuxCncPost().write(plate_program())
 

@@ -6,13 +6,14 @@ import pytest
 from pydantic import ValidationError
 from shop import MILL, TOOLS, plate_job, plate_program
 
-from mechwright.part import Pocket
-from mechwright.program import Feed, Operation, Program, Rapid, ToolSection
-from mechwright.tooling import Hold, Tool
-from mechwright_cam.job import Job
-from mechwright_cam.posts import LinuxCncPost
+from mechwright.contracts.part import Pocket
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.program.moves import Feed, Operation, Program, Rapid, ToolSection
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.report import Check
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.tool import Tool
 
 
 def held(**changes: float) -> Tool:

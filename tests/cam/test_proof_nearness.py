@@ -11,20 +11,20 @@ from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
 from test_proof_parts import coordinate, cuts, height, paths_of
 
+from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
-from mechwright.part import Part, Pocket
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import interpret
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import interpret
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import gouge, leftover, near, prove, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 places = st.lists(st.tuples(coordinate, coordinate), min_size=1, max_size=30).map(np.array)
 

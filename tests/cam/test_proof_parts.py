@@ -9,18 +9,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import DRILL, MILL, TOOLS, plate_job
 
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Hold, Machine, Tool
-from mechwright_cam.interpreter import Kind, Run, interpret
-from mechwright_cam.job import Job, make_job
+from mechwright_cam.controls.reading import Kind, Run, interpret
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.gouge import deepest_cut
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.plane import Boundary, grow, swept
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.proof.timing import step_times
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.timing import step_times
+from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 START = "G17 G21 G90\nT3 M6\nG0 X0 Y0 Z5\n"
 

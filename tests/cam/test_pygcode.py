@@ -8,10 +8,10 @@ from golden_programs import CONTROLS, every_operation, with_options
 from planning_parts import bore, job, plate
 from pygcode_reader import agree, needs_pygcode
 
-from mechwright.host import host
-from mechwright.program import Program
-from mechwright.tooling import Posting
+from mechwright.plugins.host import host
 from mechwright_cam.pipeline import machine
+from mechwright_cam.program.moves import Program
+from mechwright_cam.shop.posting import Posting
 
 pytestmark = needs_pygcode
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 from planning_parts import job, part, rounded_box
 
+from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Pocket, Profile
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 
 

@@ -8,17 +8,17 @@ import shapely
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations.clearing import stays_inside
+from mechwright_cam.plane.leads import best_start
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.clearing import stays_inside
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
-from mechwright_cam.toolpath.leads import best_start
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 RIM = 24.0

@@ -3,8 +3,8 @@
 import pytest
 from planning_parts import LIBRARY
 
-from mechwright.host import host
-from mechwright.program import Feed, FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright.plugins.host import host
+from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
 
 ARC = FeedArc(10.0, 10.0, None, 0.0, 10.0, True, 400.0)
 TINY = FeedArc(10.00001, 10.0, None, 0.0, 10.0, True, 400.0)

@@ -12,8 +12,8 @@ from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_program
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import Kind, Run, interpret
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import Kind, Run, interpret
 
 pytestmark = needs_rs274
 LAST_DECIMAL = 1.1e-4  # canon prints four decimals

@@ -9,15 +9,16 @@ from xml.etree import ElementTree
 import pytest
 from plate_shapes import slotted_plate, wavy_plate
 
-from mechwright.part import Instance, Part
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import CamSettings, Tool
-from mechwright_cam import svg
-from mechwright_cam.job import make_job
-from mechwright_cam.picture import plan_view
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.procedure import steps
-from mechwright_cam.trace import trace
+from mechwright.contracts.part import Instance, Part
+from mechwright_cam.pages import svg
+from mechwright_cam.pages.picture import plan_view
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.pages.setup_sheet.procedure import steps
+from mechwright_cam.pages.trace import trace
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRILL = Tool(name="d8", number=4, kind="drill", diameter=8, flutes=2, flute_length=40)

@@ -13,21 +13,21 @@ from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
 from plate_shapes import many_spans, wavy
 
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
 from mechwright.errors import DesignError
-from mechwright.findings import errors
 from mechwright.geometry import Line, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
-from mechwright.host import host
-from mechwright.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import DIALECTS, interpret
+from mechwright.plugins.host import host
+from mechwright_cam.controls.reading import DIALECTS, interpret
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.planning import plan
+from mechwright_cam.planning.setups import lay_out_setups, sides, turned_shape
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.bands import inside_of
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.procedure import steps
-from mechwright_cam.setups import lay_out_setups, sides, turned_shape
+from mechwright_cam.shop.settings import CamSettings
 
 THICKNESS = 8.0
 HOLE = Bore("bore", (0.0, 0.0), 10.0, 0.0, THICKNESS)

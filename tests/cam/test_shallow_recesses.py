@@ -9,15 +9,15 @@ import shapely
 from height_map import read
 from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
 
-from mechwright.cutter import cutter
+from mechwright.contracts.part import OpenProfile, Pocket
 from mechwright.errors import ToolError
 from mechwright.geometry import Arc, Line, Loop, circle
-from mechwright.part import OpenProfile, Pocket
-from mechwright.program import Move
-from mechwright.tooling import Tool
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import Move
 from mechwright_cam.proof import prove
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
 
 DEPTHS = (0.3, 0.6, 0.68, 0.9, 0.99, 1.05, 1.5, 2.0)
 SQUARE = Loop.polygon([(-15, -12), (15, -12), (15, 12), (-15, 12)])

@@ -8,13 +8,13 @@ import pytest
 from planning_parts import bore, job, plate
 from shop import MILL, plate_job, plate_program
 
-from mechwright.host import host
-from mechwright.program import FeedArc, Operation, Program, Rapid, ToolSection
-from mechwright.tooling import Measured
+from mechwright.plugins.host import host
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.pages.setup_sheet.facts import reach
+from mechwright_cam.pages.trace import trace
 from mechwright_cam.pipeline import machine
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.facts import reach
-from mechwright_cam.trace import trace
+from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright_cam.shop.posting import Measured
 
 
 def page(control: str, **settings: object) -> str:

@@ -12,14 +12,14 @@ import pytest
 from planning_parts import bore, job, plate
 from shop import DRILL, MILL, SPOT, TOOLS, plate_job, plate_program
 
-from mechwright.program import Feed, FeedArc, Operation, Program, Rapid, ToolSection
-from mechwright_cam.interpreter import LINUXCNC, interpret
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import LINUXCNC, interpret
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.pipeline import machine
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
 from mechwright_cam.proof import read
 from mechwright_cam.proof.simulation import Simulation, deviation, simulate
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.raster import simulated_view
 
 
 def simulation(*moves: object, feed: float = 600.0) -> tuple[Simulation, object]:

@@ -6,11 +6,11 @@ import pytest
 from golden_operations import CONTROLS, made
 from planning_parts import bore, job, plate
 
-from mechwright.host import host
-from mechwright.tooling import Posting
-from mechwright_cam.interpreter import DIALECTS, Kind, interpret
+from mechwright.plugins.host import host
+from mechwright_cam.controls.reading import DIALECTS, Kind, interpret
 from mechwright_cam.pipeline import machine
 from mechwright_cam.proof import prove
+from mechwright_cam.shop.posting import Posting
 
 HELD = {"hold": {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}}
 

@@ -4,12 +4,12 @@ import pytest
 import shapely
 from planning_parts import job, part, rounded_box
 
+from mechwright.contracts.part import Pocket, Profile
+from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
-from mechwright.part import Pocket, Profile
-from mechwright.sections import plan_view
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 
 RIM = rounded_box(60, 40, 4)

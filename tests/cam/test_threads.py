@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright_cam.threads import prepared, together
+from mechwright_cam.plane.threads import prepared, together
 
 
 def test_results_come_in_the_order_of_the_items() -> None:

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import bore, job, plate
 
-from mechwright.tooling import Machine
-from mechwright_cam.interpreter import Kind, Run, interpret
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import Kind, Run, interpret
+from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pipeline import machine as build
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.timing import CORNER, step_times
+from mechwright_cam.proof.timing import CORNER, step_times
+from mechwright_cam.shop.machine import Machine
 
 STEP = 0.004  # mm
 

@@ -3,9 +3,9 @@
 import pytest
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
-from mechwright.tooling import CamSettings
+from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.shop.settings import CamSettings
 
 SLOT = rounded_box(40, 8.05, 4.02, clockwise=True)
 

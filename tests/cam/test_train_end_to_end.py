@@ -9,18 +9,18 @@ import shapely
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.design import Design, load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.part import Instance, Part
-from mechwright.requirement import load_requirement
+from mechwright.contracts.finding import Severity
+from mechwright.contracts.part import Instance, Part
+from mechwright.design.design import Design, load
+from mechwright.design.requirement import load_requirement
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
+from mechwright_cad.exporters import StepExporter
+from mechwright_cad.exporters.step_read import read_step_outline
+from mechwright_cad.interference import faithful_motion, interference
+from mechwright_cad.interference.readback import parts_from_step
 from mechwright_cam import pipeline
-from mechwright_cam.exporters import StepExporter
-from mechwright_cam.exporters.step_read import read_step_outline
-from mechwright_cam.interference import faithful_motion, interference
-from mechwright_cam.interference.readback import parts_from_step
-from mechwright_cam.interpreter import interpret
+from mechwright_cam.controls.reading import interpret
 from mechwright_cam.pipeline import Machined
 from mechwright_elliptic_gears.proof import prove_outlines
 

@@ -9,16 +9,16 @@ import pytest
 from planning_parts import job
 from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
+from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline
-from mechwright.part import Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import interpret
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.reading import interpret
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.pages.setup_sheet.walls import exaggeration, walls_view
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.walls import wall_deviation
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.walls import exaggeration, walls_view
+from mechwright_cam.shop.settings import CamSettings
 
 ANGLE = Loop.polygon([(-30, -20), (30, -20), (30, 0), (5, 0), (5, 20), (-30, 20)])
 SQUARE = Loop.polygon([(-24, -14), (-8, -14), (-8, 6), (-24, 6)])
@@ -108,7 +108,7 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
     assert view.count("<circle") == 3 + 3
     assert view.count("stroke-dasharray") == 3  # corners are dashed
     assert f"1: {walls.left[0].off:+.4f}" in view
-    from mechwright_cam.picture import Frame
+    from mechwright_cam.pages.picture import Frame
 
     small, large = (exaggeration(walls, Frame(0, 0, size, size)) for size in (50.0, 500.0))
     assert large == pytest.approx(10 * small)

@@ -9,11 +9,11 @@ import pytest
 
 from mechwright.cli.beside import Beside, cores
 from mechwright.cli.solids import SolidWork, Work, compared_and_made
-from mechwright.design import load
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.design.design import load
 from mechwright.errors import ProofError, ToolError
-from mechwright.findings import Finding, Severity
-from mechwright.host import host
-from mechwright.output import Exporter
+from mechwright.plugins.host import host
 
 HERE = os.getpid()
 

@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from mechwright.design import load
-from mechwright.design_text import template
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
+from mechwright.design.design import load
+from mechwright.design.text import template
+from mechwright.design.units import Degrees, Millimetres
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
-from mechwright.family import Family
-from mechwright.host import Host, Registered
-from mechwright.parameters import Parameters
-from mechwright.units import Degrees, Millimetres
+from mechwright.plugins.host import Host, Registered
 
 
 class DiscParams(Parameters):

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
 from mechwright.errors import PluginError
-from mechwright.family import Family
-from mechwright.host import DISABLE, GROUP, hook_points, load
-from mechwright.parameters import Parameters
+from mechwright.plugins.host import DISABLE, GROUP, hook_points, load
 
 FAMILY = """
-from mechwright.family import Family
-from mechwright.hookspecs import hookimpl
-from mechwright.parameters import Parameters
+from mechwright.contracts.family import Family
+from mechwright.plugins.hookspecs import hookimpl
+from mechwright.contracts.parameters import Parameters
 
 class Cam(Family[Parameters]):
     name = "cam"
@@ -33,8 +33,10 @@ def mechwright_register_families():
 """
 
 OUTPUT = """
-from mechwright.hookspecs import hookimpl
-from mechwright.output import Exporter, Post
+from mechwright.plugins.hookspecs import hookimpl
+from mechwright.contracts.exporter import Exporter
+
+from mechwright_cam.controls.contract import Post
 
 class Mill(Post):
     name, title = "mill", "Mill"
@@ -131,7 +133,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
         (
             "@hookimpl\ndef mechwright_register_families",
             "def mechwright_register_families",
-            "hook mechwright_register_families is not marked with mechwright.hookspecs.hookimpl",
+            "hook mechwright_register_families is not marked with mechwright.plugins.hookspecs.hookimpl",
         ),
         (
             "@hookimpl\ndef mechwright_register_families",
@@ -161,7 +163,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
         (
             "Params = Parameters",
             "Params = dict",
-            "Params is no subclass of mechwright.parameters.Parameters",
+            "Params is no subclass of mechwright.contracts.parameters.Parameters",
         ),
         ("Params = Parameters", "", "Cam: Params is no subclass"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
@@ -219,7 +221,7 @@ def test_a_lazy_attribute_that_fails_is_no_hook(plugin):
 
 
 def test_hookspecs_may_be_imported_by_name(plugin):
-    host = load([plugin("from mechwright.hookspecs import *\n" + OUTPUT, "output")])
+    host = load([plugin("from mechwright.plugins.hookspecs import *\n" + OUTPUT, "output")])
     assert host.broken == []
 
 
@@ -299,7 +301,7 @@ def test_broken_entry_points_of_others_are_none_of_our_business():
 
 
 def test_the_host_needs_no_numbers():
-    code = "import sys, mechwright.host as h; h.host(); print(*sys.modules)"
+    code = "import sys, mechwright.plugins.host as h; h.host(); print(*sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code],
         env={**os.environ, DISABLE: ",".join(entry.name for entry in entry_points(group=GROUP))},

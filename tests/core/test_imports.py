@@ -9,7 +9,7 @@ from mechwright.testing.imports import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 
-ON_DEMAND = ("mechwright.testing", "mechwright.algebra", "mechwright.laws.table")
+ON_DEMAND = ("mechwright.testing", "mechwright.mechanics.algebra", "mechwright.mechanics.laws.table")
 """What only those import who use it, with what it needs."""
 
 
@@ -24,7 +24,9 @@ def core_modules():
 
 def test_the_core_imports_nothing_heavy_and_no_test_library():
     modules = core_modules()
-    assert {"mechwright.host", "mechwright.geometry.outline", "mechwright.part"} <= set(modules)
+    assert {"mechwright.plugins.host", "mechwright.geometry.outline", "mechwright.contracts.part"} <= set(
+        modules
+    )
     code = f"import sys\nfor name in {modules!r}: __import__(name)\nprint(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

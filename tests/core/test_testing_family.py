@@ -11,14 +11,14 @@ import pytest
 from disc_family import Disc, DiscParams
 from pydantic import Field
 
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Bore, Instance, Profile
+from mechwright.design.units import Millimetres, Unit
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity
 from mechwright.geometry import Arc, Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses, Scalar
-from mechwright.parameters import Parameters
-from mechwright.part import Bore, Instance, Profile
 from mechwright.testing import FamilyContract
-from mechwright.units import Millimetres, Unit
 
 EXAMPLE: dict[str, object] = {}
 
@@ -423,7 +423,7 @@ def test_a_rule_that_names_no_parameter():
 
 
 def test_solids_need_the_exporter(monkeypatch):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     class Step:
@@ -442,7 +442,7 @@ def test_solids_need_the_exporter(monkeypatch):
 
 
 def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     design = contract(Disc)
@@ -470,7 +470,7 @@ def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
     ],
 )
 def test_programs_are_judged_by_their_proof(monkeypatch, tmp_path, proofs, words):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     found = Host(

@@ -10,10 +10,10 @@ import pytest
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
-from mechwright.design import load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.requirement import load_requirement
+from mechwright.contracts.finding import Severity
+from mechwright.design.design import load
+from mechwright.design.requirement import load_requirement
+from mechwright.plugins.host import host
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.plates import bar_of
 from mechwright_four_bar.pole_search import poles_of

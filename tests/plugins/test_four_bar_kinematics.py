@@ -7,7 +7,7 @@ import pytest
 from flint import acb, arb, ctx
 from four_bar_reference import expected, random_bars
 
-from mechwright.planar import (
+from mechwright.mechanics.planar import (
     acceleration_pole,
     bresse_circle,
     curvature_of_path,

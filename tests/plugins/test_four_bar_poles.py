@@ -8,7 +8,7 @@ import pytest
 from four_bar_reference import SYNTHESIS
 from pydantic import ValidationError
 
-from mechwright.findings import Severity
+from mechwright.contracts.finding import Severity
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from mechwright.findings import Severity, errors
-from mechwright.laws import LAWS
+from mechwright.contracts.finding import Severity, errors
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.cures import walls_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.kinematics import Frame

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from hypothesis import strategies as st
 
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright.testing import FamilyContract
 from mechwright_geneva.family import Geneva
 

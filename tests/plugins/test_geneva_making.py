@@ -8,20 +8,20 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright.design import load
-from mechwright.fits import hole_fit
-from mechwright.host import host
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import FeedArc
-from mechwright_cam.exporters.dxf import part as drawing
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright.design.design import load
+from mechwright.plugins.host import host
+from mechwright_cad.exporters.dxf import part as drawing
+from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.operations.slots import outside_mills
+from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pipeline import machine
+from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.slots import outside_mills
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.toolpath.offsets import BIAS
+from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.setup.job import make_job
+from mechwright_cam.shop.library import load_library
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 

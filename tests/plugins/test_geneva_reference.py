@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva import printed, undercut
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, alpha, stroke

@@ -9,9 +9,9 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechwright.findings import errors
+from mechwright.contracts.finding import errors
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import mechanism_of

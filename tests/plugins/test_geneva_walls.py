@@ -8,7 +8,7 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechwright.laws import LAWS, Polynomial
+from mechwright.mechanics.laws import LAWS, Polynomial
 from mechwright_geneva import undercut
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure

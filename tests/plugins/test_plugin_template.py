@@ -16,7 +16,7 @@ TEMPLATE = Path(__file__).parents[2] / "examples" / "plugin-template"
 
 ASK = """
 import json
-from mechwright.host import load
+from mechwright.plugins.host import load
 host = load()
 yoke = host.families.get("scotch-yoke")
 print(json.dumps({

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import KinematicsError
-from mechwright.linkage import Mass
-from mechwright.planar import (
+from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.planar import (
     PoleKind,
     acceleration_pole,
     bresse_circle,
@@ -322,7 +322,7 @@ def test_counterweights_stop_the_shaking():
     phi = np.linspace(0, math.tau, 73)
     bodies = REFERENCE.bodies(phi, 20.0)
     weights = balance(50.0, 150.0, masses)
-    from mechwright.linkage import together
+    from mechwright.mechanics.linkage import together
 
     lever = weights.rod / weights.rod_weight
     balanced = {

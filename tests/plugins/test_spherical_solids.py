@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.findings import Severity
+from mechwright.contracts.finding import Severity
 from mechwright_spherical import links, solids
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import external, internal, train_of

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.finding import errors as faults
 from mechwright.errors import GeometryError, KinematicsError
-from mechwright.findings import errors as faults
 from mechwright_spherical import printed, structural
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.fivebar import projected

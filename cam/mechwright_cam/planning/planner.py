@@ -6,21 +6,18 @@ from functools import partial
 
 import shapely
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.part import Bore, OpenProfile
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
-from mechwright.part import Bore, OpenProfile
-from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool, ToolKind
-from mechwright_cam.job import Job
-from mechwright_cam.planning.centre_lines import grooves, write_groove
-from mechwright_cam.planning.choice import entry_place
-from mechwright_cam.planning.contour_writer import finish_bore_compensated
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.facing import face, is_face
-from mechwright_cam.planning.floors import floor_allowance, over_openings
-from mechwright_cam.planning.holes import (
+from mechwright_cam.operations.centre_lines import grooves, write_groove
+from mechwright_cam.operations.choice import entry_place
+from mechwright_cam.operations.contour_writer import finish_bore_compensated
+from mechwright_cam.operations.details import plan_detail
+from mechwright_cam.operations.facing import face, is_face
+from mechwright_cam.operations.floors import floor_allowance, over_openings
+from mechwright_cam.operations.holes import (
     BorePlan,
     drill_moves,
     finish_bore,
@@ -30,13 +27,16 @@ from mechwright_cam.planning.holes import (
     spot_moves,
     starting_drill,
 )
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.rates import rates
+from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.notes import clamp_message, notes
-from mechwright_cam.planning.pen import Pen
-from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
 from mechwright_cam.planning.walls import Cut, Walls
-from mechwright_cam.planning.zone import Zone
 from mechwright_cam.planning.zones import check_clamp, inner_zones, outer_walls
+from mechwright_cam.program.moves import Move, Operation, Pause, Program, ToolSection
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 def plan(job: Job) -> Program:

@@ -7,28 +7,29 @@ from functools import partial
 
 import shapely
 
-from mechwright.cutter import SAME_RADIUS
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.materials import HSS_SPEED
+from mechwright.contracts.materials import material as material_of
+from mechwright.contracts.part import Feature, Part
 from mechwright.errors import MechwrightError, ToolError
-from mechwright.findings import Finding, Severity, errors
-from mechwright.materials import HSS_SPEED
-from mechwright.materials import material as material_of
-from mechwright.part import Feature, Part
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library
-from mechwright_cam.nest import Nest
-from mechwright_cam.planning.bending import MOST, deflection
-from mechwright_cam.planning.centre_lines import grooves
-from mechwright_cam.planning.choice import long_enough, roughers
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.holes import SPOT, plan_bore
-from mechwright_cam.planning.rates import Rates, rates, runs_too_fast
+from mechwright_cam.operations.bending import MOST, deflection
+from mechwright_cam.operations.centre_lines import grooves
+from mechwright_cam.operations.choice import long_enough, roughers
+from mechwright_cam.operations.details import plan_detail
+from mechwright_cam.operations.holes import SPOT, plan_bore
+from mechwright_cam.operations.rates import Rates, rates, runs_too_fast
+from mechwright_cam.operations.zone import Zone
+from mechwright_cam.plane.offsets import ROUGH, grow
+from mechwright_cam.plane.reach import remainder
 from mechwright_cam.planning.selection import choose_tools
-from mechwright_cam.planning.zone import Zone
 from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
-from mechwright_cam.reach import remainder
-from mechwright_cam.toolpath.offsets import ROUGH, grow
+from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.cutter import SAME_RADIUS
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""

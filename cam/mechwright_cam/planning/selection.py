@@ -8,15 +8,10 @@ from functools import partial
 
 import shapely
 
+from mechwright.contracts.part import Bore, OpenProfile, Part, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
-from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
-from mechwright_cam.job import Job, make_job, wear_margin
-from mechwright_cam.library import Library
-from mechwright_cam.limits import height_of
-from mechwright_cam.nest import Nest, outlines_of
-from mechwright_cam.planning.centre_lines import groove_mill, grooves
-from mechwright_cam.planning.choice import (
+from mechwright_cam.operations.centre_lines import groove_mill, grooves
+from mechwright_cam.operations.choice import (
     ROOMY,
     entry_place,
     finishing_choice,
@@ -24,13 +19,15 @@ from mechwright_cam.planning.choice import (
     same_reach,
     usable_mills,
 )
-from mechwright_cam.planning.compensation import has_entries
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.entry import enters
-from mechwright_cam.planning.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
-from mechwright_cam.planning.rates import runs_too_fast
-from mechwright_cam.planning.recess import recess
-from mechwright_cam.planning.slots import fills_a_slot
+from mechwright_cam.operations.compensation import has_entries
+from mechwright_cam.operations.details import plan_detail
+from mechwright_cam.operations.entry import enters
+from mechwright_cam.operations.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
+from mechwright_cam.operations.rates import runs_too_fast
+from mechwright_cam.operations.recess import recess
+from mechwright_cam.operations.slots import fills_a_slot
+from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.plane.reach import closing, leaves_at_most, roughly_closed_area
 from mechwright_cam.planning.zones import (
     bores,
     bottom_of,
@@ -40,9 +37,14 @@ from mechwright_cam.planning.zones import (
     roughing_mills,
     through,
 )
-from mechwright_cam.plate import plate_box
-from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
-from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.setup.job import Job, make_job, wear_margin
+from mechwright_cam.setup.limits import height_of
+from mechwright_cam.setup.nest import Nest, outlines_of
+from mechwright_cam.setup.plate import plate_box
+from mechwright_cam.shop.holding import Stock
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 Fits = Callable[[Tool], bool]
 """Whether a mill may be used."""

@@ -6,26 +6,26 @@ from functools import partial
 
 import shapely
 
-from mechwright.cutter import cutter
 from mechwright.errors import ToolError
-from mechwright.program import Move
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
-from mechwright_cam.job import Job
-from mechwright_cam.planning.cavity import write_cavities
-from mechwright_cam.planning.choice import entry_place, roughers
-from mechwright_cam.planning.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
-from mechwright_cam.planning.compensation import CompensatedFinishing, check_compensated
-from mechwright_cam.planning.congruent import Copies
-from mechwright_cam.planning.finishing import Finishing, finish_depth
-from mechwright_cam.planning.floors import layers, over_openings
-from mechwright_cam.planning.grooves import groove
-from mechwright_cam.planning.pen import Pen
-from mechwright_cam.planning.rates import rates
-from mechwright_cam.planning.zone import CUSP, HEAVY, Zone
-from mechwright_cam.tabs import Tab
-from mechwright_cam.threads import together
-from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, opened, polygons
+from mechwright_cam.operations.cavity import write_cavities
+from mechwright_cam.operations.choice import entry_place, roughers
+from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
+from mechwright_cam.operations.compensation import CompensatedFinishing, check_compensated
+from mechwright_cam.operations.congruent import Copies
+from mechwright_cam.operations.finishing import Finishing, finish_depth
+from mechwright_cam.operations.floors import layers, over_openings
+from mechwright_cam.operations.grooves import groove
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.rates import rates
+from mechwright_cam.operations.zone import CUSP, HEAVY, Zone
+from mechwright_cam.plane.offsets import ROUGH, areas, grow, opened, polygons
+from mechwright_cam.plane.threads import together
+from mechwright_cam.program.moves import Move
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.tabs import Tab
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
 
 Cut = tuple[str, Tool, tuple[Move, ...]]
 """Name, cutter and moves of an operation."""
@@ -128,7 +128,7 @@ class Walls:
 
     def _clearing_mill(self, zone: Zone, mills: list[Tool]) -> Tool:
         """The largest mill that has room to turn, else the one that finishes."""
-        from mechwright_cam.planning.adaptive import HELIX
+        from mechwright_cam.operations.adaptive import HELIX
 
         widest = max(entry_place(part)[1] for part in polygons(zone.clear))
         large = [m for m in mills if m.radius >= zone.finisher.radius or zone.finisher not in mills]

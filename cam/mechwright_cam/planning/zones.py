@@ -7,14 +7,10 @@ from functools import partial
 import numpy as np
 import shapely
 
-from mechwright.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, ToolError
-from mechwright.part import Bore, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
-from mechwright_cam.job import Job
-from mechwright_cam.nest import Nest
-from mechwright_cam.planning.choice import (
+from mechwright_cam.operations.choice import (
     finishing_choice,
     last_mills,
     radius_in,
@@ -22,22 +18,18 @@ from mechwright_cam.planning.choice import (
     usable_mills,
     with_sharper,
 )
-from mechwright_cam.planning.entry import lead_length
-from mechwright_cam.planning.recess import Layer, Recess, reached_share, recess, walls_of
-from mechwright_cam.planning.slots import outside_mills
-from mechwright_cam.planning.zone import HEAVY, NOISE, SLACK, SNUG, Zone
-from mechwright_cam.reach import roughly_swollen
-from mechwright_cam.toolpath.offsets import (
-    ROUGH,
-    areas,
-    filled,
-    grow,
-    polygons,
-    simplified,
-    thinned,
-)
-from mechwright_cam.toolpath.path import DECIMALS
-from mechwright_cam.vice import CLAMP_GAP, beside, can_be_clamped
+from mechwright_cam.operations.entry import lead_length
+from mechwright_cam.operations.recess import Layer, Recess, reached_share, recess, walls_of
+from mechwright_cam.operations.slots import outside_mills
+from mechwright_cam.operations.zone import HEAVY, NOISE, SLACK, SNUG, Zone
+from mechwright_cam.plane.offsets import ROUGH, areas, filled, grow, polygons, simplified, thinned
+from mechwright_cam.plane.path import DECIMALS
+from mechwright_cam.plane.reach import roughly_swollen
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.setup.vice import CLAMP_GAP, beside, can_be_clamped
+from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
+from mechwright_cam.shop.tool import Tool
 
 
 def through(job: Job, depth: float) -> bool:
@@ -137,7 +129,7 @@ def _make_enter(
 
     ``choose`` gives those that finish of some. The finest is not asked: if it has no room, planning says so.
     """
-    from mechwright_cam.planning.compensation import has_entries
+    from mechwright_cam.operations.compensation import has_entries
 
     while finer := [mill for mill in mills if mill.diameter < zones[0].finisher.diameter]:
         if all(has_entries(job, zone) for zone in zones):

@@ -6,17 +6,17 @@ from typing import TypeVar
 
 import shapely
 
-from mechwright.motion import Array
-from mechwright.part import Bore, Feature, Pocket, Profile
-from mechwright.sections import plan_view
+from mechwright.arrays import Array
+from mechwright.contracts.part import Bore, Feature, Pocket, Profile
+from mechwright.contracts.sections import plan_view
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS
-from mechwright_cam.job import Job
+from mechwright_cam.plane.offsets import filled
+from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, quarter
-from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.offsets import filled
-from mechwright_cam.turned import Frame
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.turned import Frame
+from mechwright_cam.shop.tool import MILLS
 
 SKIN = 2 * TOLERANCES.flatten
 """A boundary within this of the part is a wall, or its rim, mm: what chords of both may be off together."""

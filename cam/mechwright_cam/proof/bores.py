@@ -5,12 +5,12 @@ import math
 import numpy as np
 import shapely
 
-from mechwright.part import Bore
+from mechwright.contracts.part import Bore
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.sweep import ROUNDING, Sweeps
+from mechwright_cam.setup.job import Job
 
 AROUND = 64
 """So many places on the wall of a bore are looked at: it is a circle, and so is the path that makes it."""

@@ -8,15 +8,15 @@ from collections.abc import Mapping
 
 import shapely
 
-from mechwright.details import Chamfer
-from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind
-from mechwright_cam.job import Job
+from mechwright.contracts.details import Chamfer
+from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind
 from mechwright_cam.proof.leftover import TAB_SLACK
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, swept
 from mechwright_cam.proof.prove import read
 from mechwright_cam.proof.sweep import ROUNDING, Sweeps
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
 
 SWEPT = 0.01
 """Accuracy of what a setup hands on to the next, mm: the leftover limit; never more than was cut."""

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from mechwright.errors import ProgramError
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import heights
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import Paths, Pieces
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
 
 NAME = "compensation"
 SPACED = 0.05

@@ -8,13 +8,13 @@ import math
 
 import numpy as np
 
-from mechwright.cutter import cutter
-from mechwright.materials import material
-from mechwright.tooling import MILLS, CuttingData, Tool, ToolKind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.contracts.materials import material
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, in_work
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 
 BEYOND = 1.5
 """Speeds, depths, and feeds of what is no mill, may be so many times the library's: tables of makers differ

@@ -12,15 +12,15 @@ from itertools import pairwise
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.tooling import MILLS, CuttingData, Tool
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data, meets_middle, middle
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool
 
 LASTING = 2.0
 """A cut that is too deep for so many diameters on end is one: in a narrow corner it is so for less."""

@@ -7,12 +7,10 @@ reach the edge less the chamfer, and at the chamfer's foot the edge itself. In b
 import numpy as np
 import shapely
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.bands import Band
 from mechwright_cam.proof.fillets import Fillet
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
@@ -21,6 +19,8 @@ from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.proof.wall import Wall
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
 
 OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
 """Which kind of tool may cut which detail."""

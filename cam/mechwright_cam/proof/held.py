@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.motion_rules import bodies
 from mechwright_cam.proof.paths import NEAR, Pieces
 from mechwright_cam.proof.plane import Shape

@@ -19,11 +19,10 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright.part import Bore, Feature, Profile
+from mechwright.arrays import Array
+from mechwright.contracts.part import Bore, Feature, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, PathSettings
-from mechwright_cam.job import Job
+from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import Band, asked, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets
@@ -33,7 +32,9 @@ from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
 from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.settings import PathSettings
+from mechwright_cam.shop.tool import MILLS
 
 VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.posts.text import number as written
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.writing.text import number as written
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work, moving

@@ -17,11 +17,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.cutter import Cutter, cutter
-from mechwright.motion import Array
-from mechwright.tooling import Tool, ToolKind
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.shop.cutter import Cutter, cutter
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 CHORD = 0.0002
 """Chord error of arcs, mm: a twenty-fifth of the gouge limit."""

@@ -9,10 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
-from mechwright_cam.buffers import buffered
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.threads import prepared
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.plane.buffers import buffered
+from mechwright_cam.plane.threads import prepared
 
 ROUND = 1e-4
 """How far a buffer's round corners may lie inside the true arc, mm: a hundredth of the leftover limit."""

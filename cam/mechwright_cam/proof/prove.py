@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
+from mechwright.arrays import Array
+from mechwright.contracts.part import Profile
 from mechwright.errors import ProgramError
-from mechwright.motion import Array
-from mechwright.part import Profile
-from mechwright.program import OPERATION_COMMENT
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, interpret, joined
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind, Run, interpret, joined
+from mechwright_cam.plane.threads import prepared
+from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
 from mechwright_cam.proof.compensation import follows, planned_offsets
@@ -31,8 +31,8 @@ from mechwright_cam.proof.rules import RULES
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import ROUNDING, Sweeps
-from mechwright_cam.threads import prepared
-from mechwright_cam.timing import step_times
+from mechwright_cam.proof.timing import step_times
+from mechwright_cam.setup.job import Job
 
 SWITCHED = re.compile(r"^\s*/", re.MULTILINE)
 """A line that a switch at the machine skips."""

@@ -7,11 +7,11 @@ covers stands above its tip.
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter import Kind
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.tabs import Tab
+from mechwright_cam.setup.tabs import Tab
 
 SPACING = 0.005
 """Distance of the places, mm: between two of them a slope of 45 degrees rises by no more than the gouge

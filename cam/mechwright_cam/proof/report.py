@@ -80,7 +80,7 @@ class Proof:
     rapids_in_stock
         Number of rapid moves that meet material.
     time_estimate_s
-        See :mod:`mechwright_cam.timing`.
+        See :mod:`mechwright_cam.proof.timing`.
     cutting_length_mm
         Length of all feed moves.
     operations

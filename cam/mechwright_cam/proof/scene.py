@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.tooling import Tool
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, State
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind, Run, State
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
 
 
 @dataclass(frozen=True)

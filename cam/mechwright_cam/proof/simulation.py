@@ -19,16 +19,16 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.cutter import approach, cutter
-from mechwright.motion import Array
-from mechwright.tooling import Tool
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.cutter import approach, cutter
+from mechwright_cam.shop.tool import Tool
 
 CELLS = 1_000_000
 """Cells of the grid: on a plate of a hand's size they are a tenth of a millimetre wide."""

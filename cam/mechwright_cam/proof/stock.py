@@ -5,14 +5,14 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
 from mechwright_cam.proof.plane import Shape, grow
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""

@@ -6,9 +6,9 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces

@@ -18,19 +18,19 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS
-from mechwright_cam.interpreter import Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import Run
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import Band, asked, bands
 from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import MILLS
 
 SAMPLES = 6000
 """Places along all walls of one height, at most."""

@@ -36,7 +36,7 @@ def _unexpected(error: Exception) -> str:
 
 def _owner(error: Exception) -> str:
     """The plugin whose code was running, innermost first; the program itself if it was none."""
-    from mechwright.host import host
+    from mechwright.plugins.host import host
 
     found = host()
     owners = {

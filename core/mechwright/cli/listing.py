@@ -5,12 +5,12 @@ from pathlib import Path
 
 import typer
 
-from mechwright.design import unknown
-from mechwright.design_text import requirement_template, template
+from mechwright.design.design import unknown
+from mechwright.design.requirement import require_synthesis
+from mechwright.design.text import requirement_template, template
 from mechwright.errors import DesignError
-from mechwright.files import write_new
-from mechwright.host import Host, host
-from mechwright.requirement import require_synthesis
+from mechwright.output.folder import write_new
+from mechwright.plugins.host import Host, host
 
 
 def warn_broken(found: Host) -> None:

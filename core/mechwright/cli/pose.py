@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from mechwright.contracts.motion import Motion
+from mechwright.design.units import convert
 from mechwright.errors import DesignError
-from mechwright.motion import Motion
-from mechwright.units import convert
 
 SAMPLES = 3601
 """Samples of the motion among which the nearest is taken: every tenth of a degree of one turn."""

@@ -6,8 +6,8 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from mechwright import __version__
-from mechwright.family import Family
-from mechwright.host import Host
+from mechwright.contracts.family import Family
+from mechwright.plugins.host import Host
 
 
 def facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:

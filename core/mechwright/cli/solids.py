@@ -7,14 +7,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from mechwright.cli.beside import Beside, cores
-from mechwright.design import Design
-from mechwright.files import Output
-from mechwright.findings import Finding, errors
-from mechwright.output import Exporter
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.finding import Finding, errors
+from mechwright.design.design import Design
+from mechwright.output.folder import Output
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
 
 Made = tuple[list[Finding], dict[str, bytes]]
 """What collides, and the files, name to content."""
@@ -71,14 +71,14 @@ class Work:
 
 def collisions(design: Design, *, solids: bool, parts: "Sequence[Part] | None" = None) -> list[Finding]:
     """Which bodies stand in each other while the mechanism moves; ``solids`` imports the CAD kernel."""
-    from mechwright_cam.interference import interference_findings
+    from mechwright_cad.interference import interference_findings
 
     return interference_findings(design.family, design.params, solids=solids, parts=parts)
 
 
 def motion_page(design: Design, *, solids: bool, parts: "Sequence[Part] | None" = None) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
-    from mechwright_cam.animation import MOTION, page_of
+    from mechwright_cad.animation import MOTION, page_of
 
     page = page_of(design.name, design.family, design.params, solids=solids, parts=parts)
     return {MOTION: page.encode()}

@@ -8,14 +8,14 @@ import typer
 from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import fraction
 from mechwright.cli.provenance import facts
-from mechwright.design import read_text
-from mechwright.design_text import design_text
-from mechwright.files import Output, check_folder, write_folder
-from mechwright.findings import Severity, errors
-from mechwright.host import host
-from mechwright.part import check_name
-from mechwright.requirement import load_requirement
-from mechwright.synthesis import Candidate
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.part import check_name
+from mechwright.contracts.synthesis import Candidate
+from mechwright.design.design import read_text
+from mechwright.design.requirement import load_requirement
+from mechwright.design.text import design_text
+from mechwright.output.folder import Output, check_folder, write_folder
+from mechwright.plugins.host import host
 
 FIGURES = 3
 """Figures of a candidate on its line of the listing; synthesis.json has all of them."""

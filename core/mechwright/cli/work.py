@@ -12,15 +12,15 @@ from mechwright.cli.listing import warn_broken
 from mechwright.cli.progress import progress
 from mechwright.cli.provenance import facts
 from mechwright.cli.solids import SolidWork, collisions, motion_page
-from mechwright.design import SIZE_LIMIT, Design, load, machine_file, read_text
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.design.design import SIZE_LIMIT, Design, load, machine_file, read_text
 from mechwright.errors import DesignError, MechwrightError, PluginError, ProgramError
-from mechwright.files import Output, check_folder, write_folder
-from mechwright.findings import Finding, Severity, errors
-from mechwright.host import Host, host
-from mechwright.output import Exporter
+from mechwright.output.folder import Output, check_folder, write_folder
+from mechwright.plugins.host import Host, host
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
+    from mechwright.contracts.motion import Motion
 
 PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
 """Bytes: surfacing programs are long, but not longer than this."""
@@ -108,7 +108,7 @@ def write(
         if work is not None:
             work.begin(design, *_pose(design, at))
         if command in {"solve", "build"}:
-            from mechwright.motion_files import motion_csv, summary_json
+            from mechwright.output.motion_files import motion_csv, summary_json
 
             step("motion")
             motion = design.family.solve(design.params, samples)
@@ -210,7 +210,7 @@ def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, 
     if errors(findings):
         _refuse(findings, path)
     parts = pipeline.cut_parts(design)
-    from mechwright_cam.setups import UNDERSIDE
+    from mechwright_cam.planning.setups import UNDERSIDE
 
     name = part_name if part_name in parts else part_name.removesuffix(UNDERSIDE)
     if name not in parts:

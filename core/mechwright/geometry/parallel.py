@@ -16,10 +16,10 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment, bernstein
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 FITTED = TOLERANCES.closure

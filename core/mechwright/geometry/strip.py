@@ -15,12 +15,12 @@ from typing import Literal
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.fit import fit_curves
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment
 from mechwright.geometry.trim import trimmed
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 STEPS = 20

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Segment
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:

@@ -23,14 +23,14 @@ from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from mechwright.contracts.family import HOOK_API, Family
+from mechwright.contracts.finding import Finding, errors
+from mechwright.contracts.materials import material
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
 from mechwright.errors import MechwrightError, PluginError
-from mechwright.family import HOOK_API, Family
-from mechwright.findings import Finding, errors
-from mechwright.host import host
-from mechwright.materials import material
-from mechwright.motion import Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
+from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
 from mechwright.testing.imports import heavy_imports

@@ -5,13 +5,13 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from mechwright.family import Family
-from mechwright.findings import Finding
-from mechwright.motion import Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
-from mechwright.synthesis import Progress, Synthesis
-from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
+from mechwright.contracts.synthesis import Progress, Synthesis
+from mechwright.design.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
 

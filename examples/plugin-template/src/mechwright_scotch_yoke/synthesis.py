@@ -2,9 +2,9 @@
 
 import math
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate, Synthesis
+from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.motion import Scalar
+from mechwright.contracts.synthesis import Candidate, Synthesis
 from mechwright_scotch_yoke import checks
 from mechwright_scotch_yoke.family import ScotchYokeParams, StrokeRequirement
 

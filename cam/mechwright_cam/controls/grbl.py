@@ -1,0 +1,110 @@
+"""The post for Grbl 1.1."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from mechwright.contracts.finding import Finding, Severity
+from mechwright_cam.controls.writing.base import GcodePost
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+
+class GrblPost(GcodePost):
+    """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
+
+    Tools are changed by hand, at a stop (M0) or between files. A tool whose length is known gets it by
+    G43.1; where one is not, every tool is touched off on the stock anew.
+    """
+
+    name = "grbl"
+    title = "Grbl 1.1"
+    dialect = "grbl"
+    decimals = 3
+    forbidden = "%?!~$;"  # Grbl takes ? ! ~ out of the stream wherever they stand: ! is a feed hold
+    highest_tool = 255
+    compensates = False
+    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+
+    def files(self, program: Program) -> dict[str, str]:
+        """The program, or a file for each change of tool."""
+        if program.posting.tool_change == "pause":
+            return super().files(program)
+        runs = [list(run) for _, run in groupby(program.sections, key=lambda section: section.tool.number)]
+        files = {}
+        for place, run in enumerate(runs, start=1):
+            note = f"file {place} of {len(runs)}, {self._load(run[0])}"
+            name = f"{program.name}-{place}-t{run[0].tool.number}"
+            one = replace(program, name=name, sections=tuple(run), notes=(*program.notes, note))
+            files[name] = self.write(one)
+        return files
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """Also: the retract must stay off the homing switch."""
+        found = list(super().check(settings))
+        if settings.machine.retract_z >= 0:
+            found.append(
+                Finding(
+                    "cam.retract",
+                    Severity.WARNING,
+                    "cam.machine.retract_z",
+                    "machine Z0 is where the homing switch is",
+                    settings.machine.retract_z,
+                    0.0,
+                    "mm",
+                    "retract below it, by more than the pull-off ($27), such as -2",
+                )
+            )
+        return found
+
+    def blending(self, exact: bool) -> list[str]:
+        """Grbl always follows the path exactly; it knows G61 only."""
+        return ["G61"] if exact else []
+
+    def retract(self, out: Writer) -> None:
+        """Go to the upper end of travel, in machine coordinates."""
+        out.line("G53", "G0", "Z" + out.length(out.program.machine.retract_z))
+        out.motion = "G0"
+        out.lost_height()
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """Name the tool, and wait for it unless it is in a file of its own, or in the spindle."""
+        if section.tool.number == out.tool:
+            return
+        out.tool = section.tool.number
+        out.line(f"T{section.tool.number}")
+        if out.program.posting.tool_change == "pause":
+            self.message(out, self._load(section))
+            out.line("M0")
+            self.retract(out)  # whoever has touched off has left the tool low
+
+    def _load(self, section: ToolSection) -> str:
+        tool = section.tool
+        touch = "" if tool.length is not None else ", touch it off on the stock as Z0"
+        return f"load T{tool.number} {tool.name}{touch}"
+
+    def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:
+        """Write the length itself, or rely on the tool having been touched off."""
+        if section.tool.length is None:
+            out.line("G49")
+        else:
+            out.line("G43.1", "Z" + out.length(section.tool.length))
+        out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """There are no cycles."""
+        self.drill_in_moves(out, hole)
+
+    def tool_words(self, tool: Tool) -> list[str]:  # noqa: ARG002 - there is no table to set
+        """Lengths stand in the program."""
+        return []
+
+    def tool_note(self, tool: Tool) -> str:
+        """Without an H number."""
+        return super().tool_note(tool).replace(f" H{tool.number} ", " ", 1)
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:  # noqa: ARG002
+        """There is none."""
+        return "", ""

@@ -1,0 +1,74 @@
+"""The post for Mach3."""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+
+from mechwright_cam.controls.writing.base import GcodePost
+from mechwright_cam.controls.writing.offsets import d_offset
+from mechwright_cam.controls.writing.text import number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
+
+
+class Mach3Post(GcodePost):
+    """Mach3: arcs by G91.1, G53 retracts, a tool change that runs the machine's own macro."""
+
+    name = "mach3"
+    title = "Mach3"
+    dialect = "mach3"
+    forbidden = "%;"
+    highest_tool = 254
+    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+
+    def head(self, out: Writer) -> None:
+        """Tell the setting that the program relies on, where it does."""
+        super().head(out)
+        if _waits(out.program):
+            self.comment(out, "dwells are in seconds: G04 dwell in ms must be off")
+
+    def retract(self, out: Writer) -> None:
+        """Go to the upper end of travel, in machine coordinates."""
+        out.line("G53", "G0", "Z" + out.length(out.program.machine.retract_z))
+        out.motion = "G0"
+        out.lost_height()
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """Change the tool."""
+        out.line(f"T{section.tool.number} M6")
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """Drill with a cycle."""
+        self.cycle(out, hole)
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
+        return _table({tool.number: (tool, "", tool.diameter) for tool in tools})
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same with the diameters that D takes: an own row where D has a number of its own."""
+        rows = {tool.number: (tool, "", tool.diameter) for tool in tools}
+        for tool in tools:
+            if tool.kind is ToolKind.END_MILL:
+                offset = d_offset(
+                    tool, self.dialect, settings.post, settings.compensation, settings.wear_limit
+                )
+                rows[offset.number] = tool, f", D of T{tool.number}", offset.planned
+        return _table(rows)
+
+
+def _table(rows: Mapping[int, tuple[Tool, str, float]]) -> tuple[str, str]:
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["tool", "description", "diameter", "height"])
+    for place, (tool, note, diameter) in sorted(rows.items()):
+        height = "" if tool.length is None else number(tool.length)
+        table.writerow([place, f"{tool.name} {tool.kind}{note}", number(diameter), height])
+    return "mach3-tools.csv", text.getvalue()
+
+
+def _waits(program: Program) -> bool:
+    moves = (m for section in program.sections for operation in section.operations for m in operation.moves)
+    return program.machine.spindle_delay > 0 or any(isinstance(m, Drill) and m.dwell > 0 for m in moves)
