@@ -11,6 +11,7 @@ import mechwright.plugins.host as hosting
 from mechwright.design.design import load
 from mechwright.design.requirement import load_requirement
 from mechwright.plugins.host import Registered
+from mechwright_cam.shop.library import BUILT_IN
 
 sys.path.insert(0, str(Path(__file__).parent / "core"))
 from disc_family import Disc
@@ -132,7 +133,7 @@ def test_a_new_requirement_file_can_be_met(command_line: Run, tmp_path: Path) ->
 
 
 def test_a_tool_library_goes_with_the_designs(command_line: Run, tmp_path: Path) -> None:
-    library = Path(hosting.__file__).parents[2] / "cam" / "mechwright_cam" / "shop" / "tools.toml"
+    library = BUILT_IN
     (tmp_path / "shop").mkdir()
     (tmp_path / "shop" / "own.toml").write_text(library.read_text())
     path = requirement(tmp_path, 'family = "disc"\n[cam]\ntool_library = "shop/own.toml"\n')
