@@ -51,7 +51,7 @@ from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_elliptic_gears.gear import outline_of

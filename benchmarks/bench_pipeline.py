@@ -15,7 +15,7 @@ from mechwright.design.design import load
 from mechwright.plugins.host import host
 from mechwright_cam.pipeline import machine
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 

@@ -23,15 +23,17 @@ from mechwright_cam.pages.setup_sheet.walls import walls_view
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged
-from mechwright_cam.planning.setups import carried, lay_out_setups, sides
+from mechwright_cam.planning.setups import carried, lay_out_setups
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Proof, cut_away, prove, read
 from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.proof.walls import wall_deviation
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.setup.measured import check_measured
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool

@@ -223,7 +223,7 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
 
 
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
-    from mechwright_four_bar.motion import peaks_of, speed_of
+    from mechwright_four_bar.peaks import peaks_of, speed_of
 
     peaks = peaks_of(params, bar_of(params), speed_of(params))
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}

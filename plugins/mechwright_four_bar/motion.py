@@ -4,24 +4,16 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
 from mechwright.contracts.finding import errors
 from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
-from mechwright.mechanics.planar import BodyMotion, PointMotion, acceleration_pole
+from mechwright.mechanics.planar import PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.peaks import peaks_of, speed_of
 from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
-
-PEAK_SAMPLES = 1441
-"""Positions at which peaks are sought: four a degree."""
-
-
-def speed_of(params: FourBarParams) -> float:
-    """Angular velocity of the crank, rad/s, positive counter-clockwise."""
-    return (1.0 if params.direction == "ccw" else -1.0) * params.speed * math.tau / 60
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
@@ -122,27 +114,4 @@ def _balance_figures(balance: Balance) -> dict[str, Scalar]:
         f"balance_{name}_{axis}": Scalar(value, "kg*mm")
         for name, moment in (("crank", balance.crank), ("follower", balance.follower))
         for axis, value in (("x", moment.real), ("y", moment.imag))
-    }
-
-
-def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
-    """Largest sizes over a turn of rates, joint forces and drive torque."""
-    phi = np.linspace(0, math.tau, PEAK_SAMPLES)
-    loop = close(bar, phi)
-    bodies: dict[str, BodyMotion] = loop.bodies(bar, omega)
-    carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
-    turning = bodies["follower"].turning
-
-    def most(values: Array, unit: str) -> Scalar:
-        return Scalar(float(np.abs(values).max()), unit)
-
-    return {
-        "omega_b": most(turning.omega, "rad/s"),
-        "alpha_b": most(turning.alpha, "rad/s^2"),
-        "drive_torque": most(carried.drive * MICRO, "N*m"),
-        "shaking_force": most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
-        **{
-            f"force_{joint}": most(np.asarray(np.abs(force)) * MILLI, "N")
-            for joint, force in carried.joints.items()
-        },
     }

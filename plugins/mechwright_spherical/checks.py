@@ -17,7 +17,7 @@ from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.parts import second_size
+from mechwright_spherical.places import second_size
 from mechwright_spherical.shells import shells_of
 
 DEAD_CENTRE = 1.0

@@ -13,7 +13,7 @@ from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.parts import gear_span, link_arcs, second_size
+from mechwright_spherical.places import gear_span, link_arcs, second_size
 from mechwright_spherical.shells import Shells, shells_of
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
 from mechwright_spherical.vectors import arc, rotate

@@ -12,7 +12,7 @@ from planning_parts import LIBRARY, bore, part
 from mechwright.geometry import Loop
 from mechwright.plugins.host import host
 from mechwright_cam.pipeline import Machined, machine
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
 FOLDER = Path(__file__).parents[1] / "golden" / "compensation"

@@ -6,7 +6,7 @@ import numpy as np
 
 from mechwright.contracts.part import Part
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
 

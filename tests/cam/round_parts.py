@@ -11,7 +11,8 @@ from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import Proof, prove
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.settings import CamSettings
 

@@ -5,7 +5,8 @@ import math
 from mechwright.contracts.part import Bore, Part, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Move, Operation, Program, Rapid, ToolSection
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.holding import Hold
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind

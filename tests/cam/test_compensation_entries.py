@@ -13,7 +13,7 @@ from mechwright.geometry import Loop, circle
 from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
 

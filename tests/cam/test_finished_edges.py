@@ -22,7 +22,7 @@ from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Placed, make_nest
 from mechwright_cam.shop.settings import CamSettings
 

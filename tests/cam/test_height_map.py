@@ -13,7 +13,7 @@ from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.geometry import Loop
 from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
 

@@ -14,7 +14,7 @@ from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.pipeline import machine as build
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.shop.machine import MACHINES, Machine
 from mechwright_cam.shop.settings import CamSettings

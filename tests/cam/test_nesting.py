@@ -26,7 +26,7 @@ from mechwright_cam import pipeline
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
 from mechwright_cam.shop.settings import CamSettings
 

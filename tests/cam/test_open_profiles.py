@@ -21,10 +21,11 @@ from mechwright.geometry import Arc, BSpline, Line
 from mechwright_cad.exporters import dxf
 from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.planning.setups import lay_out_setups, sides
+from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import moved_feature
+from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)

@@ -21,7 +21,7 @@ from mechwright_cam.proof import prove, read
 from mechwright_cam.proof.details import deepest_in_fillet
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import Paths
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
 

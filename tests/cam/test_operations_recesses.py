@@ -24,7 +24,7 @@ from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import check_tools, choose_tools, plan
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)

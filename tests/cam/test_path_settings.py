@@ -25,9 +25,10 @@ from mechwright_cam.pipeline import dialect_of
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.zones import bores, inner_zones
+from mechwright_cam.planning.zones import inner_zones
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.depths import bores
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings, PathSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

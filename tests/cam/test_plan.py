@@ -8,7 +8,7 @@ from mechwright.geometry import Loop
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Pause, Rapid
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 
 TOOLS = ("spot-6", "drill-5", "mill-10", "mill-6")
 GEARED = lobes(9, 18.0, 4.0, 900, 1.5)

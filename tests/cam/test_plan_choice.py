@@ -13,7 +13,7 @@ from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.geometry import Loop
 from mechwright_cam.plane.reach import closing, remainder, unreachable
 from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
 

@@ -29,7 +29,8 @@ from mechwright_cam.program.moves import (
 )
 from mechwright_cam.proof import Proof, prove
 from mechwright_cam.proof.plane import closing
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.holding import Hold
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind

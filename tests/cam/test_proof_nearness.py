@@ -22,7 +22,7 @@ from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
 

@@ -19,7 +19,8 @@ from mechwright_cam.proof.plane import Boundary, grow, swept
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.timing import step_times
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.holding import Hold
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings

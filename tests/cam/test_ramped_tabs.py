@@ -21,7 +21,7 @@ from mechwright_cam.operations.over_tabs import LIFT
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import plan
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
 RAMPED = {"tab_shape": "ramped"}

@@ -16,7 +16,7 @@ from mechwright_cam.operations.clearing import stays_inside
 from mechwright_cam.plane.leads import best_start
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
 

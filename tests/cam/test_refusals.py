@@ -14,7 +14,7 @@ from mechwright.geometry.lettering import lettering
 from mechwright_cam.controls import LinuxCncPost
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import prove
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
 RIM = rounded_box(60, 40, 4)

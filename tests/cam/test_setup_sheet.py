@@ -16,7 +16,7 @@ from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 

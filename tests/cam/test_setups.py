@@ -24,9 +24,10 @@ from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.setups import lay_out_setups, sides, turned_shape
+from mechwright_cam.planning.setups import lay_out_setups, turned_shape
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.bands import inside_of
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.settings import CamSettings
 
 THICKNESS = 8.0

@@ -20,7 +20,7 @@ from mechwright_cam.pipeline import machine
 from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.program.moves import FeedArc
-from mechwright_cam.setup.job import make_job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of

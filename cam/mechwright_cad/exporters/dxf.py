@@ -63,15 +63,12 @@ def part(part: Part, curves: Curves = "spline") -> bytes:
     GeometryError
         The part has no outline, or a segment cannot be had in the wanted curves.
     """
-    from mechwright_cam.setup.nest import Nest, outlines_of
-
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
     fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
     said = [detail_note(detail, part.thickness) for detail in part.details]
     text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits, *said]
-    axes = [(one.x, one.y) for one in part.placed] if isinstance(part, Nest) else [(0.0, 0.0)]
-    return drawing(outlines_of(part), "\n".join(text), curves, blind(part), axes, part.details)
+    return drawing(part.outlines, "\n".join(text), curves, blind(part), part.axes, part.details)
 
 
 def _note(feature: Feature) -> str:

@@ -23,10 +23,10 @@ from mechwright.contracts.part import Feature, Part
 from mechwright.contracts.sections import blind
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.solids.broken_edges import Edge, body
 from mechwright_cad.solids.recess_tools import edges_of, round_floored, taken
-from mechwright_cam.plane.threads import prepared
 
 SAME_LOOP = 4 * TOLERANCES.flatten
 """A chamfer follows an edge if the two are no further apart than this, mm, on the mean."""

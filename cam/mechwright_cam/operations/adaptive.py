@@ -30,13 +30,13 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.cavity import Cavity, Pass
 from mechwright_cam.operations.choice import entry_place
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import ROUGH, densified, grow, polygons, simplified
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.shop.tool import Tool
 
 BENDS = (2.2, 1.5, 1.2)

@@ -12,7 +12,7 @@ from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import FIT, densified
 from mechwright_cam.plane.path import Path
-from mechwright_cam.planning.zones import bottom_of
+from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
 

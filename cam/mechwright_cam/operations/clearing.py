@@ -16,6 +16,7 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.pen import Pen, levels
@@ -36,7 +37,6 @@ from mechwright_cam.plane.offsets import (
     without_slits,
 )
 from mechwright_cam.plane.path import Path
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.errors import DesignError, ToolError
+from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.clearing import CLEAR
@@ -33,7 +34,6 @@ from mechwright_cam.plane.leads import middle_of_longest
 from mechwright_cam.plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.plane.path import Path, rounded
 from mechwright_cam.plane.places import STEP, candidates, centres, heading_at
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.setup.job import LEAST_TURN, Job
 from mechwright_cam.shop.tool import Tool
 

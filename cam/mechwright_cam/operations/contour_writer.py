@@ -7,11 +7,10 @@ from mechwright.contracts.part import Bore
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.entry import bore_lead, offsets_of
 from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.operations.holes import CIRCLE_BIAS
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.plane.path import Path, arc, circle, line, rounded
-from mechwright_cam.planning.zones import bottom_of
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, line, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Move
+from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
 
 

@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.wedges import into_wedges
@@ -15,7 +16,6 @@ from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.plane.path import Path
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 

@@ -16,22 +16,23 @@ from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.pen import APPROACH, Pen, levels
 from mechwright_cam.operations.rates import rates
-from mechwright_cam.plane.path import Path, arc, circle, rounded
-from mechwright_cam.planning.zones import bottom_of, through
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, rounded
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Move, Rapid
+from mechwright_cam.setup.depths import bottom_of, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 SPOT = 0.6
 """Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""
+
 SNUG = 0.9
 """A mill up to this share still turns a helix; beyond, it would be a drill."""
+
 CORELESS = 0.8
 """First helix in cutter radii: below 1, so that no core stays."""
+
 ON_SIZE = 0.005
 """A drill this near to a hole's diameter makes the hole to size, mm."""
-CIRCLE_BIAS = TOLERANCES.flatten + 1e-4
-"""A bore's path is an exact circle: it keeps off by the chords of the outline and by rounding, mm."""
 
 
 def point_length(drill: Tool) -> float:

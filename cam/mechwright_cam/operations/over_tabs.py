@@ -7,7 +7,7 @@ import shapely
 
 from mechwright.geometry.segments import Point
 from mechwright_cam.plane.path import DECIMALS, Path
-from mechwright_cam.setup.tabs import Tab, least_z
+from mechwright_cam.setup.holding import Tab, least_z
 
 HEIGHT = 0.002
 """How far a straight slope of the path may be off the tab's, mm: less than half of what the proof lets into

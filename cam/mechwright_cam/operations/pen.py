@@ -10,7 +10,7 @@ from mechwright_cam.operations.over_tabs import lifted_height, over_tabs
 from mechwright_cam.operations.rates import Rates
 from mechwright_cam.plane.path import Path, polyline, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Move, Rapid
-from mechwright_cam.setup.tabs import Tab
+from mechwright_cam.setup.holding import Tab
 from mechwright_cam.shop.tool import Tool
 
 APPROACH = 1.0

@@ -19,10 +19,10 @@ import shapely
 from mechwright.contracts import sections
 from mechwright.contracts.part import Bore, Feature, Pocket, Profile
 from mechwright.errors import DesignError
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons
 from mechwright_cam.plane.reach import opening_keep
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.setup.job import Job
 
 LEVEL = 1e-6

@@ -23,7 +23,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import radius_in
 from mechwright_cam.operations.recess import Layer
 from mechwright_cam.plane.offsets import CHORD, ROUGH, grow, simplified, sound, thinned
-from mechwright_cam.setup.tabs import Tab
+from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.vice import RUN_OUT
 from mechwright_cam.shop.settings import PathSettings
 from mechwright_cam.shop.tool import Tool

@@ -20,6 +20,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
 
 DECIMALS = 4
 """Digits of a coordinate in mm. Paths are rounded before arcs get their centres, so that what a post prints
@@ -174,3 +175,7 @@ def circle(centre: Point, radius: float, start: Point, ccw: bool) -> Path:
     half = math.pi * radius
     one = Cut(*far, (begin[0] + far[0]) / 2, (begin[1] + far[1]) / 2, turn, half)
     return Path(begin, (one, one._replace(x=begin[0], y=begin[1])))
+
+
+CIRCLE_BIAS = TOLERANCES.flatten + 1e-4
+"""A bore's path is an exact circle: it keeps off by the chords of the outline and by rounding, mm."""

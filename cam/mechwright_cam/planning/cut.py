@@ -16,7 +16,8 @@ def cut_outlines(job: Job) -> tuple[shapely.Polygon, ...]:
     """
     from mechwright_cam.operations.centre_lines import grooves
     from mechwright_cam.operations.recess import plan_view
-    from mechwright_cam.planning.zones import inner_zones, outer_zones, through
+    from mechwright_cam.planning.zones import inner_zones, outer_zones
+    from mechwright_cam.setup.depths import through
 
     plates = polygons(job.target)
     walls = [closing(zone.wall, job.reach(zone.finisher)) for zone in outer_zones(job) if not zone.at_tabs]

@@ -16,11 +16,11 @@ from mechwright.contracts.part import Part, check_name
 from mechwright.design.design import Design
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.setups import sides
 from mechwright_cam.planning.zones import channel_width
-from mechwright_cam.proof.bands import inside_of
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS

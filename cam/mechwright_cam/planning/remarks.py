@@ -23,8 +23,10 @@ from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.offsets import ROUGH, grow
 from mechwright_cam.plane.reach import remainder
 from mechwright_cam.planning.selection import choose_tools
-from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
-from mechwright_cam.setup.job import Job, make_job
+from mechwright_cam.planning.zones import check_clamp, inner_zones, outer_zones
+from mechwright_cam.setup.depths import bores, bottom_of
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.cutter import SAME_RADIUS
 from mechwright_cam.shop.library import Library

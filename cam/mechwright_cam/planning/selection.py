@@ -28,18 +28,12 @@ from mechwright_cam.operations.recess import recess
 from mechwright_cam.operations.slots import fills_a_slot
 from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
 from mechwright_cam.plane.reach import closing, leaves_at_most, roughly_closed_area
-from mechwright_cam.planning.zones import (
-    bores,
-    bottom_of,
-    floor_mills,
-    inner_zones,
-    outer_zones,
-    roughing_mills,
-    through,
-)
-from mechwright_cam.setup.job import Job, make_job, wear_margin
+from mechwright_cam.planning.zones import floor_mills, inner_zones, outer_zones, roughing_mills
+from mechwright_cam.setup.depths import bores, bottom_of, through
+from mechwright_cam.setup.job import Job, wear_margin
+from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.limits import height_of
-from mechwright_cam.setup.nest import Nest, outlines_of
+from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.library import Library
@@ -102,7 +96,7 @@ def _chosen(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, 
     """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
-    for outline in outlines_of(part):
+    for outline in part.outlines:
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
     mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
     chosen = {mill.name: mill for mill in mills}
@@ -176,7 +170,7 @@ def _mills(every: Job) -> list[Tool]:
     """The end mills of the choice; ``every`` has the whole library."""
     part = every.part
     fit = usable_mills(every, -every.floor)
-    boxes = [outline.bounds for outline in outlines_of(part)]
+    boxes = [outline.bounds for outline in part.outlines]
     widest = max(HANDY, ROUGHING_SHARE * min(min(x1 - x0, y1 - y0) for x0, y0, x1, y1 in boxes))
     sensible = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
     chosen: list[Tool] = []

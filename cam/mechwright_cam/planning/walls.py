@@ -6,6 +6,7 @@ from functools import partial
 
 import shapely
 
+from mechwright.cores import together
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.cavity import write_cavities
@@ -20,10 +21,9 @@ from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.operations.zone import CUSP, HEAVY, Zone
 from mechwright_cam.plane.offsets import ROUGH, areas, grow, opened, polygons
-from mechwright_cam.plane.threads import together
 from mechwright_cam.program.moves import Move
+from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.tabs import Tab
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
 

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import shapely
 
-from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright.contracts.part import Pocket, Profile
 from mechwright.errors import DesignError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import (
@@ -25,27 +25,19 @@ from mechwright_cam.operations.zone import HEAVY, NOISE, SLACK, SNUG, Zone
 from mechwright_cam.plane.offsets import ROUGH, areas, filled, grow, polygons, simplified, thinned
 from mechwright_cam.plane.path import DECIMALS
 from mechwright_cam.plane.reach import roughly_swollen
+from mechwright_cam.setup.depths import bores, bottom_of, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.vice import CLAMP_GAP, beside, can_be_clamped
 from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
 from mechwright_cam.shop.tool import Tool
 
-
-def through(job: Job, depth: float) -> bool:
-    """Whether a feature of this depth goes through the plate."""
-    return depth >= job.thickness - TOLERANCES.noise
-
-
-def bottom_of(job: Job, top: float, depth: float) -> float:
-    """Height z of the bottom of a cut; through cuts go below the plate."""
-    return job.floor if through(job, top + depth) else -(top + depth)
-
-
 SCRATCH = 1e-4
 """A mill with a sharper nose that reaches so much of a feature levels it there, if only at its mouth."""
+
 ENTERED = 0.5
 """Below this share of a groove a mill has only come in at its open ends."""
+
 FILLED = 0.9
 """A mill makes a groove of its own width if it reaches this share of it."""
 
@@ -371,11 +363,6 @@ def check_clamp(job: Job) -> None:
             f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
             f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
         )
-
-
-def bores(job: Job) -> list[Bore]:
-    """The round holes."""
-    return [feature for feature in job.features if isinstance(feature, Bore)]
 
 
 __all__ = [

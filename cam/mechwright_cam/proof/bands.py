@@ -7,15 +7,15 @@ from typing import TypeVar
 import shapely
 
 from mechwright.arrays import Array
-from mechwright.contracts.part import Bore, Feature, Pocket, Profile
-from mechwright.contracts.sections import plan_view
+from mechwright.contracts.part import Feature, Pocket, Profile
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Shape, grow, quarter
+from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.turned import Frame
+from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.tool import MILLS
 
 SKIN = 2 * TOLERANCES.flatten
@@ -24,9 +24,9 @@ SKIN = 2 * TOLERANCES.flatten
 RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
 lead that is as long again with the largest D."""
+
 SPARE = 3.0
 """And by so much more, mm: wear, the allowance, and what leads and groove ends go on for."""
-
 
 Length = TypeVar("Length", float, Array)
 
@@ -51,15 +51,6 @@ class Band:
     top: float
     bottom: float
     keep: Shape
-
-
-def inside_of(feature: Feature) -> Shape:
-    """The plan view of an opening, or of what an outside profile surrounds."""
-    if isinstance(feature, Bore):
-        radius = feature.diameter / 2
-        round_hole: Shape = shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
-        return round_hole
-    return plan_view(feature)
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:

@@ -14,13 +14,14 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.part import Pocket
+from mechwright.geometry.prepared import prepared
 from mechwright_cam.plane.offsets import polygons
-from mechwright_cam.plane.threads import prepared
-from mechwright_cam.proof.bands import SKIN, bands, floor_of, inside_of
+from mechwright_cam.proof.bands import SKIN, bands, floor_of
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, grow
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import inside_of
 
 STEPS = 6
 """A fillet's leftover is measured at so many heights, at even angles: in between it differs by 1 % of the

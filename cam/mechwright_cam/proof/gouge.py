@@ -12,8 +12,8 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
 

@@ -4,13 +4,14 @@ import numpy as np
 import shapely
 
 from mechwright.contracts.part import Profile
-from mechwright_cam.plane.threads import prepared
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.proof.bands import bands, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import inside_of
 
 ROUGHLY = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""

@@ -21,8 +21,8 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.part import Bore, Feature, Profile
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import Band, asked, bands, floor_of, stock_shape
 from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.fillets import fillets

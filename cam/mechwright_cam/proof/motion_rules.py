@@ -10,11 +10,12 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Pocket
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.proof.bands import inside_of, run_out, stock_shape
+from mechwright_cam.proof.bands import run_out, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import TOUCH
+from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 

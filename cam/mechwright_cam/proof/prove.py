@@ -12,9 +12,9 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.part import Profile
 from mechwright.errors import ProgramError
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind, Run, interpret, joined
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape

@@ -11,7 +11,7 @@ from mechwright.arrays import Array
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.setup.tabs import Tab
+from mechwright_cam.setup.holding import Tab
 
 SPACING = 0.005
 """Distance of the places, mm: between two of them a slope of 45 degrees rises by no more than the gouge

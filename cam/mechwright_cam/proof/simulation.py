@@ -20,9 +20,9 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths

@@ -6,9 +6,9 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
 from mechwright_cam.proof.plane import Shape, grow

@@ -19,10 +19,10 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.plane.threads import prepared
 from mechwright_cam.proof.bands import Band, asked, bands
 from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
 from mechwright_cam.proof.paths import NEAR, Paths

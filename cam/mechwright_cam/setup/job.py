@@ -17,22 +17,18 @@ cut
 Planner and proof both start from a job and from nothing else, so that the proof does not depend on the plan.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
 import shapely
 
 from mechwright.contracts.details import Detail, moved
-from mechwright.contracts.part import Bore, Feature, Part, Profile
-from mechwright.errors import DesignError
+from mechwright.contracts.part import Feature, Part
 from mechwright.geometry.segments import Point
-from mechwright_cam.setup.nest import Nest, moved_feature, outlines_of
-from mechwright_cam.setup.plate import plate_box
-from mechwright_cam.setup.tabs import Tab, lay_tabs
+from mechwright_cam.setup.holding import Clamp, Jaw, Tab
+from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.setup.turned import Frame, TurnedOver
-from mechwright_cam.setup.vice import Jaw, lay_jaws
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
@@ -47,15 +43,6 @@ large D is: on a smaller one rounding to three decimals would change its directi
 def wear_margin(settings: CamSettings) -> float:
     """By so much a cutter reaches less far into corners than its radius alone would let it, mm."""
     return 0.0 if settings.compensation == "computer" else settings.wear_limit + LEAST_TURN
-
-
-@dataclass(frozen=True)
-class Clamp:
-    """A round clamp on the part that the cutter and its holder must go around or over."""
-
-    centre: Point
-    diameter: float
-    top: float
 
 
 @dataclass(frozen=True)
@@ -141,7 +128,7 @@ class Job:
     @cached_property
     def target(self) -> shapely.Geometry:
         """The finished part seen from above; of a nest all parts."""
-        plates = [outline.polygon() for outline in outlines_of(self.part)]
+        plates = [outline.polygon() for outline in self.part.outlines]
         whole = plates[0] if len(plates) == 1 else shapely.MultiPolygon(plates)
         return shapely.transform(whole, lambda points: points - (self.origin[0], self.origin[1]))
 
@@ -192,70 +179,3 @@ class Job:
         """The end mills, bull noses and balls, largest first; of one diameter the roundest first."""
         mills = [tool for tool in self.tools if tool.kind in MILLS]
         return tuple(sorted(mills, key=lambda tool: (-tool.diameter, -tool.nose)))
-
-
-def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
-    """Lay a plate part into its stock and decide how it is held.
-
-    Parameters
-    ----------
-    part, settings, tools
-        What is made, and with what.
-    below
-        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
-
-    Raises
-    ------
-    GeometryError
-        The part is no plate.
-    DesignError
-        The stock is too small, or the part has no bore to be held by.
-    """
-    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
-    # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
-    stock = plate_box(part, settings, widest + 3.0)
-    origin = {
-        "axis": (0.0, 0.0),
-        "corner": (stock[0], stock[1]),
-        "centre": ((stock[0] + stock[2]) / 2, (stock[1] + stock[3]) / 2),
-    }[settings.origin]
-    placed = Job(
-        part,
-        settings,
-        tuple(tools),
-        origin,
-        (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
-    )
-    if isinstance(part, Nest) and settings.hold.method != "tabs":
-        raise DesignError(
-            f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
-            'cannot be clamped one by one; use method = "tabs", or no cam.nest'
-        )
-    if settings.hold.method == "bore":
-        return replace(placed, clamp=_clamp(placed))
-    if settings.hold.method == "vice":
-        return replace(placed, jaws=lay_jaws(placed, widest))
-    if settings.stock.finished:
-        raise DesignError(
-            f"cam.stock.finished: tabs hold part {part.name} in a frame, and there is none at a finished "
-            'edge; use hold.method = "vice" or "bore"'
-        )
-    x0, y0, _, _ = placed.target.bounds
-    barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
-    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred))
-
-
-def _clamp(job: Job) -> Clamp:
-    bores = [feature for feature in job.features if isinstance(feature, Bore)]
-    openings = [f for f in job.features if isinstance(f, Profile) and f.side == "inside"]
-    if bores:
-        centre = max(bores, key=lambda bore: bore.diameter).centre
-    elif openings:
-        middle = shapely.Polygon(openings[0].loop.flatten()).centroid
-        centre = (middle.x, middle.y)
-    else:
-        raise DesignError(
-            f'cam.hold.method: part {job.part.name} has no bore to be held by; use method = "tabs"'
-        )
-    hold = job.settings.hold
-    return Clamp(centre, hold.clamp_diameter, hold.clamp_height)

@@ -1,7 +1,7 @@
 """A nest: several placed parts that are cut from one plate, as one part with several outsides.
 
 Its ``outline`` is the rectangle around all, for stock and travel; ``machined`` and ``details`` are those of
-the placed parts, moved. What needs the true shapes asks :func:`outlines_of`.
+the placed parts, moved. Its ``outlines`` are the true shapes.
 """
 
 import math
@@ -51,13 +51,15 @@ class Nest(Part):
     placed: tuple[Placed, ...] = ()
     gap: float = 0.0
 
+    @property
+    def outlines(self) -> tuple[Outline, ...]:
+        """The outline of each placed part, where it lies in the nest."""
+        return tuple(one.outline for one in self.placed)
 
-def outlines_of(part: Part) -> tuple[Outline, ...]:
-    """The outlines of a plate part: one, or of a nest one for each placed part."""
-    if isinstance(part, Nest) and part.placed:
-        return tuple(one.outline for one in part.placed)
-    assert part.outline is not None  # noqa: S101 - asked of plates only
-    return (part.outline,)
+    @property
+    def axes(self) -> tuple[Point, ...]:
+        """Where the axis of each placed part stands, mm."""
+        return tuple((one.x, one.y) for one in self.placed)
 
 
 def moved_feature(feature: Feature, x: float, y: float, angle: float = 0.0) -> Feature:

@@ -8,7 +8,6 @@ from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.contracts.sections import plan_view
 from mechwright_cam.setup.job import LEVEL
-from mechwright_cam.setup.nest import outlines_of
 
 THIN = 0.5
 """Floors below this are told of, mm: they spring away from an end mill, which then pulls them up and tears
@@ -37,7 +36,7 @@ def thin_floors(part: Part, above: Sequence[Feature], below: Sequence[Feature]) 
     ]
     if not near:
         return []
-    whole = shapely.union_all([outline.polygon() for outline in outlines_of(part)])
+    whole = shapely.union_all([outline.polygon() for outline in part.outlines])
     found = []
     for floor, ceiling in near:
         deeper = [view for _, z, view in floors if z > floor[1] + LEVEL]

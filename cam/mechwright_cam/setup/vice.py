@@ -5,7 +5,6 @@ deeper than their tops. So they are only as wide as what is not milled there; th
 """
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import shapely
@@ -15,39 +14,37 @@ from mechwright.contracts.sections import plan_view, sections
 from mechwright.errors import DesignError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled, opened
+from mechwright_cam.setup.holding import Jaw
 
 if TYPE_CHECKING:
     from mechwright_cam.setup.job import Job
 
 REACH = 100.0
 """How far a jaw and the vice behind it reach outwards, mm: further than any cutter runs out."""
+
 SKIN = 2 * TOLERANCES.flatten
 """The part touches a jaw where its edge is so near to the stock's edge, mm: what chords may be off."""
+
 FILM = TOLERANCES.leftover / 4
 """Half the thickness of stock beside a finished edge that is not milled, mm: half of what may be left."""
+
 CLAMP_GAP = 1.0
 """Least distance of the cutter from clamp and jaws, mm."""
+
 RUN_OUT = 1.0
 """Finishing runs on past the last of the stock so far, mm, before it leaves the wall."""
+
 LEAST_JAW = 10.0
 """Jaws narrower than this do not keep a part from turning, mm."""
+
 LEAST_SHARE = 1 / 3
 """Jaws grip at least this share of the part's length: what hangs out on a side is no longer than they are."""
 
 PAIRS: dict[tuple[str, str], Literal["x", "y"]] = {("front", "rear"): "x", ("left", "right"): "y"}
 """Edges that a vice grips, and the axis along which its jaws lie."""
+
 INWARD = {"front": (0, 1), "rear": (0, -1), "left": (1, 0), "right": (-1, 0)}
 """Directions from the edges of the stock into it."""
-
-
-@dataclass(frozen=True)
-class Jaw:
-    """A jaw of the vice: its plan view with all behind it, the face the part touches, its top, z in mm."""
-
-    edge: str
-    shape: shapely.Polygon
-    face: shapely.LineString
-    top: float
 
 
 def can_be_clamped(part: Part) -> bool:

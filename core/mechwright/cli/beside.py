@@ -97,13 +97,6 @@ def _send(pipe: IO[bytes], request: bytes) -> None:
         pipe.flush()
 
 
-def cores() -> int:
-    """How many processor cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 def serve() -> None:
     """The second interpreter: read a call from standard input, write what it gives to standard output."""
     answer = os.fdopen(os.dup(1), "wb")

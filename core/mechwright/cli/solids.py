@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
-from mechwright.cli.beside import Beside, cores
+from mechwright.cli.beside import Beside
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, errors
+from mechwright.cores import cores
 from mechwright.design.design import Design
 from mechwright.output.folder import Output
 

@@ -207,6 +207,16 @@ class Part:
         if self.outline is not None and not self.thickness > 0:
             raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
 
+    @property
+    def outlines(self) -> tuple[Outline, ...]:
+        """What is cut free of the plate: the outline; of several parts on one plate, one each."""
+        return () if self.outline is None else (self.outline,)
+
+    @property
+    def axes(self) -> tuple[Point, ...]:
+        """Where the axes of :attr:`outlines` stand, mm."""
+        return ((0.0, 0.0),)
+
     def colour_of(self, instance: Instance) -> Colour:
         """The colour that a copy of the part shows."""
         return self.colour if instance.colour is None else instance.colour

@@ -14,9 +14,9 @@ from mechwright_cam.pages.picture.frame import DETAIL, Frame
 from mechwright_cam.pages.picture.paths import path_layers
 from mechwright_cam.pages.trace import Traced, trace
 from mechwright_cam.program.moves import Program
+from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest, outlines_of
-from mechwright_cam.setup.tabs import Tab
+from mechwright_cam.setup.nest import Nest
 
 THREAD_ENDS = (math.radians(100.0), math.radians(10.0))
 """A thread's circle is drawn from here on for three quarters of a turn, as drawings do (ISO 6410-1)."""
@@ -86,7 +86,7 @@ def _thin(job: Job) -> float:
 
 
 def _part(job: Job, frame: Frame) -> str:
-    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in outlines_of(job.part)]
+    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in job.part.outlines]
     data = "".join(svg.path(loop.flatten(DETAIL), close=True) for one in placed for loop in one.loops)
     plate = svg.element(
         "path",

@@ -15,7 +15,6 @@ from mechwright_cam.pages.picture import DETAIL, Frame
 from mechwright_cam.pages.setup_sheet.facts import MARKED
 from mechwright_cam.proof.walls import Place, Walls
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import outlines_of
 
 SHOWN = 1500
 """Places along the walls in the picture: each is the worst of its neighbours."""
@@ -58,7 +57,7 @@ def walls_view(walls: Walls, job: Job) -> str:
 
 
 def _part(job: Job) -> str:
-    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in outlines_of(job.part)]
+    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in job.part.outlines]
     data = "".join(svg.path(loop.flatten(DETAIL), close=True) for one in placed for loop in one.loops)
     return svg.element("path", d=data, fill=PART, fill_rule="evenodd", stroke="none")
 

@@ -3,12 +3,17 @@
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeVar
-
-import shapely
+from typing import TypeVar
 
 T = TypeVar("T")
 R = TypeVar("R")
+
+
+def cores() -> int:
+    """How many processor cores this process may use: those it is bound to, where the system can tell."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def together(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
@@ -18,19 +23,8 @@ def together(function: Callable[[T], R], items: Iterable[T]) -> list[R]:
     fails is raised, as it would be if they ran one after another.
     """
     work = list(items)
-    count = min(len(work), os.cpu_count() or 1)
+    count = min(len(work), cores())
     if count < 2:
         return [function(item) for item in work]
     with ThreadPoolExecutor(count) as pool:
         return list(pool.map(function, work))
-
-
-def prepared(shape: Any) -> Any:
-    """A copy of a shape, prepared for many questions.
-
-    A prepared shape builds indices while it is asked, and threads that ask the same one at once spoil them:
-    so what is prepared is never what others may hold.
-    """
-    own = shapely.force_2d(shape)
-    shapely.prepare(own)
-    return own

@@ -1,0 +1,44 @@
+"""Peaks of the channels of a motion."""
+
+import math
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Scalar
+from mechwright.mechanics.planar import BodyMotion
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.loop import close
+from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
+from mechwright_four_bar.params import FourBarParams
+
+PEAK_SAMPLES = 1441
+"""Positions at which peaks are sought: four a degree."""
+
+
+def speed_of(params: FourBarParams) -> float:
+    """Angular velocity of the crank, rad/s, positive counter-clockwise."""
+    return (1.0 if params.direction == "ccw" else -1.0) * params.speed * math.tau / 60
+
+
+def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
+    """Largest sizes over a turn of rates, joint forces and drive torque."""
+    phi = np.linspace(0, math.tau, PEAK_SAMPLES)
+    loop = close(bar, phi)
+    bodies: dict[str, BodyMotion] = loop.bodies(bar, omega)
+    carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
+    turning = bodies["follower"].turning
+
+    def most(values: Array, unit: str) -> Scalar:
+        return Scalar(float(np.abs(values).max()), unit)
+
+    return {
+        "omega_b": most(turning.omega, "rad/s"),
+        "alpha_b": most(turning.alpha, "rad/s^2"),
+        "drive_torque": most(carried.drive * MICRO, "N*m"),
+        "shaking_force": most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
+        **{
+            f"force_{joint}": most(np.asarray(np.abs(force)) * MILLI, "N")
+            for joint, force in carried.joints.items()
+        },
+    }
