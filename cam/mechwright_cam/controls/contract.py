@@ -1,9 +1,9 @@
 """The contract of a control: what writes its programs."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.family import HOOK_API
+from mechwright.contracts.plugin import Plugin
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -14,12 +14,13 @@ if TYPE_CHECKING:
     from mechwright_cam.shop.tool import Tool
 
 
-class Post(ABC):
+class Post(Plugin):
     """Turns a program into the text that one control reads."""
 
-    api: ClassVar[int] = HOOK_API
-    name: ClassVar[str]
-    """Name in design files (``"linuxcnc"``)."""
+    kind = "control"
+    plural = "controls"
+    texts = ("title", "suffix")
+
     title: ClassVar[str]
     """Name for people."""
     suffix: ClassVar[str] = ".nc"

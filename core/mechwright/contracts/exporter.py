@@ -1,9 +1,9 @@
-"""Contracts of what writes files: posts and exporters."""
+"""The contract of an exporter: what writes parts in one file format."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.family import HOOK_API
+from mechwright.contracts.plugin import Plugin
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -12,12 +12,13 @@ if TYPE_CHECKING:
     from mechwright.contracts.part import Part
 
 
-class Exporter(ABC):
+class Exporter(Plugin):
     """Writes parts in one file format. The same parts give the same bytes."""
 
-    api: ClassVar[int] = HOOK_API
-    name: ClassVar[str]
-    """Name on the command line (``"step"``)."""
+    kind = "exporter"
+    plural = "formats"
+    texts = ("suffix",)
+
     suffix: ClassVar[str]
     """Ending of its files."""
     modules: ClassVar[tuple[str, ...]] = ()

@@ -1,11 +1,12 @@
 """The contract of a mechanism family."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.plugin import Plugin
 
 if TYPE_CHECKING:
     import shapely
@@ -16,11 +17,8 @@ if TYPE_CHECKING:
 
 P = TypeVar("P", bound=Parameters)
 
-HOOK_API = 1
-"""Version of the contracts in this package; a family, post or exporter states the one it was written for."""
 
-
-class Family(ABC, Generic[P]):
+class Family(Plugin, Generic[P]):
     """A mechanism family: parameters in, findings, motion and parts out.
 
     A family is stateless. Its methods take validated parameters and never touch files. Heavy imports
@@ -30,9 +28,10 @@ class Family(ABC, Generic[P]):
     Every parameter that ``Params`` accepts changes some result.
     """
 
-    api: ClassVar[int] = HOOK_API
-    name: ClassVar[str]
-    """Lower-case name with hyphens, as design files say it."""
+    kind = "family"
+    plural = "families"
+    texts = ("title", "summary")
+
     title: ClassVar[str]
     """A few words, as a heading."""
     summary: ClassVar[str]
@@ -41,6 +40,14 @@ class Family(ABC, Generic[P]):
     """The table ``[parameters]``."""
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
     """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
+
+    @classmethod
+    def fault(cls) -> str:
+        """Whether ``Params`` is a table."""
+        params = getattr(cls, "Params", None)
+        if isinstance(params, type) and issubclass(params, Parameters):
+            return ""
+        return "Params is no subclass of mechwright.Parameters"
 
     @abstractmethod
     def check(self, params: P) -> Sequence[Finding]:

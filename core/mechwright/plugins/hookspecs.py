@@ -1,13 +1,10 @@
-"""The hooks. All of them register classes; behaviour lives in what they return."""
+"""The one hook. It registers classes; behaviour lives in them."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import pluggy
 
-from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.family import Family
-from mechwright_cam.controls.contract import Post
+from mechwright.contracts.plugin import Plugin
 
 PROJECT = "mechwright"
 hookspec = pluggy.HookspecMarker(PROJECT)
@@ -16,15 +13,5 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 @hookspec
-def mechwright_register_families() -> Sequence[type[Family[Any]]]:  # type: ignore[empty-body]
-    """Give the mechanism families of this plugin."""
-
-
-@hookspec
-def mechwright_register_posts() -> Sequence[type[Post]]:  # type: ignore[empty-body]
-    """Give the posts of this plugin, one class per control."""
-
-
-@hookspec
-def mechwright_register_exporters() -> Sequence[type[Exporter]]:  # type: ignore[empty-body]
-    """Give the exporters of this plugin, one class per file format."""
+def mechwright_register() -> Sequence[type[Plugin]]:  # type: ignore[empty-body]
+    """Give the classes of this plugin: families, exporters, controls ..., in any order."""

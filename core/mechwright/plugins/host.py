@@ -1,6 +1,5 @@
 """The plugin host: finds plugins, keeps what they register, and turns a broken one into a warning."""
 
-import difflib
 import os
 import re
 from collections.abc import Iterable, Sequence
@@ -11,12 +10,10 @@ from typing import Any, Generic, TypeVar
 
 import pluggy
 
-from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.family import HOOK_API, Family
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.family import Family
+from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.errors import PluginError
 from mechwright.plugins import hookspecs
-from mechwright_cam.controls.contract import Post
 
 GROUP = "mechwright"
 """Entry-point group in which a distribution names its plugin modules."""
@@ -25,13 +22,14 @@ BUILT_IN = "mechwright"
 DISABLE = "MECHWRIGHT_DISABLE_PLUGINS"
 """Environment variable with the names of plugins to leave out, separated by commas."""
 
-_HOOK_PREFIX = "mechwright_register_"
+HOOK = hookspecs.mechwright_register.__name__
 _NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 _SUFFIX = re.compile(r"(\.[a-z0-9]+)+")
 # A plugin may fail in any way; sys.exit() at import is one of them. Only the keyboard stops the host.
 _ANY_FAILURE = (Exception, SystemExit)
 
 T = TypeVar("T")
+C = TypeVar("C", bound=Plugin)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,34 +59,34 @@ class Host:
 
     Parameters
     ----------
-    families, posts, exporters
-        Name to registration.
+    registered
+        Contract to name to registration.
     broken
         What could not be used, and why.
     """
 
-    families: dict[str, Registered[Family[Any]]] = field(default_factory=dict)
-    posts: dict[str, Registered[Post]] = field(default_factory=dict)
-    exporters: dict[str, Registered[Exporter]] = field(default_factory=dict)
+    registered: dict[type[Plugin], dict[str, Registered[Any]]] = field(default_factory=dict)
     broken: list[Broken] = field(default_factory=list)
 
-    def family(self, name: str) -> Family[Any]:
-        """The family of this name; raises PluginError that lists the installed ones."""
-        return self._get(self.families, name, "family")
+    def of(self, contract: type[C]) -> "dict[str, Registered[C]]":
+        """What is registered of a contract, name to registration."""
+        return self.registered.get(contract, {})
 
-    def post(self, name: str) -> Post:
-        """The post of this name; raises PluginError that lists the installed ones."""
-        return self._get(self.posts, name, "control")
+    def all(self, contract: type[C]) -> list[C]:
+        """What is registered of a contract, in the order of registration: what is built in comes first."""
+        return [entry.item for entry in self.of(contract).values()]
 
-    def exporter(self, name: str) -> Exporter:
-        """The exporter of this name; raises PluginError that lists the installed ones."""
-        return self._get(self.exporters, name, "exporter")
-
-    def _get(self, items: dict[str, Registered[T]], name: str, what: str) -> T:
+    def get(self, contract: type[C], name: str) -> C:
+        """One of a contract by its name; raises PluginError that lists the installed ones."""
+        items = self.of(contract)
         if name in items:
             return items[name].item
         known = ", ".join(sorted(items)) or "none is installed"
-        raise PluginError(f"{what} {name!r} is not installed; known: {known}")
+        raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}")
+
+    def family(self, name: str) -> Family[Any]:
+        """The family of this name; raises PluginError that lists the installed ones."""
+        return self.get(Family, name)
 
     def add(self, module: object, distribution: str, plugin: str) -> None:
         """Register one plugin module; whatever is wrong with it ends up in ``broken``."""
@@ -107,26 +105,31 @@ class Host:
             reason = _hook_fault(module, name)
             if reason:
                 fail(reason)
-        kinds: list[tuple[pluggy.HookCaller, dict[str, Registered[Any]], type[Any]]] = [
-            (manager.hook.mechwright_register_families, self.families, Family),
-            (manager.hook.mechwright_register_posts, self.posts, Post),
-            (manager.hook.mechwright_register_exporters, self.exporters, Exporter),
-        ]
-        for hook, items, base in kinds:
-            try:
-                classes = _call(hook)
-            except _ANY_FAILURE as error:
-                fail(f"{hook.name}: {_reason(error)}")
+        try:
+            classes = _call(manager.hook.mechwright_register)
+        except _ANY_FAILURE as error:
+            fail(f"{HOOK}: {_reason(error)}")
+            return
+        for cls in classes:
+            reason = _class_fault(cls) or self._taken(cls)
+            if reason:
+                fail(reason)
                 continue
-            for cls in classes:
-                reason = _class_fault(cls, base) or _taken(cls.name, base, items)
-                if reason:
-                    fail(reason)
-                    continue
-                try:
-                    items[cls.name] = Registered(cls(), distribution, plugin)
-                except _ANY_FAILURE as error:
-                    fail(f"{cls.__name__}(): {_reason(error)}")
+            try:
+                made = cls()
+            except _ANY_FAILURE as error:
+                fail(f"{cls.__name__}(): {_reason(error)}")
+                continue
+            items = self.registered.setdefault(contract_of(cls), {})
+            items[cls.name] = Registered(made, distribution, plugin)
+
+    def _taken(self, cls: type[Plugin]) -> str:
+        contract = contract_of(cls)
+        assert contract is not None  # noqa: S101 - a class without one has been refused
+        if cls.name not in self.of(contract):
+            return ""
+        other = self.of(contract)[cls.name]
+        return f"{cls.kind} {cls.name!r} is already registered by {other.plugin} of {other.distribution}"
 
 
 def _hook_fault(module: object, name: str) -> str:
@@ -137,13 +140,11 @@ def _hook_fault(module: object, name: str) -> str:
         marks_others = isinstance(getattr(value, f"{hookspecs.PROJECT}_spec", None), dict)
     except _ANY_FAILURE:
         return ""  # A lazy attribute that fails is no hook.
-    looks_like = name.startswith(_HOOK_PREFIX) and callable(value) and not marks_others
+    looks_like = name.startswith(HOOK) and callable(value) and not marks_others
     if not (marked or looks_like):
         return ""
-    known = [hook for hook in vars(hookspecs) if hook.startswith(_HOOK_PREFIX)]
-    if name not in known:
-        guess = difflib.get_close_matches(name, known, n=1)
-        return f"there is no hook {name}" + (f"; do you mean {guess[0]}?" if guess else "")
+    if name != HOOK:
+        return f"there is no hook {name}; since hook API 2 one hook gives all classes: {HOOK}"
     # pluggy passes over a function without the mark in silence.
     return "" if marked else f"hook {name} is not marked with mechwright.plugins.hookspecs.hookimpl"
 
@@ -160,10 +161,13 @@ def _call(hook: pluggy.HookCaller) -> list[Any]:
     return list(batches[0])
 
 
-def _class_fault(cls: Any, base: type[Any]) -> str:
-    """What keeps a class from being used as a family, post or exporter; nothing if it is well made."""
-    if not (isinstance(cls, type) and issubclass(cls, base)):
-        return f"{cls!r} is no subclass of {base.__name__}"
+def _class_fault(cls: Any) -> str:
+    """What keeps a class from being registered; nothing if it is well made."""
+    if not (isinstance(cls, type) and issubclass(cls, Plugin)):
+        return f"{cls!r} is no class of a contract, such as mechwright.Family"
+    contract = contract_of(cls)
+    if contract is None:
+        return f"{cls.__name__} is a contract itself; register classes that derive from it"
     api = getattr(cls, "api", None)
     if api != HOOK_API:
         return f"{cls.__name__} was written for hook API {api}; this is {HOOK_API}"
@@ -172,24 +176,17 @@ def _class_fault(cls: Any, base: type[Any]) -> str:
         return f"{cls.__name__} has no name"
     if not _NAME.fullmatch(name):
         return f"{cls.__name__}: name {name!r} is not of lower-case letters, digits and single hyphens"
-    for text in ("title", "summary", "suffix"):
-        if text in base.__annotations__ and not isinstance(getattr(cls, text, None), str):
+    for text in contract.texts:
+        if not isinstance(getattr(cls, text, None), str):
             return f"{cls.__name__} has no {text}"
     suffix = getattr(cls, "suffix", None)
     if isinstance(suffix, str) and not _SUFFIX.fullmatch(suffix):
         return f"{cls.__name__}: suffix {suffix!r} is not a dot with lower-case letters and digits"
-    if base is Family:
-        params = getattr(cls, "Params", None)
-        if not (isinstance(params, type) and issubclass(params, Parameters)):
-            return f"{cls.__name__}: Params is no subclass of mechwright.contracts.parameters.Parameters"
-    return ""
-
-
-def _taken(name: str, base: type[Any], items: dict[str, Registered[Any]]) -> str:
-    if name not in items:
-        return ""
-    other = items[name]
-    return f"{base.__name__.lower()} {name!r} is already registered by {other.plugin} of {other.distribution}"
+    try:
+        fault = cls.fault()
+    except _ANY_FAILURE as error:
+        fault = f"fault(): {_reason(error)}"
+    return f"{cls.__name__}: {fault}" if fault else ""
 
 
 def _reason(error: BaseException) -> str:
