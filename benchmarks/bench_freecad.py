@@ -39,7 +39,7 @@ from harness import require
 from least_moves import least_moves
 
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.plugins.host import host
 from mechwright_cam.controls import LinuxCncPost

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from harness import require
 
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.interference import faithful_motion, interference
 

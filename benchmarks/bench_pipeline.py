@@ -11,7 +11,7 @@ from pathlib import Path
 
 from harness import child, race, report, require
 
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cam.pipeline import machine
 from mechwright_cam.planning import choose_tools

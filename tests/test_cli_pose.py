@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechwright.cli.pose import sample_at
+from mechwright.build.pose import sample_at
 from mechwright.contracts.motion import Channel, Motion
 from mechwright.errors import DesignError
 

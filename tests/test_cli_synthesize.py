@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import mechwright.plugins.host as hosting
-from mechwright.design.design import load
-from mechwright.design.requirement import load_requirement
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import Registered
 from mechwright_cam.shop.library import BUILT_IN
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from mechwright.contracts.finding import Severity
-from mechwright.design.design import load
-from mechwright.design.requirement import load_requirement
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))

@@ -1,12 +1,16 @@
-"""What the CAM stage registers: posts."""
+"""What the CAM room registers: controls, the table ``[cam]``, pages, and the inspection of cutters."""
 
+from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
-from mechwright_cam.controls.contract import Post
 
 
 @hookimpl
-def mechwright_register_posts() -> list[type[Post]]:
-    """The controls that programs can be written for."""
+def mechwright_register() -> list[type[Plugin]]:
+    """Imports what it gives only now: a module of plugins stays light."""
     from mechwright_cam.controls import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
+    from mechwright_cam.inspection import Machinable
+    from mechwright_cam.pages.pages import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
+    from mechwright_cam.shop.table import CamTable
 
-    return [LinuxCncPost, FanucPost, HaasPost, Mach3Post, GrblPost]
+    controls = [LinuxCncPost, FanucPost, HaasPost, Mach3Post, GrblPost]
+    return [*controls, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]

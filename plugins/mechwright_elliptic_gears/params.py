@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from mechwright.contracts.materials import MATERIALS, material
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright.designs.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 MaterialName = Annotated[
     str,

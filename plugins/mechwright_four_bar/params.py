@@ -6,7 +6,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mechwright.contracts.materials import MATERIALS, material
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Degrees, Millimetres, RevPerMin, Unit
+from mechwright.designs.units import Degrees, Millimetres, RevPerMin, Unit
 
 MaterialName = Annotated[
     str,

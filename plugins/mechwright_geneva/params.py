@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 from mechwright.contracts.fits import HoleClass
 from mechwright.contracts.materials import MATERIALS, material
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Millimetres, RevPerMin, Unit
+from mechwright.designs.units import Millimetres, RevPerMin, Unit
 
 MaterialName = Annotated[
     str,

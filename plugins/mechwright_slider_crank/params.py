@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field
 
 from mechwright.contracts.materials import MATERIALS, material
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
+from mechwright.designs.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
 
 MaterialName = Annotated[

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from mechwright.contracts.motion import Channel, Motion, Poses, Trace
 from mechwright.contracts.part import Instance, Part, Pocket
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
 from mechwright_cad.animation import motion_html, page_of

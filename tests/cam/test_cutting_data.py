@@ -2,7 +2,7 @@
 
 import pytest
 
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.errors import ToolError
 from mechwright.plugins.host import host
 from mechwright_cam.pipeline import prepare

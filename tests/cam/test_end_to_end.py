@@ -16,7 +16,7 @@ from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.contracts.finding import errors
-from mechwright.design.design import Design, load
+from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import StepExporter

@@ -7,7 +7,8 @@ from planning_parts import LIBRARY, bore, job, plate
 from shop import plate_job, plate_program
 
 from mechwright.contracts.finding import Severity
-from mechwright.design.design import load, read_toml
+from mechwright.designs.design import load
+from mechwright.designs.files import read_toml
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import host
 from mechwright_cam.controls import LinuxCncPost

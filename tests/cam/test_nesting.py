@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from mechwright.cli.app import app
 from mechwright.contracts.details import Chamfer, Engraving, Thread, moved
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop, Outline
 from mechwright.plugins.host import host

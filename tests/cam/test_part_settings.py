@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
 from mechwright_cam.shop.part_settings import WHOLE_JOB

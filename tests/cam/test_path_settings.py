@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from random_pockets import case
 
 from mechwright.contracts.part import Pocket, Profile
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
 from mechwright.plugins.host import host

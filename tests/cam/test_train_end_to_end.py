@@ -11,8 +11,8 @@ from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Instance, Part
-from mechwright.design.design import Design, load
-from mechwright.design.requirement import load_requirement
+from mechwright.designs.design import Design, load
+from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters import StepExporter

@@ -7,12 +7,12 @@ import time
 
 import pytest
 
-from mechwright.cli.beside import Beside
+from mechwright.beside import Beside
 from mechwright.cli.solids import SolidWork, Work, compared_and_made
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.cores import cores
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.errors import ProofError, ToolError
 from mechwright.plugins.host import host
 

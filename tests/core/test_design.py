@@ -9,9 +9,9 @@ from pydantic import Field
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.design import load
-from mechwright.design.text import template
-from mechwright.design.units import Degrees, Millimetres
+from mechwright.designs.design import load
+from mechwright.designs.text import template
+from mechwright.designs.units import Degrees, Millimetres
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.plugins.host import Host, Registered
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from pydantic import ConfigDict, Field, ValidationError
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Millimetres, Ratio
+from mechwright.designs.units import Millimetres, Ratio
 from mechwright.testing import assert_derivative, assert_monotone, assert_points_close, parameters, tables
 from mechwright.testing.strategies import rules
 from mechwright.testing.variations import variations

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from pydantic import Field, ValidationError
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import (
+from mechwright.designs.units import (
     Degrees,
     Millimetres,
     MillimetresPerMin,

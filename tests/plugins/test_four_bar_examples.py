@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 
 from mechwright.cli.app import app
 from mechwright.contracts.finding import Severity
-from mechwright.design.design import load
-from mechwright.design.requirement import load_requirement
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.plates import bar_of

@@ -11,7 +11,7 @@ import pytest
 
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Pocket
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.mechanism import mechanism_of

@@ -10,7 +10,7 @@ import shapely
 
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore, Pocket, Profile
-from mechwright.design.design import load
+from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing
 from mechwright_cam.controls import LinuxCncPost

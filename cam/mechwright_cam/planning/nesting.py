@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 
 from mechwright.contracts.part import Part, check_name
-from mechwright.design.design import Design
+from mechwright.designs.design import Design
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.zones import channel_width
@@ -23,6 +23,7 @@ from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
 from mechwright_cam.shop.tool import MILLS
 
 WEB = 3.0
@@ -69,7 +70,7 @@ def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Pa
     DesignError
         A part of ``[cam.nest]`` is not known or does not go with the others, or the plate is too small.
     """
-    wanted = design.cam.nest
+    wanted = settings_of(design).cam.nest
     if wanted is None:
         return list(parts)
     groups = _groups(design, parts)
@@ -89,14 +90,14 @@ def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Pa
 
 def _groups(design: Design, parts: Sequence[Part]) -> list[list[Part]]:
     """The parts of each nest: those named, or all that are alike in material and thickness."""
-    assert design.cam.nest is not None  # noqa: S101 - asked for nests only
-    names = design.cam.nest.parts
+    assert settings_of(design).cam.nest is not None  # noqa: S101 - asked for nests only
+    names = settings_of(design).cam.nest.parts
     known = {part.name: part for part in parts}
     where = f"{design.path}: cam.nest.parts"
     if not names:
         alike: dict[tuple[str, float], list[Part]] = {}
         for part in parts:
-            if part.name not in design.part_cam and not _second_side(part):
+            if part.name not in settings_of(design).parts and not _second_side(part):
                 alike.setdefault((part.material, part.thickness), []).append(part)
         groups = [group for group in alike.values() if sum(map(copies, group)) > 1]
         if not groups:
@@ -116,10 +117,10 @@ def _groups(design: Design, parts: Sequence[Part]) -> list[list[Part]]:
                 f"{where}: {name} is {part.thickness:g} mm {part.material}, {first.name} is "
                 f"{first.thickness:g} mm {first.material}; one plate has one thickness and one material"
             )
-        if name in design.part_cam:
+        if name in settings_of(design).parts:
             raise DesignError(
                 f"{design.path}: cam.part.{name}: the part is cut in the nest; set it in "
-                f"[cam.part.{design.cam.nest.name}], or take the part out of cam.nest.parts"
+                f"[cam.part.{settings_of(design).cam.nest.name}], or take the part out of cam.nest.parts"
             )
         if _second_side(part):
             raise DesignError(f"{where}: {name} is cut from both sides; it cannot be nested, leave it out")
@@ -136,8 +137,8 @@ def copies(part: Part) -> int:
 
 
 def _nested(design: Design, name: str, group: Sequence[Part], library: Library) -> Nest:
-    settings = design.cam_of(name)
-    assert design.cam.nest is not None  # noqa: S101 - asked for nests only
+    settings = settings_of(design).of(name)
+    assert settings_of(design).cam.nest is not None  # noqa: S101 - asked for nests only
     total = sum(map(copies, group))
     if total > MOST:
         raise DesignError(
@@ -148,9 +149,9 @@ def _nested(design: Design, name: str, group: Sequence[Part], library: Library) 
             f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
             "none at a finished edge; leave finished out, or cam.nest"
         )
-    gap = design.cam.nest.gap or 2 * channel_of(group, settings, library) + WEB
+    gap = settings_of(design).cam.nest.gap or 2 * channel_of(group, settings, library) + WEB
     try:
-        return nest_of(name, group, settings, gap, turn=design.cam.nest.turn)
+        return nest_of(name, group, settings, gap, turn=settings_of(design).cam.nest.turn)
     except DesignError as error:
         raise DesignError(f"{design.path}: {error}") from error
 

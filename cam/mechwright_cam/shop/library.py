@@ -7,7 +7,8 @@ from functools import cache
 from pathlib import Path
 
 from mechwright.contracts.materials import MATERIALS
-from mechwright.design.design import read_table, read_toml
+from mechwright.designs.files import read_toml
+from mechwright.designs.tables import read_table
 from mechwright.errors import DesignError, ToolError
 from mechwright_cam.shop.tool import CuttingChange, CuttingData, Tool, ToolKind
 

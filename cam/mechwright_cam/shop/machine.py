@@ -6,7 +6,9 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
+from mechwright.designs.files import beside, read_toml
+from mechwright.designs.tables import read_table, unknown
+from mechwright.designs.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
 
 MACHINES = Path(__file__).with_name("machines.toml")
 """The machines that come with the program, by name."""
@@ -87,3 +89,24 @@ class Machine(Parameters):
                         f"{key} is {place:g}, and {axis.upper()} travels from {low:g} to {low + travel:g}"
                     )
         return self
+
+
+def machine_figures(model: str, path: Path) -> dict[str, Any]:
+    """The figures of a built-in machine, or of a machine file beside ``path``."""
+    if model.endswith(".toml"):
+        file = beside(path, model, "cam.machine.model")
+        figures = read_toml(file)[0]
+        if "model" in figures:
+            raise DesignError(f"{file}: model: a machine file stands for itself; write its figures")
+        read_table(Machine, figures, str(file), "machine")  # mistakes are told with the file's name
+        return figures
+    machines = read_toml(MACHINES)[0]
+    if model not in machines:
+        raise DesignError(
+            f"{path}: cam.machine.model: {unknown(model, tuple(machines), 'machine')}; or name a .toml file "
+            "beside the design file"
+        )
+    figures = machines[model]
+    assert isinstance(figures, dict)  # noqa: S101 - a file of our own
+    return figures
+

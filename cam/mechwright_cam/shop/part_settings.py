@@ -13,37 +13,34 @@ _EXCLUSIVE = ({"margin"}, {"length", "width"})
 """Keys of ``[cam.stock]`` of which a part's table puts out those of the other group."""
 
 
-def split(content: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-    """Part the content of a file from its tables ``[cam.part.NAME]``.
+def split(table: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+    """Part the table ``[cam]`` of a file from its tables ``[cam.part.NAME]``.
 
     Returns
     -------
-    content
-        Without those tables.
+    base
+        The table without those.
     parts
-        Part name to the content that holds for that part: the same, with its table laid over ``[cam]``.
+        Part name to what holds for that part: its table laid over ``[cam]``.
 
     Raises
     ------
     DesignError
         ``cam.part`` or a table of it is none, or a key of it holds for the whole job.
     """
-    cam = content.get("cam")
-    if not isinstance(cam, Mapping) or "part" not in cam:
-        return dict(content), {}
-    tables = cam["part"]
+    tables = table.get("part", {})
     if not isinstance(tables, Mapping):
         raise DesignError(f"{path}: cam.part: is {tables!r}; write a table [cam.part.NAME]")
-    base = {key: value for key, value in cam.items() if key != "part"}
+    base = {key: value for key, value in table.items() if key != "part"}
     parts = {}
-    for name, table in tables.items():
-        if not isinstance(table, Mapping):
-            raise DesignError(f"{path}: cam.part.{name}: is {table!r}; write a table [cam.part.{name}]")
+    for name, own in tables.items():
+        if not isinstance(own, Mapping):
+            raise DesignError(f"{path}: cam.part.{name}: is {own!r}; write a table [cam.part.{name}]")
         for key in WHOLE_JOB:
-            if key in table:
+            if key in own:
                 raise DesignError(f"{path}: cam.part.{name}.{key}: holds for the whole job; set it in [cam]")
-        parts[name] = {**content, "cam": _over(base, table)}
-    return {**content, "cam": base}, parts
+        parts[name] = _over(base, own)
+    return base, parts
 
 
 def _over(base: Mapping[str, Any], table: Mapping[str, Any], where: str = "") -> dict[str, Any]:

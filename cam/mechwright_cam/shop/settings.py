@@ -5,7 +5,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.units import Degrees, Millimetres, Ratio
+from mechwright.designs.units import Degrees, Millimetres, Ratio
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here

@@ -17,6 +17,8 @@ from mechwright.plugins import hookspecs
 
 GROUP = "mechwright"
 """Entry-point group in which a distribution names its plugin modules."""
+COMMANDS = "mechwright.commands"
+"""Entry-point group of the modules that register commands, which are all that ``--help`` needs."""
 BUILT_IN = "mechwright"
 """The distribution whose plugins go first, so that a third party cannot take their names."""
 DISABLE = "MECHWRIGHT_DISABLE_PLUGINS"
@@ -195,15 +197,19 @@ def _reason(error: BaseException) -> str:
     return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
-def load(points: list[tuple[str, EntryPoint]] | None = None, disabled: frozenset[str] | None = None) -> Host:
-    """Load plugins from ``points`` (distribution name and entry point), or from what is installed.
+def load(
+    points: list[tuple[str, EntryPoint]] | None = None,
+    disabled: frozenset[str] | None = None,
+    group: str = GROUP,
+) -> Host:
+    """Load plugins from ``points`` (distribution name and entry point), or from what a group has installed.
 
     Names in ``disabled`` are skipped; None reads them from the environment variable
     ``MECHWRIGHT_DISABLE_PLUGINS``, separated by commas.
     """
     found = Host()
     if points is None:
-        points, found.broken = hook_points(distributions())
+        points, found.broken = hook_points(distributions(), group)
     if disabled is None:
         disabled = frozenset(name.strip() for name in os.environ.get(DISABLE, "").split(",") if name.strip())
     for distribution, point in points:
@@ -218,19 +224,21 @@ def load(points: list[tuple[str, EntryPoint]] | None = None, disabled: frozenset
     return found
 
 
-def hook_points(everything: Iterable[Distribution]) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
-    """The entry points of the group, built-in ones first, then by name; and what cannot be read."""
+def hook_points(
+    everything: Iterable[Distribution], group: str = GROUP
+) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
+    """The entry points of a group, built-in ones first, then by name; and what cannot be read."""
     points: dict[tuple[str, str, str], tuple[str, EntryPoint]] = {}
     broken = []
     for distribution in everything:
         name = "unknown"
         try:
             # Other people's broken packages are none of our business.
-            if f"[{GROUP}]" not in (distribution.read_text("entry_points.txt") or ""):
+            if f"[{group}]" not in (distribution.read_text("entry_points.txt") or ""):
                 continue
             name = distribution.metadata["Name"] or name
             for point in distribution.entry_points:
-                if point.group == GROUP:
+                if point.group == group:
                     # An editable install can be listed twice; the first on the path counts.
                     points.setdefault((name, point.name, point.value), (name, point))
         except _ANY_FAILURE as error:

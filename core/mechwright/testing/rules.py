@@ -12,7 +12,7 @@ from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.design.units import kind
+from mechwright.designs.units import kind
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
 
@@ -40,7 +40,7 @@ def schema_faults(params: type[Parameters]) -> list[str]:
                 if "unit" in number:
                     found += unit_faults(number["unit"], path)
                 elif number["type"] == "number":
-                    found.append(f"{path} has no unit; use a type of mechwright.design.units")
+                    found.append(f"{path} has no unit; use a type of mechwright.designs.units")
     return found
 
 

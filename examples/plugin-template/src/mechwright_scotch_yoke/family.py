@@ -11,7 +11,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.contracts.synthesis import Progress, Synthesis
-from mechwright.design.units import MetresPerMin, Millimetres, Newtons, RevPerMin
+from mechwright.designs.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
 

@@ -17,7 +17,7 @@ from typing import IO, TypeVar, cast
 
 R = TypeVar("R")
 
-_SERVE = "from mechwright.cli.beside import serve; serve()"
+_SERVE = "from mechwright.beside import serve; serve()"
 
 
 class Beside:

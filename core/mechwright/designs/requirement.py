@@ -13,22 +13,22 @@ They are laid out as design files are, with the table ``[requirement]`` in the p
     [cam]
     work_offset = "G54"
 
-``kind`` may be left out where the family knows one only. ``[cam]`` goes into the designs as it is.
+``kind`` may be left out where the family knows one only. Other tables, such as ``[cam]``, go into the designs.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
-from mechwright.design.design import read_cam, read_head, read_table, read_toml, tool_library, unknown
+from mechwright.contracts.table import Table
+from mechwright.designs.design import HEAD, read_head, read_tables
+from mechwright.designs.files import read_toml
+from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
-from mechwright_cam.shop.settings import CamSettings
-
-_KEYS = ("format", "family", "name", "requirement", "cam")
-
 
 @dataclass(frozen=True)
 class Requirement:
@@ -44,8 +44,12 @@ class Requirement:
         A key of ``family.requirements``.
     table
         The table ``[requirement]``, of the kind's model.
-    cam
-        The table ``[cam]`` of the designs.
+    tables
+        Each registered table with its value for the designs.
+    files
+        Name to the file that goes along with the designs.
+    inputs
+        The files that the tables name, by the names they give them.
     path
         The file.
     digest
@@ -56,14 +60,11 @@ class Requirement:
     family: Family[Any]
     kind: str
     table: Parameters
-    cam: CamSettings
+    tables: tuple[tuple[Table[Any], Any], ...]
+    files: Mapping[str, Path]
+    inputs: Mapping[str, Path]
     path: Path
     digest: str
-
-    @property
-    def tool_library(self) -> Path | None:
-        """The tool library of the designs; it lies in or below the file's folder."""
-        return tool_library(self.path, self.cam)
 
 
 def load_requirement(path: Path, host: Host) -> Requirement:
@@ -79,7 +80,8 @@ def load_requirement(path: Path, host: Host) -> Requirement:
         Its family is not installed.
     """
     content, digest = read_toml(path)
-    name, family = read_head(content, path, host, _KEYS)
+    registered = host.of(Table)
+    name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
     require_synthesis(family, str(path))
     table = content.get("requirement", {})
     kinds = tuple(family.requirements)
@@ -92,17 +94,24 @@ def load_requirement(path: Path, host: Host) -> Requirement:
         raise DesignError(f"{path}: requirement.kind: is missing; one of: {', '.join(kinds)}")
     if not isinstance(kind, str) or kind not in kinds:
         raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
-    requirement = Requirement(
+    tables, files, inputs = [], {}, {}
+    for key, value in read_tables(content, path, host).items():
+        reader = registered[key].item
+        inputs |= reader.inputs(value, path)
+        carried, along = reader.carried(value, path)
+        tables.append((reader, carried))
+        files |= along
+    return Requirement(
         name,
         family,
         kind,
         read_table(family.requirements[kind], rest, str(path), "requirement"),
-        read_cam(content, path),
+        tuple(tables),
+        files,
+        inputs,
         path,
         digest,
     )
-    _ = requirement.tool_library  # a path that leads out is refused before any work
-    return requirement
 
 
 def require_synthesis(family: Family[Any], where: str) -> None:

@@ -1,0 +1,127 @@
+"""The pages of the CAM room: drawings, programs, their proofs, and the setup sheets."""
+
+import json
+from functools import cached_property
+from typing import Any, cast, get_args
+
+from mechwright.build import Build, Page
+from mechwright.errors import DesignError
+from mechwright_cad.exporters import Curves, DxfExporter
+from mechwright_cam.machining import Machined, Machining
+from mechwright_cam.proof import read
+from mechwright_cam.proof.simulation import Simulation, simulate
+from mechwright_cam.proof.walls import Walls, wall_deviation
+
+SUMMARY = "setup.html"
+"""The page of the whole job."""
+
+COMMANDS = frozenset({"cam", "build"})
+DOING = "drawings and programs"
+
+
+class Seen:
+    """What the proofs of a build and the sheets both show of its programs, measured once."""
+
+    def __init__(self, build: Build) -> None:
+        self.machining = build.made(Machining)
+
+    @cached_property
+    def measured(self) -> list[tuple[Machined, Simulation, Walls]]:
+        """Each program with its simulated stock and the deviation along its walls."""
+        control = self.machining.control
+        runs = [(item, read(item.proven, item.job, control)) for item in self.machining.made]
+        return [(item, simulate(run, item.job), wall_deviation(run, item.job)) for item, run in runs]
+
+    @cached_property
+    def proofs(self) -> dict[str, dict[str, Any]]:
+        """Program name to its part of ``proof.json``."""
+        return {
+            item.program.name: {
+                **item.proof.as_dict(),
+                "simulation": simulation.as_dict(),
+                "walls": walls.as_dict(),
+            }
+            for item, simulation, walls in self.measured
+        }
+
+
+class DrawingFiles(Page):
+    """A drawing of every plate, and of every nest."""
+
+    name = "drawings"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, bytes]:
+        """DXF by part; none where nothing is milled."""
+        machining = build.made(Machining)
+        drawing = DxfExporter(curve_kind(build.wanted.curves))
+        parts = [*machining.plates, *machining.nests] if machining.made else []
+        return {f"{part.name}{drawing.suffix}": drawing.part(part) for part in parts}
+
+
+class ProgramFiles(Page):
+    """The programs, and the control's table of their tools."""
+
+    name = "programs"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """Program text by file."""
+        machining = build.made(Machining)
+        suffix = machining.control.suffix
+        files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
+        table, text = machining.table
+        return files | ({table: text} if table else {})
+
+
+class ProofFile(Page):
+    """``proof.json``."""
+
+    name = "proofs"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """Every check of every program by name."""
+        proofs = build.made(Seen).proofs
+        return {"proof.json": json.dumps(proofs, indent=2) + "\n"} if proofs else {}
+
+
+class SetupSheets(Page):
+    """A sheet for each program, and the page of the whole job."""
+
+    name = "setup-sheets"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """HTML by file."""
+        from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
+        from mechwright_cam.pages.setup_sheet.raster import simulated_view
+        from mechwright_cam.pages.setup_sheet.walls import walls_view
+
+        machining, seen = build.made(Machining), build.made(Seen)
+        if not machining.made:
+            return {}
+        sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
+        pictures = {item.program.name: simulated_view(one, item.job) for item, one, _ in seen.measured}
+        deviations = {item.program.name: walls_view(walls, item.job) for item, _, walls in seen.measured}
+        named = {
+            "suffix": machining.control.suffix,
+            "tool_table": machining.table[0],
+            "design": build.path.name,
+            "files": {item.program.name: list(item.files) for item in machining.made},
+        }
+        shown = {"pictures": pictures, "deviations": deviations, "summary": SUMMARY}
+        pages = {sheet[1].name + SHEET: setup_html([sheet], **named, **shown) for sheet in sheets}
+        return pages | {SUMMARY: summary_html(sheets, name=build.design.name, **named)}
+
+
+def curve_kind(text: str) -> Curves:
+    """Read the option ``--dxf-curves``; raises DesignError that lists the kinds."""
+    for kind in get_args(Curves):
+        if kind == text:
+            return cast(Curves, kind)
+    raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")
