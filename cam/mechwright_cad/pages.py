@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from mechwright.build import Build, Inspection, Page
 from mechwright.contracts.finding import Finding, Stage
-from mechwright_cad.making import Solids
 
 
 class SolidFiles(Page):

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Finding, Stage
-from mechwright_cam.machining import Machining
 
 
 class Machinable(Inspection):
@@ -18,4 +17,6 @@ class Machinable(Inspection):
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """What forbids or hampers machining."""
+        from mechwright_cam.machining import Machining
+
         return build.made(Machining).findings

@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from mechwright.build import Build, Wanted
-from mechwright.cli.listing import open_host
+from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.contracts.finding import errors
 from mechwright.designs.files import SIZE_LIMIT, read_text

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from mechwright.cli.command import Command
-from mechwright.cli.listing import warn_broken
+from mechwright.cli.hosting import warn_broken
 from mechwright.plugins.host import COMMANDS, load
 
 

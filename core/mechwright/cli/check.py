@@ -6,7 +6,7 @@ from pathlib import Path
 import typer
 
 from mechwright.build import Build, Inspection, Wanted
-from mechwright.cli.listing import open_host
+from mechwright.cli.hosting import open_host
 from mechwright.contracts.finding import Finding, Severity, errors
 
 

@@ -11,27 +11,15 @@ from mechwright.designs.tables import unknown
 from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
 from mechwright.output.folder import write_new
+from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
-from mechwright.plugins.host import Host, Registered, host
-
-
-def warn_broken(found: Host) -> None:
-    """Name the plugins that could not be used, on standard error."""
-    for broken in found.broken:
-        typer.echo(f"mechwright: warning: {broken}", err=True)
-
-
-def open_host() -> Host:
-    """The host of this process; what is broken in it is told."""
-    found = host()
-    warn_broken(found)
-    return found
+from mechwright.plugins.host import Registered
 
 
 def families(as_json: bool) -> None:
     """List what is installed: families with what they can be asked for, and all else by its kind."""
-    found = host()
+    found = open_host(warn=not as_json)
     others = {
         contract.plural: sorted(items)
         for contract, items in sorted(found.registered.items(), key=lambda item: item[0].plural)
@@ -47,7 +35,6 @@ def families(as_json: bool) -> None:
         }
         typer.echo(json.dumps(listing, indent=2))
         return
-    warn_broken(found)
     for name, entry in sorted(found.of(Family).items()):
         typer.echo(f"{name}  ({entry.distribution})\n    {entry.item.title}: {entry.item.summary}")
         if entry.item.requirements:
@@ -72,8 +59,7 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
 
 def new(name: str, kind: str, output: Path | None, force: bool) -> None:
     """Write or print a design file, or a requirement file of the kind that is asked for."""
-    found = host()
-    warn_broken(found)
+    found = open_host()
     family = found.family(name)
     if kind:
         require_synthesis(family, "--requirement")

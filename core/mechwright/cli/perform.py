@@ -7,7 +7,7 @@ from typing import NoReturn
 import typer
 
 from mechwright.build import Build, Inspection, Page, Wanted
-from mechwright.cli.listing import open_host
+from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import Step, progress
 from mechwright.cli.provenance import facts
 from mechwright.contracts.exporter import Exporter

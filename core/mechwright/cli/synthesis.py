@@ -5,7 +5,7 @@ from pathlib import Path
 
 import typer
 
-from mechwright.cli.listing import warn_broken
+from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.provenance import run_facts
 from mechwright.contracts.finding import Severity, errors
@@ -15,7 +15,6 @@ from mechwright.designs.files import read_text
 from mechwright.designs.requirement import load_requirement
 from mechwright.designs.text import design_text
 from mechwright.output.folder import Output, check_folder, write_folder
-from mechwright.plugins.host import host
 
 FIGURES = 3
 """Figures of a candidate on its line of the listing; synthesis.json has all of them."""
@@ -23,8 +22,7 @@ FIGURES = 3
 
 def synthesize(path: Path, folder: Path) -> None:
     """Write the designs that meet a requirement, best first."""
-    found = host()
-    warn_broken(found)
+    found = open_host()
     asked = load_requirement(path, found)
     check_folder(folder)
     with fraction() as progress:

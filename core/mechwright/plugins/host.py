@@ -6,14 +6,16 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, distributions
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import pluggy
 
-from mechwright.contracts.family import Family
 from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
 from mechwright.errors import PluginError
 from mechwright.plugins import hookspecs
+
+if TYPE_CHECKING:
+    from mechwright.contracts.family import Family
 
 GROUP = "mechwright"
 """Entry-point group in which a distribution names its plugin modules."""
@@ -86,8 +88,10 @@ class Host:
         known = ", ".join(sorted(items)) or "none is installed"
         raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}")
 
-    def family(self, name: str) -> Family[Any]:
+    def family(self, name: str) -> "Family[Any]":
         """The family of this name; raises PluginError that lists the installed ones."""
+        from mechwright.contracts.family import Family  # its tables take long to import, --help has no use for
+
         return self.get(Family, name)
 
     def add(self, module: object, distribution: str, plugin: str) -> None:

@@ -1,16 +1,17 @@
-"""The pages of the CAM room: drawings, programs, their proofs, and the setup sheets."""
+"""The pages of the CAM room: drawings, programs, their proofs, and the setup sheets.
+
+Nothing heavy is imported before one of them is made.
+"""
 
 import json
-from functools import cached_property
-from typing import Any, cast, get_args
+from typing import TYPE_CHECKING, cast, get_args
 
 from mechwright.build import Build, Page
 from mechwright.errors import DesignError
 from mechwright_cad.exporters import Curves, DxfExporter
-from mechwright_cam.machining import Machined, Machining
-from mechwright_cam.proof import read
-from mechwright_cam.proof.simulation import Simulation, simulate
-from mechwright_cam.proof.walls import Walls, wall_deviation
+
+if TYPE_CHECKING:
+    from mechwright_cam.machining import Machining
 
 SUMMARY = "setup.html"
 """The page of the whole job."""
@@ -19,30 +20,10 @@ COMMANDS = frozenset({"cam", "build"})
 DOING = "drawings and programs"
 
 
-class Seen:
-    """What the proofs of a build and the sheets both show of its programs, measured once."""
+def _machining(build: Build) -> "Machining":
+    from mechwright_cam.machining import Machining
 
-    def __init__(self, build: Build) -> None:
-        self.machining = build.made(Machining)
-
-    @cached_property
-    def measured(self) -> list[tuple[Machined, Simulation, Walls]]:
-        """Each program with its simulated stock and the deviation along its walls."""
-        control = self.machining.control
-        runs = [(item, read(item.proven, item.job, control)) for item in self.machining.made]
-        return [(item, simulate(run, item.job), wall_deviation(run, item.job)) for item, run in runs]
-
-    @cached_property
-    def proofs(self) -> dict[str, dict[str, Any]]:
-        """Program name to its part of ``proof.json``."""
-        return {
-            item.program.name: {
-                **item.proof.as_dict(),
-                "simulation": simulation.as_dict(),
-                "walls": walls.as_dict(),
-            }
-            for item, simulation, walls in self.measured
-        }
+    return build.made(Machining)
 
 
 class DrawingFiles(Page):
@@ -54,7 +35,7 @@ class DrawingFiles(Page):
 
     def files(self, build: Build) -> dict[str, bytes]:
         """DXF by part; none where nothing is milled."""
-        machining = build.made(Machining)
+        machining = _machining(build)
         drawing = DxfExporter(curve_kind(build.wanted.curves))
         parts = [*machining.plates, *machining.nests] if machining.made else []
         return {f"{part.name}{drawing.suffix}": drawing.part(part) for part in parts}
@@ -69,7 +50,7 @@ class ProgramFiles(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """Program text by file."""
-        machining = build.made(Machining)
+        machining = _machining(build)
         suffix = machining.control.suffix
         files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
         table, text = machining.table
@@ -85,6 +66,8 @@ class ProofFile(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """Every check of every program by name."""
+        from mechwright_cam.pages.seen import Seen
+
         proofs = build.made(Seen).proofs
         return {"proof.json": json.dumps(proofs, indent=2) + "\n"} if proofs else {}
 
@@ -98,11 +81,12 @@ class SetupSheets(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """HTML by file."""
+        from mechwright_cam.pages.seen import Seen
         from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
         from mechwright_cam.pages.setup_sheet.raster import simulated_view
         from mechwright_cam.pages.setup_sheet.walls import walls_view
 
-        machining, seen = build.made(Machining), build.made(Seen)
+        machining, seen = _machining(build), build.made(Seen)
         if not machining.made:
             return {}
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
