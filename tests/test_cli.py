@@ -91,7 +91,7 @@ def test_a_finding_of_severity_error_is_exit_code_1_and_writes_nothing(run: Run,
     assert code == 1
     assert "gear.undercut" in out
     assert "cannot be built" in out
-    for command in ("solve", "model", "cam", "build"):
+    for command in ("model", "cam", "build"):
         code, _, err = run(command, path, "-o", tmp_path / "out")
         assert code == 1
         assert "gear.undercut" in err
@@ -199,8 +199,8 @@ def test_verify_accepts_the_program_it_has_written(run: Run, tmp_path: Path) -> 
 
 def test_verify_reads_the_files_of_one_program_in_order(run: Run, tmp_path: Path) -> None:
     path, out = tmp_path / "d.toml", tmp_path / "o"
-    text = 'format = 1\nfamily = "geneva"\nname = "gen"\n[cam]\ncontrol = "grbl"\n[cam.post]\n'
-    path.write_text(text + 'tool_change = "files"\n[cam.machine]\nretract_z = -2\n')
+    text = 'format = 1\nfamily = "geneva"\nname = "gen"\n[cam]\ncontrol = "grbl"\n[cam.machine]\n'
+    path.write_text(text + "retract_z = -2\n")
     assert run("cam", path, "-o", out)[0] == 0
     files = sorted(out.glob("wheel-*.nc"))
     assert len(files) > 2

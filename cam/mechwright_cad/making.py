@@ -16,6 +16,7 @@ from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, errors
 from mechwright.cores import cores
 from mechwright.designs.design import Design
+from mechwright.errors import MechwrightError
 from mechwright.output.folder import Output
 
 if TYPE_CHECKING:
@@ -160,8 +161,14 @@ class Solids:
 
         if self._second is not None:
             return {MOTION: self._result()[1][MOTION]}
-        solids = self._build.wanted.command in IN_SPACE
-        return motion_page(self._build.design, self._build.parts, solids=solids)
+        build = self._build
+        if build.wanted.command in IN_SPACE:
+            return motion_page(build.design, build.parts, solids=True)
+        try:
+            return motion_page(build.design, build.parts, solids=False)
+        except MechwrightError as error:  # the mechanism moves all the same
+            build.faults.append(f"{MOTION} shows no bodies, which cannot be drawn: {error}")
+            return motion_page(build.design, (), solids=False)
 
     def _result(self) -> Made:
         if self._made is None:

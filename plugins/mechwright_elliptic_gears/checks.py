@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
 from mechwright.contracts.materials import material
 from mechwright.errors import GeometryError
 from mechwright_elliptic_gears.bore_checks import opening_findings
@@ -45,7 +45,15 @@ _CACHED = 32
 
 @lru_cache(_CACHED)
 def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
-    """Everything that is to be said about a design. No error among it means that the part can be built."""
+    """Everything that is to be said about a design. No error among it means that the part can be built.
+
+    All of it is about the parts: the pitch ellipses of every design roll on each other.
+    """
+    return tuple(_of_the_parts(params))
+
+
+@of_stage(Stage.PARTS)
+def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
     return until_error(
         params,
         _rack,

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 
-from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
 from mechwright.errors import GeometryError
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
@@ -134,6 +134,7 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
     )
 
 
+@of_stage(Stage.PARTS)
 def _room(params: FourBarParams) -> Iterator[Finding]:
     """Whether the bores of each plate leave material between them."""
     for name, bosses in bosses_of(params).items():
@@ -171,6 +172,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
         )
 
 
+@of_stage(Stage.PARTS)
 def _layers(params: FourBarParams) -> Iterator[Finding]:
     try:
         layers = stack_of(params)
@@ -222,6 +224,7 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
     )
 
 
+@of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
     from mechwright_four_bar.peaks import peaks_of, speed_of
 

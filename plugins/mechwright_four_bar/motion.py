@@ -4,33 +4,38 @@ import math
 
 import numpy as np
 
-from mechwright.contracts.finding import errors
+from mechwright.arrays import Array
+from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
-from mechwright.mechanics.planar import PointMotion, acceleration_pole
+from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.planar import BodyMotion, PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
+from mechwright_four_bar.loop import Loop, close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import peaks_of, speed_of
+from mechwright_four_bar.peaks import PEAK_SAMPLES, peaks_of, speed_of
 from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
     """Sample one turn of the crank at constant speed, both ends included.
 
+    Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
+
     Raises
     ------
     DesignError
         Fewer than two samples.
     KinematicsError
-        ``check`` finds an error; the message is that of the first one.
+        ``check`` finds an error of the motion; the message is that of the first one.
     """
     from mechwright_four_bar.checks import findings
 
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
-    for finding in errors(findings(params)):
+    found = findings(params)
+    for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
     bar, omega = bar_of(params), speed_of(params)
     phi = crank_angles(params, samples)
@@ -61,15 +66,21 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         "xG_coupler": Channel(pole.moving.real, "mm"),
         "yG_coupler": Channel(pole.moving.imag, "mm"),
     }
-    masses = masses_of(params)
-    carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
-    for joint, force in carried.joints.items():
-        channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
-    channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
-    channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+    figures = _figures(bar)
+    if not errors(found):
+        masses = masses_of(params)
+        carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
+        for joint, force in carried.joints.items():
+            channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
+        channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
+        channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
+        figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
+        figures |= _mass_figures(bar, masses)
+    else:
+        figures |= {f"{name}_max": value for name, value in _rate_peaks(_turn(bar, omega)[1]).items()}
     point = params.coupler_point
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, frames_of(params, bodies), _figures(params, bar, omega), traces)
+    return Motion("phi", channels, frames_of(params, bodies), figures, traces)
 
 
 def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:
@@ -86,7 +97,7 @@ def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, 
     return found
 
 
-def _figures(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
+def _figures(bar: FourBar) -> dict[str, Scalar]:
     figures = {
         "least_transmission_angle": Scalar(bar.least_transmission_angle(), "rad"),
         "greatest_transmission_angle": Scalar(bar.greatest_transmission_angle(), "rad"),
@@ -100,13 +111,12 @@ def _figures(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Sca
             "limit_extended": Scalar((limits.extended + bar.ground_angle) % math.tau, "rad"),
             "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
         }
-    for name, value in peaks_of(params, bar, omega).items():
-        figures[f"{name}_max"] = value
-    masses = masses_of(params)
-    for name, mass in masses.items():
-        figures[f"mass_{name}"] = Scalar(mass.mass, "kg")
-    balance = force_balance(bar, masses)
-    return figures | _balance_figures(balance)
+    return figures
+
+
+def _mass_figures(bar: FourBar, masses: dict[str, Mass]) -> dict[str, Scalar]:
+    figures = {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses.items()}
+    return figures | _balance_figures(force_balance(bar, masses))
 
 
 def _balance_figures(balance: Balance) -> dict[str, Scalar]:
@@ -115,3 +125,18 @@ def _balance_figures(balance: Balance) -> dict[str, Scalar]:
         for name, moment in (("crank", balance.crank), ("follower", balance.follower))
         for axis, value in (("x", moment.real), ("y", moment.imag))
     }
+
+
+def _turn(bar: FourBar, omega: float) -> tuple[Loop, dict[str, BodyMotion]]:
+    """The turn over which peaks are sought."""
+    loop = close(bar, np.linspace(0, math.tau, PEAK_SAMPLES))
+    return loop, loop.bodies(bar, omega)
+
+
+def _rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
+    turning = bodies["follower"].turning
+    return {"omega_b": _most(turning.omega, "rad/s"), "alpha_b": _most(turning.alpha, "rad/s^2")}
+
+
+def _most(values: Array, unit: str) -> Scalar:
+    return Scalar(float(np.abs(values).max()), unit)

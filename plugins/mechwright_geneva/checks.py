@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
@@ -28,6 +28,7 @@ def findings(params: GenevaParams) -> tuple[Finding, ...]:
     return until_error(params, feasibility, _mechanism_findings)
 
 
+@of_stage(Stage.PARTS)
 def _mechanism_findings(params: GenevaParams) -> tuple[Finding, ...]:
     return until_error(mechanism_of(params), slot_findings, body_findings, load_findings, _figures)
 

@@ -36,6 +36,9 @@ _MIDDLE = 1e-6
 _SHARPEST = 1e-3
 """Radius of relative curvature, mm, below which a contact is an edge; keeps the pressure of one finite."""
 
+_SHORTEST = 1e-3
+"""Length of a roller, mm, below which no line touches; keeps the pressure of one without a length finite."""
+
 _SAMPLES = 501
 """Samples of a stroke that find a peak, mid stroke among them; as many again within two of them refine it."""
 
@@ -103,7 +106,7 @@ def contact(mechanism: Mechanism, run: Stroke) -> Contact:
         params.load_inertia,
         params.load_torque,
         m.roller,
-        m.roller_length,
+        max(m.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
     )
     return _straight(run, drive) if m.straight else curved(run, drive)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
 from mechwright_geneva.params import GenevaParams
@@ -132,9 +132,11 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
         least,
         "deg",
         cure if params.rollers == most else f"use at most {most} rollers, or {cure}",
+        Stage.PARTS if locked >= 0 else Stage.MOTION,  # strokes that do not overlap can be run
     )
 
 
+@of_stage(Stage.PARTS)
 def _floor(params: GenevaParams) -> Iterator[Finding]:
     construction = construction_of(params)
     length = roller_length_of(params)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.finding import refuse
+from mechwright.contracts.finding import Stage, refuse
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.errors import DesignError
 from mechwright.mechanics.laws import Peaks
@@ -40,7 +40,8 @@ def straight_peaks(slots: int) -> Peaks:
 def motion_of(params: GenevaParams, samples: int) -> Motion:
     """Sample one turn of the crank at constant speed, both ends included.
 
-    The stroke begins at θd = 0. During dwell rates, forces and the pressure angle are 0.
+    The stroke begins at θd = 0. During dwell rates, forces and the pressure angle are 0. The Hertz pressure
+    is left out where gap and floor leave the rollers no length.
 
     Raises
     ------
@@ -51,7 +52,7 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     from mechwright_geneva.feasible import feasibility
 
-    refuse(feasibility(params))
+    refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60
     theta_d = np.linspace(0, math.tau, samples)
@@ -76,7 +77,7 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         "jerk_w": Channel(still(run.third) * omega**3, "rad/s^3"),
         "pressure_angle": Channel(still(forces.pressure_angle), "rad"),
         "contact_force": Channel(still(forces.force), "N"),
-        "contact_pressure": Channel(still(forces.pressure), "MPa"),
+        **({"contact_pressure": Channel(still(forces.pressure), "MPa")} if m.roller_length > 0 else {}),
         "crank_torque": Channel(still(forces.crank_torque), "N*m"),
     }
     poses = {
@@ -126,6 +127,6 @@ def _figures(m: Mechanism, omega: float) -> dict[str, Scalar]:
         "straight_jerk_peak": Scalar(straight.j, ""),
         "entry_acceleration_jump": Scalar(abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
         "contact_force_max": Scalar(load.force, "N"),
-        "contact_pressure_max": Scalar(load.pressure, "MPa"),
+        **({"contact_pressure_max": Scalar(load.pressure, "MPa")} if m.roller_length > 0 else {}),
         "crank_torque_max": Scalar(load.crank_torque, "N*m"),
     }

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright_slider_crank.figures import least_transmission_angle, limits
 from mechwright_slider_crank.forces import JointForces, balance, joint_forces
@@ -79,6 +79,7 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
         )
 
 
+@of_stage(Stage.PARTS)
 def _webs(params: SliderCrankParams) -> Iterator[Finding]:
     """Room between bores, and around them where a width is the designer's own."""
     sizes = sizes_of(params)
@@ -132,6 +133,7 @@ def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iter
         yield Finding(code, Severity.ERROR, parameter, message, web, LEAST_WEB, "mm", remedy)
 
 
+@of_stage(Stage.PARTS)
 def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether the rod can be drawn, and all plates find their layers."""
     most = MOST_BEND * params.rod
@@ -180,6 +182,7 @@ def _at_work(params: SliderCrankParams) -> JointForces:
     return joint_forces(params.linkage, bodies, masses_of(params), params.load)
 
 
+@of_stage(Stage.PARTS)
 def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     sizes, carried = sizes_of(params), _at_work(params)
     force = float(max(np.abs(carried.crank_pin).max(), np.abs(carried.wrist_pin).max()))

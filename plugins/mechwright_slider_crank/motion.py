@@ -6,8 +6,10 @@ from collections.abc import Callable
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.finding import errors
 from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError
+from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import Plane, acceleration_pole
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
@@ -22,6 +24,8 @@ _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     """Sample one turn of the crank at constant speed, both ends included.
 
+    Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
+
     Raises
     ------
     DesignError
@@ -29,13 +33,14 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     KinematicsError
         The crank cannot turn.
     """
+    from mechwright_slider_crank.checks import findings
+
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     linkage, omega = params.linkage, params.omega
     phi = np.linspace(0, math.copysign(math.tau, omega), samples)
     bodies = linkage.bodies(phi, omega)
-    masses = masses_of(params)
-    carried = joint_forces(linkage, bodies, masses, params.load)
+    masses = None if errors(findings(params)) else masses_of(params)
     channels = {
         "time": Channel(phi / omega, "s"),
         "phi": Channel(phi, "rad"),
@@ -45,11 +50,11 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
         "transmission_angle": Channel(transmission_angle(linkage, phi), "rad"),
         **_coupler_point(params, bodies),
         **_poles(linkage, phi, bodies),
-        **_forces(carried),
+        **({} if masses is None else _forces(joint_forces(linkage, bodies, masses, params.load))),
     }
     point = params.coupler_point
     traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega), traces)
+    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega, masses), traces)
 
 
 def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
@@ -118,18 +123,19 @@ def _forces(carried: JointForces) -> dict[str, Channel]:
     return found
 
 
-def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
-    linkage, masses = params.linkage, masses_of(params)
+def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | None) -> dict[str, Scalar]:
+    """Figures of the motion, and with ``masses`` those of the forces."""
+    linkage = params.linkage
     ends = limits(linkage)
-    weights = balance(params.crank, params.rod, masses)
 
     def sizes(phi: Array) -> dict[str, Array]:
         bodies = linkage.bodies(phi, omega)
-        carried = joint_forces(linkage, bodies, masses, params.load)
         slider = bodies.slider.origin
-        return {
-            "v_max": np.abs(slider.velocity),
-            "a_max": np.abs(slider.acceleration),
+        rates = {"v_max": np.abs(slider.velocity), "a_max": np.abs(slider.acceleration)}
+        if masses is None:
+            return rates
+        carried = joint_forces(linkage, bodies, masses, params.load)
+        return rates | {
             "drive_torque_max": np.abs(carried.torque) * MILLI,
             "force_shaft_max": np.abs(carried.shaft),
             "force_crank_pin_max": np.abs(carried.crank_pin),
@@ -151,6 +157,13 @@ def _figures(params: SliderCrankParams, omega: float) -> dict[str, Scalar]:
             least_transmission_angle(params.crank, params.rod, params.offset), "rad"
         ),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
+        **({} if masses is None else _mass_figures(params, masses)),
+    }
+
+
+def _mass_figures(params: SliderCrankParams, masses: dict[str, Mass]) -> dict[str, Scalar]:
+    weights = balance(params.crank, params.rod, masses)
+    return {
         "mass_crank": Scalar(masses["crank"].mass, "kg"),
         "mass_rod": Scalar(masses["rod"].mass, "kg"),
         "mass_slider": Scalar(masses["slider"].mass, "kg"),

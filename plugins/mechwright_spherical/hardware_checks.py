@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
@@ -35,6 +35,7 @@ def clear_radius(diameter: float, angle: float) -> float:
     return diameter / 2 / math.tan(angle / 2)
 
 
+@of_stage(Stage.PARTS)
 def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
     """All of them."""
     linkage, shells = linkage_of(params), shells_of(params)

@@ -312,7 +312,10 @@ def texts(operation: str) -> dict[str, str]:
     kept = {}
     for control in CONTROLS:
         for place, one in enumerate(made(operation, control)):
-            kept[f"{control}{'-underside' if place else ''}.nc"] = one.text
+            start = f"{control}{'-underside' if place else ''}"
+            kept |= {
+                start + stem.removeprefix(one.program.name) + ".nc": text for stem, text in one.files.items()
+            }
     return kept
 
 

@@ -123,8 +123,7 @@ def texts() -> dict[str, str]:
         post = host().post(control)
         kept[f"{control}.nc"] = post.write(every_operation())
         kept[f"{control}-options.nc"] = post.write(with_options())
-    by_file = replace(every_operation(), posting=Posting(tool_change="files"))
-    for stem, text in host().post("grbl").files(by_file).items():
+    for stem, text in host().post("grbl").files(every_operation()).items():
         kept[f"grbl-{stem}.nc"] = text
     return kept
 

@@ -15,13 +15,14 @@ from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_job, plate_program
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.contracts.finding import Severity
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.designs.design import load
 from mechwright.errors import ProgramError
 from mechwright.plugins.host import host
 from mechwright_cam.controls import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
 from mechwright_cam.controls.contract import Post
 from mechwright_cam.controls.reading import DIALECTS, Kind, Run, interpret
-from mechwright_cam.pipeline import machine
+from mechwright_cam.pipeline import check, machine
 from mechwright_cam.program.moves import Drill, Program, Rapid
 from mechwright_cam.proof import prove
 from mechwright_cam.setup.job import Job
@@ -135,7 +136,7 @@ def test_planned_programs_are_proven_for_every_control(control: str) -> None:
 
 
 def test_files_of_one_tool_each_are_proven_together() -> None:
-    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, "post": {"tool_change": "files"}}
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}}
     made = machine(planned_job(**settings), post_of("grbl"))
     assert len(made.files) == len(made.program.sections) >= 3
     assert made.proof.ok
@@ -482,3 +483,34 @@ def test_a_peck_with_a_dwell_is_written_out() -> None:
         run = read(control, one)
         assert run.seconds.sum() == pytest.approx(0.3)
         assert run.end[run.kind == Kind.FEED][:, 2].tolist() == [-1, -3, -5]
+
+
+def test_one_file_on_grbl_is_written_if_asked_for_with_a_warning_until_all_lengths_are_known(
+    tmp_path,
+) -> None:
+    def found(more: str) -> list[Finding]:
+        path = tmp_path / "d.toml"
+        path.write_text(f'format = 1\nfamily = "geneva"\nname = "g"\n[cam]\ncontrol = "grbl"\n{more}')
+        return [finding for finding in check(load(path, host()), host()) if finding.code == "cam.tool-change"]
+
+    assert found("") == found('[cam.post]\ntool_change = "files"\n') == []
+    asked = '[cam.post]\ntool_change = "pause"\n'
+    warnings = found(asked)
+    assert {(one.severity, one.parameter) for one in warnings} == {(Severity.WARNING, "cam.post.tool_change")}
+    names = set()
+    for one in warnings:
+        listed = re.fullmatch(
+            r"at a stop .* can neither jog nor probe, so (.*) cannot be touched off there", one.message
+        )
+        assert listed, one.message
+        names |= set(listed[1].split(", "))
+    assert len(names) >= 3
+    first, *rest = sorted(names)
+    lengths = "[cam.measured.lengths]\n" + "".join(f'"{name}" = 80\n' for name in rest)
+    assert {one.message.partition(" so ")[2] for one in found(asked + lengths)} == {
+        f"{first} cannot be touched off there"
+    }
+    assert found(f'{asked}{lengths}"{first}" = 80\n') == []
+    job = planned_job(control="grbl", post={"tool_change": "pause"})
+    assert len(machine(job, post_of("grbl")).files) == 1
+    assert post_of("mach3").check_tools(job.settings, job.tools) == ()

@@ -48,13 +48,14 @@ def test_tools_are_changed_and_touched_off_by_hand_on_grbl() -> None:
     assert "touched off one by one" in found
     assert "G43 H" not in found.partition("<footer>")[0]
     assert "Offsets to type in" not in found
-    assert "run them in order" in page("grbl", post={"tool_change": "files"})
+    assert "run them in order" in found
+    assert "neither jog nor probe" not in found
     lengths = {"lengths": {"mill-6": 77.5, "drill-8": 101.0}}
     assert "are in the program (G43.1)" in page("grbl", measured=lengths)
 
 
 def test_every_file_of_a_program_is_named_and_timed() -> None:
-    found = page("grbl", post={"tool_change": "files"})
+    found = page("grbl")
     names = re.findall(r"plate-\d-t\d+\.nc", found.partition("Load ")[2].partition("one after the other")[0])
     assert len(names) >= 2
     assert [name[6] for name in names] == [str(number) for number in range(1, len(names) + 1)]
@@ -66,9 +67,11 @@ def test_every_file_of_a_program_is_named_and_timed() -> None:
     # Each operation has its time: it is that of the tool that cuts, not of the next file's.
     table = found.partition("<h2>Operations</h2>")[2].partition("</table>")[0]
     assert "–" not in re.sub(r"<tr class=.stop.*", "", table)
-    one = page("grbl")
+    assert found == page("grbl", post={"tool_change": "files"})
+    one = page("grbl", post={"tool_change": "pause"})
     assert "Load plate.nc" in one
     assert "At each stop load the tool" in one
+    assert "can neither jog nor probe" in one
 
 
 def test_no_clamp_where_cutters_run() -> None:

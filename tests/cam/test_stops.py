@@ -30,7 +30,7 @@ def test_without_its_stop_the_clamp_was_there_from_the_start(control: str) -> No
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_an_optional_stop_sets_no_clamp(control: str) -> None:
-    settings = {"control": control, "post": Posting(optional_stops=True), **HELD}
+    settings = {"control": control, "post": Posting(optional_stops=True, tool_change="pause"), **HELD}
     of = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
     made_of = machine(of, host().post(control))
     assert made_of.text.count("\nM1\n") == 2
@@ -58,3 +58,30 @@ def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> N
             continue
         run = interpret(text, replace(dialect, percent=True))
         assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)
+
+
+def test_a_clamp_is_set_within_the_file_of_a_tool() -> None:
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, **HELD}
+    of = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
+    one = machine(of, host().post("grbl"))
+    assert [name.rpartition("-t")[2] for name in one.files] == ["1", "9", "24"]
+    # No stop for a tool, which is in the spindle already, and one for the clamp.
+    assert [text.splitlines().count("M0") for text in one.files.values()] == [0, 0, 1]
+    before, after = list(one.files.values())[-1].split("\nM0\n")
+    assert before.splitlines()[-4:-1] == ["M9", "M5", "G53 G0 Z-2"]
+    assert {"M3", "M8", "G49"} <= set(" ".join(after.splitlines()[:5]).split())
+    assert one.proof.ok
+    assert isinstance(one.proven, dict)
+    last = list(one.proven)[-1]
+    for gone in ({last: f"{before}\n{after}"}, {last: one.proven[last].replace("M5\nG53", "G53", 1)}):
+        faults = prove({**one.proven, **gone}, one.job, DIALECTS["grbl"]).failures
+        assert {check.name for check in faults} & {"clamp", "stops"}, faults
+
+
+def test_a_clamp_may_be_set_at_the_end_of_a_file() -> None:
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, **HELD}
+    of = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", "mill-3", **settings)
+    one = machine(of, host().post("grbl"))
+    with_stop = [text for text in one.files.values() if "M0" in text.splitlines()]
+    assert len(with_stop) == 1
+    assert one.proof.ok

@@ -39,7 +39,8 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     bodies = bodies_of(parts, motion)
     plane = all(flat(one.rotation, one.position) is not None for one in motion.poses.values())
     paths = {name: motion.path(name) for name in motion.traces}
-    used = {body.instance.body for body in bodies}
+    # Where no bodies are known, the points whose paths are drawn still move.
+    used = {body.instance.body for body in bodies} or {trace.body for trace in motion.traces.values()}
     unmade = [] if solids else [label_of(body) for body in bodies if not body.is_plate]
     found: dict[str, Any] = {
         "input": motion.input_name,

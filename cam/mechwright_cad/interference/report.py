@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
 
 MOST = 5
 """Collisions that are printed one by one, the deepest ones: a design with more has one cause for many."""
@@ -84,6 +84,7 @@ class Report:
         """Whether nothing that was compared collides."""
         return not self.collisions
 
+    @of_stage(Stage.PARTS)
     def findings(self) -> Iterator[Finding]:
         """An error for each of the deepest collisions, or a note that there is none."""
         for place, hit in enumerate(self.collisions[:MOST]):

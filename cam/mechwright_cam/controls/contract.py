@@ -29,6 +29,9 @@ class Post(Plugin):
     """The control, by the name of a post that comes with the program, whose rules the text follows when the
     proof reads it back."""
 
+    by_hand: ClassVar["ToolChange"] = "pause"
+    """How a control without a tool change has tools changed, unless the design file says so itself."""
+
     @abstractmethod
     def write(self, program: "Program") -> str:
         """The program text, lines ended by a line feed."""
@@ -39,6 +42,10 @@ class Post(Plugin):
 
     def check(self, settings: "CamSettings") -> "Sequence[Finding]":  # noqa: ARG002 - for controls with limits
         """What the control cannot do of what a design file asks for."""
+        return ()
+
+    def check_tools(self, settings: "CamSettings", tools: "Sequence[Tool]") -> "Sequence[Finding]":  # noqa: ARG002
+        """What the control cannot do with the tools of a job, whose lengths are those measured."""
         return ()
 
     @abstractmethod

@@ -15,8 +15,9 @@ from mechwright_cam.shop.tool import Tool
 class GrblPost(GcodePost):
     """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
 
-    Tools are changed by hand, at a stop (M0) or between files. A tool whose length is known gets it by
-    G43.1; where one is not, every tool is touched off on the stock anew.
+    Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
+    to go on, so it can neither jog nor probe, and a new tool cannot be touched off. A tool whose length is
+    known gets it by G43.1; where one is not, every tool is touched off on the stock anew.
     """
 
     name = "grbl"
@@ -26,18 +27,22 @@ class GrblPost(GcodePost):
     forbidden = "%?!~$;"  # Grbl takes ? ! ~ out of the stream wherever they stand: ! is a feed hold
     highest_tool = 255
     compensates = False
+    by_hand = "files"
     modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:
-        """The program, or a file for each change of tool."""
-        if program.posting.tool_change == "pause":
+        """A file for each change of tool, or the program with a stop for each."""
+        if (program.posting.tool_change or self.by_hand) == "pause":
             return super().files(program)
+        posting = program.posting.model_copy(update={"tool_change": "files"})
         runs = [list(run) for _, run in groupby(program.sections, key=lambda section: section.tool.number)]
         files = {}
         for place, run in enumerate(runs, start=1):
             note = f"file {place} of {len(runs)}, {self._load(run[0])}"
             name = f"{program.name}-{place}-t{run[0].tool.number}"
-            one = replace(program, name=name, sections=tuple(run), notes=(*program.notes, note))
+            one = replace(
+                program, name=name, sections=tuple(run), notes=(*program.notes, note), posting=posting
+            )
             files[name] = self.write(one)
         return files
 
@@ -59,6 +64,23 @@ class GrblPost(GcodePost):
             )
         return found
 
+    def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
+        """A tool that is loaded at a stop has to have a known length."""
+        unknown = [tool.name for tool in tools if tool.length is None]
+        if settings.post.tool_change != "pause" or not unknown:
+            return ()
+        return [
+            Finding(
+                "cam.tool-change",
+                Severity.WARNING,
+                "cam.post.tool_change",
+                f"at a stop (M0) Grbl can neither jog nor probe, so {', '.join(unknown)} cannot be touched "
+                "off there",
+                remedy="leave tool_change out for one file per tool, or give their lengths in "
+                "[cam.measured.lengths]",
+            )
+        ]
+
     def blending(self, exact: bool) -> list[str]:
         """Grbl always follows the path exactly; it knows G61 only."""
         return ["G61"] if exact else []
@@ -75,7 +97,7 @@ class GrblPost(GcodePost):
             return
         out.tool = section.tool.number
         out.line(f"T{section.tool.number}")
-        if out.program.posting.tool_change == "pause":
+        if out.program.posting.tool_change != "files":
             self.message(out, self._load(section))
             out.line("M0")
             self.retract(out)  # whoever has touched off has left the tool low

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.units import Millimetres
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.settings import ToolChange
 
 LEAST_CLEARANCE = 0.5
 """Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
@@ -39,8 +40,10 @@ class Posting(Parameters):
     d_value: Literal["radius", "diameter"] = Field(
         "radius", description="What Fanuc and Haas keep in a D offset; LinuxCNC and Mach3 keep the diameter."
     )
-    tool_change: Literal["pause", "files"] = Field(
-        "pause", description="Where the control has no tool change: stop for it, or one file per tool."
+    tool_change: ToolChange | None = Field(
+        None,
+        description="Where the control has no tool change: stop for it, or one file per tool; by default as "
+        "the control wants it.",
     )
 
 

@@ -48,7 +48,7 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
     steps = 2 + len({page.doing for page in pages}) + len({one.doing for one in asked})
     with Build(path, found, wanted) as build, progress(steps) as step:
         try:
-            told, faults = _make(build, pages, asked, stage, output, step)
+            told = _make(build, pages, asked, stage, output, step)
         except Refused as refused:
             refuse(refused.findings, path)
         if not output.files and empty:
@@ -60,20 +60,19 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
             tell(path, finding)
     if errors(told):
         tell(path, f"written up to the {stage}; the errors above forbid what follows")
-    for fault in faults:
+    for fault in build.faults:
         tell(path, fault)
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
 
 def _make(
     build: Build, pages: list[Page], asked: list[Inspection], stage: Stage, output: Output, step: Step
-) -> tuple[list[Finding], list[str]]:
-    """Fill the output; gives all findings in the order of inspection, and what could not be found out."""
+) -> list[Finding]:
+    """Fill the output; gives all findings in the order of inspection."""
     for page in pages:
         page.warm(build)
     step("checking")
     told: dict[str, list[Finding]] = {"": list(build.findings)}
-    faults: list[str] = []
     if stopping := errors(build.findings, stage):
         raise Refused(stopping)
     for page in pages:
@@ -89,8 +88,10 @@ def _make(
             except MechwrightError as error:
                 if not _later(one.stage, stage):
                     raise
-                faults.append(f"{one.doing}: {error}")
+                build.faults.append(f"it is not known what {one.doing} there is: {error}")
                 continue
+            if _later(one.stage, stage):
+                told[one.name] = errors(told[one.name])
             if stopping := errors(told[one.name], stage):
                 raise Refused(stopping)
 
@@ -111,7 +112,7 @@ def _make(
     ask(late)
     write(page for page in pages if page.late(build))
     order = ["", *(one.name for one in asked)]
-    return [finding for name in order for finding in told.get(name, ())], faults
+    return [finding for name in order for finding in told.get(name, ())]
 
 
 def _later(one: Stage, than: Stage) -> bool:

@@ -1,8 +1,9 @@
 """What a check has to say about a design."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
+from functools import wraps
 from typing import Any, TypeVar
 
 from mechwright.errors import DesignError
@@ -19,6 +20,17 @@ class Severity(StrEnum):
     """It can be built, but an engineer should look."""
     NOTE = "note"
     """A figure worth knowing."""
+
+
+class Stage(StrEnum):
+    """What a finding is about, in the order of the work: an error stops its stage and the later ones."""
+
+    MOTION = "motion"
+    """Whether and how the mechanism moves: closure, assembly, a law that can be run."""
+    PARTS = "parts"
+    """Whether its parts can be made and run together: undercut, collisions, thin walls, hardware."""
+    MACHINING = "machining"
+    """Whether they can be milled so: cutters, holding, stock, machine, control."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +53,8 @@ class Finding:
         Unit of both.
     remedy
         What to do, in words; empty for a note.
+    stage
+        What it is about; by default the motion, whose errors stop everything.
     """
 
     code: str
@@ -51,6 +65,7 @@ class Finding:
     limit: float | None = None
     unit: str = ""
     remedy: str = ""
+    stage: Stage = Stage.MOTION
 
     def __str__(self) -> str:
         where = f"{self.parameter}: " if self.parameter else ""
@@ -62,13 +77,48 @@ class Finding:
         return asdict(self)
 
 
-def errors(findings: Iterable[Finding]) -> list[Finding]:
-    """Give the findings that forbid building."""
-    return [finding for finding in findings if finding.severity is Severity.ERROR]
+def errors(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> list[Finding]:
+    """Give the findings that forbid a stage: errors of it and of earlier stages; by default all errors."""
+    order = list(Stage)
+    stopping = order[: order.index(stage) + 1]
+    return [
+        finding for finding in findings if finding.severity is Severity.ERROR and finding.stage in stopping
+    ]
+
+
+def at_stage(stage: Stage, findings: Iterable[Finding]) -> list[Finding]:
+    """Give the findings with a stage of their own."""
+    return [replace(finding, stage=stage) for finding in findings]
+
+
+def of_stage(
+    stage: Stage,
+) -> Callable[[Callable[[S], Iterable[Finding]]], Callable[[S], Iterator[Finding]]]:
+    """Decorate a check all of whose findings are about one stage.
+
+    Examples
+    --------
+    ::
+
+        @of_stage(Stage.PARTS)
+        def walls(params: ScotchYokeParams) -> Iterator[Finding]: ...
+    """
+
+    def decorate(check: Callable[[S], Iterable[Finding]]) -> Callable[[S], Iterator[Finding]]:
+        @wraps(check)
+        def staged(subject: S) -> Iterator[Finding]:
+            yield from at_stage(stage, check(subject))
+
+        return staged
+
+    return decorate
 
 
 def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[Finding, ...]:
-    """Run checks one after the other, up to the first that finds an error: later ones rely on the earlier."""
+    """Run checks one after the other, up to the first that finds an error: later ones rely on the earlier.
+
+    Checks of the motion come first: an error of the parts would hide what they have to say.
+    """
     found: list[Finding] = []
     for check in checks:
         found += check(subject)
@@ -77,7 +127,7 @@ def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[
     return tuple(found)
 
 
-def refuse(findings: Iterable[Finding]) -> None:
-    """Raise the first error among the findings as a DesignError; do nothing if there is none."""
-    for finding in errors(findings):
+def refuse(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> None:
+    """Raise the first error that forbids a stage as a DesignError; do nothing if there is none."""
+    for finding in errors(findings, stage):
         raise DesignError(f"{finding.parameter}: {finding.message}; {finding.remedy}")

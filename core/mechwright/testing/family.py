@@ -24,7 +24,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from mechwright.contracts.family import HOOK_API, Family
-from mechwright.contracts.finding import Finding, errors
+from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.materials import material
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
@@ -353,12 +353,34 @@ class FamilyContract:
         build_or_refuse()
         assert built, "no random table is a design to be built; override strategy with a likelier one"
 
+    def test_errors_of_later_stages_leave_the_motion(self) -> None:
+        """A refused design whose errors are about parts or machining only has a motion all the same."""
+        moving = [table for table, _ in self.refused if self._moves(table)]
+        if not moving:
+            pytest.skip("no table of the attribute refused has errors of later stages only")
+        for table in moving:
+            assert self._motion(table).samples == self.samples
+            _none(rules.motion_faults(self._motion(table)))
+
+    def _moves(self, table: Mapping[str, Any]) -> bool:
+        """Whether a table has no error of the motion."""
+        try:
+            params = self.params(table)
+        except ValidationError:
+            return False
+        return not errors(self.family().check(params), Stage.MOTION)
+
     def _fails_politely(self, table: Mapping[str, Any]) -> None:
-        """A refused design may still be asked for its motion and parts: an answer or an expected error."""
+        """A refused design may still be asked for its motion and parts: an answer or an expected error.
+
+        One without an error of the motion has a motion.
+        """
         try:
             params = self.params(table)
         except ValidationError:
             return
+        if self._moves(table):
+            _none(rules.motion_faults(self._motion(table)))
         for ask in (self.family().parts, lambda asked: self.family().solve(asked, 9)):
             try:
                 ask(params)

@@ -38,6 +38,7 @@ def steps(
     deepest: float,
     reach: tuple[float, float, float, float] | None = None,
     offsets: Sequence[DOffset] = (),
+    by_file: bool = False,
 ) -> list[Step]:
     """The steps in order.
 
@@ -55,6 +56,8 @@ def steps(
         Least x, least y, greatest x, greatest y that any cutter reaches below the rapids, mm.
     offsets
         The D offsets of cutter compensation.
+    by_file
+        Whether tools that are changed by hand have a file each.
     """
     offset = job.settings.work_offset
     over = job.side == "underside"
@@ -65,7 +68,7 @@ def steps(
         _second_plane(job, offset) if over else _plane(job, offset),
         *([] if touched else [_height(offset)]),
         *(
-            [_touch_off(job, tools)]
+            [_touch_off(job, tools, by_file=by_file)]
             if by_hand
             else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
         ),
@@ -153,23 +156,27 @@ def _measured(job: Job, tools: Sequence[int]) -> bool:
     return set(tools) <= {tool.number for tool in job.tools if tool.length is not None}
 
 
-def _touch_off(job: Job, tools: Sequence[int]) -> Step:
+def _touch_off(job: Job, tools: Sequence[int], *, by_file: bool) -> Step:
     listed = ", ".join(f"T{tool}" for tool in tools)
-    files = job.settings.post.tool_change == "files"
     if _measured(job, tools):
         lines = [
             f"The lengths of {listed} are in the program (G43.1), as measured against the spindle nose.",
             "Check each by hand before the first cut: G43.1 with its length, then the tip over the stock.",
         ]
     else:
-        when = "Before each file" if files else "At each stop"
+        when = "Before each file" if by_file else "At each stop"
         lines = [
             f"The control keeps no lengths: {listed} are touched off one by one. {when} load the tool, bring "
             f"its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so that "
             "Z reads h.",
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
-    if files:
+        if not by_file:
+            lines.append(
+                "At a stop the control by itself can neither jog nor probe: the sender has to hold the stop "
+                "(M0) instead of sending it. If yours does not, ask for one file per tool."
+            )
+    if by_file:
         lines.append("There is a file for each change of tool: run them in order.")
     return Step("Tools by hand", tuple(lines))
 

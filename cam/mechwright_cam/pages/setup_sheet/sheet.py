@@ -124,6 +124,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence
             deepest=deepest,
             reach=facts.reach(traced),
             offsets=tuple(offsets.values()),
+            by_file=program.posting.tool_change == "files",
         ),
         "origin": origin_words(job),
         "edges": datum_edges(job),

@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
 from mechwright_scotch_yoke.plates import FILLET, GAP, yoke_mass
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ def peak_force(params: "ScotchYokeParams", omega: float) -> float:
 
 
 def check(params: "ScotchYokeParams") -> list[Finding]:
-    """All findings, errors first."""
-    found = [*_room(params), *_strength(params)]
+    """All findings, errors first. The crank always turns: what can be wrong is about the parts."""
+    found = at_stage(Stage.PARTS, [*_room(params), *_strength(params)])
     found.append(
         Finding(
             "scotch-yoke.lost-motion",

@@ -1,0 +1,73 @@
+(program pocket-adaptive-1-t23, Grbl 1.1)
+(part pocket-adaptive, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(file 1 of 1, load T23 mill-8, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T23 D 8 mm: mill-8, end mill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: recess: clear)
+T23
+G54 S8754 M3
+G0 X2.8 Y-0.001
+G49
+Z5
+M8
+Z1
+G1 Z0 F1960
+G3 X-2.8 Y-0.001 Z-0.375 I-2.8 J0 F980
+X2.8 Y-0.001 Z-0.75 I2.8 J0
+X-2.8 Y-0.001 Z-1.125 I-2.8 J0
+X2.8 Y-0.001 Z-1.5 I2.8 J0
+X-2.8 Y-0.001 Z-1.875 I-2.8 J0
+X2.8 Y-0.001 Z-2.25 I2.8 J0
+X-2.8 Y-0.001 Z-2.625 I-2.8 J0
+X2.8 Y-0.001 Z-3 I2.8 J0
+X-2.8 Y-0.001 I-2.8 J0 F1960
+X2.8 Y-0.001 I2.8 J0
+X0.424 Y3.226 I-3.006 J0.275
+X-3.583 Y0.959 I-0.722 J-3.399
+X-1.594 Y-3.848 I3.717 J-1.277
+X1.411 Y-4.159 I1.915 J3.831
+X4.161 Y-2.053 I-1.163 J4.367
+X4.631 Y-0.922 I-4.119 J2.376
+X4.774 Y0.312 I-3.505 J1.03
+X-3.155 Y3.596 I-4.775 J-0.315
+X-0.934 Y-4.693 I3.157 J-3.596
+X4.784 Y-0.001 I0.932 J4.694
+G0 Z5
+(operation: recess: rough the rest)
+X4.799 Y0
+Z1
+G1 Z0
+G3 X-2.929 Y3.8 Z-0.532 I-4.8 J-0.003 F980
+X-1.298 Y-4.62 Z-1.06 I2.931 J-3.8
+X4.799 Y0 Z-1.5 I1.295 J4.624
+X-2.929 Y3.8 Z-2.032 I-4.8 J-0.003
+X-1.298 Y-4.62 Z-2.56 I2.931 J-3.8
+X4.799 Y0 Z-3 I1.295 J4.624
+X-2.929 Y3.8 I-4.8 J-0.003 F1960
+X-1.298 Y-4.62 I2.931 J-3.8
+X4.799 Y0 I1.295 J4.624
+G0 Z5
+(operation: recess: finish)
+X0.998 Y-4
+Z1
+G1 Z-3
+G3 X4.998 Y0 I0 J4 F980
+X-2.968 Y4.022 I-4.999 J-0.001 F1089
+X-1.474 Y-4.776 I2.968 J-4.022
+X4.998 Y0 I1.474 J4.776
+X0.998 Y4 I-4 J0 F980
+G1 Y-4 F1960
+G3 X4.998 Y0 I0 J4 F980
+X-2.968 Y4.022 I-4.999 J-0.001 F1089
+X-1.474 Y-4.776 I2.968 J-4.022
+X4.998 Y0 I1.474 J4.776
+X0.998 Y4 I-4 J0 F980
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

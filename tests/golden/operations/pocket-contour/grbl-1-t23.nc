@@ -1,0 +1,73 @@
+(program pocket-contour-1-t23, Grbl 1.1)
+(part pocket-contour, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(file 1 of 1, load T23 mill-8, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T23 D 8 mm: mill-8, end mill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: recess: rough)
+T23
+G54 S8754 M3
+G0 X-6.599 Y2.598
+G49
+Z5
+M8
+Z1
+G1 Z0 F1960
+X-6.598 Y-2.6 Z-0.142 F980
+X6.6 Z-0.5
+Y2.6 Z-0.642
+X-6.599 Y2.598 Z-1
+X-6.598 Y-2.6 Z-1.142
+X6.6 Z-1.5
+Y2.6 Z-1.642
+X-6.599 Y2.598 Z-2
+X-6.598 Y-2.6 F1960
+X6.6
+Y2.6
+X-6.599 Y2.598
+X-9.8 Y2.925
+X-9.798 Y-5.022
+G3 X-8.941 Y-5.8 I0.81 J0.031
+G1 X8.912
+G3 X9.8 Y-4.912 I0.063 J0.825
+G1 Y4.941
+G3 X8.941 Y5.8 I-0.815 J0.044
+G1 X-8.993 Y5.798
+G3 X-9.8 Y4.912 I0.013 J-0.822
+G1 Y2.925
+G0 Z5
+(operation: recess: finish)
+X4 Y1.998
+Z1
+G1 Z-2
+G3 X0 Y5.998 I-4 J0 F980
+G1 X-8.972 F1960
+G3 X-9.998 Y4.972 I-0.026 J-1 F588
+G1 Y-4.972 F1960
+G3 X-8.972 Y-5.998 I1 J-0.026 F588
+G1 X8.972 F1960
+G3 X9.998 Y-4.972 I0.026 J1 F588
+G1 Y4.972 F1960
+G3 X8.972 Y5.998 I-1 J0.026 F588
+G1 X0 F1960
+G3 X-4 Y1.998 I0 J-4 F980
+G1 X4 F1960
+G3 X0 Y5.998 I-4 J0 F980
+G1 X-8.972 F1960
+G3 X-9.998 Y4.972 I-0.026 J-1 F588
+G1 Y-4.972 F1960
+G3 X-8.972 Y-5.998 I1 J-0.026 F588
+G1 X8.972 F1960
+G3 X9.998 Y-4.972 I0.026 J1 F588
+G1 Y4.972 F1960
+G3 X8.972 Y5.998 I-1 J0.026 F588
+G1 X0 F1960
+G3 X-4 Y1.998 I0 J-4 F980
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

@@ -1,0 +1,75 @@
+(program rest-2-t26, Grbl 1.1)
+(part rest, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(file 2 of 2, load T26 mill-4, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T26 D 4 mm: mill-4, end mill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: recess: rough the rest)
+T26
+G54 S12000 M3
+G0 X6.449 Y-6.8
+G49
+Z5
+M8
+Z1
+G1 Z-2 F1008
+X10.435
+G3 X10.8 Y-6.457 I0.049 J0.314
+G1 Y-2.483
+G0 Z5
+Y2.483
+Z1
+G1 Z-2
+Y6.457
+G3 X10.512 Y6.798 I-0.31 J0.03
+G1 X6.693
+G0 Z5
+X-6.672
+Z1
+G1 Z-2
+X-10.49
+G3 X-10.798 Y6.512 I-0.004 J-0.305
+G1 Y1.868
+G0 Z5
+Y-1.847
+Z1
+G1 Z-2
+Y-6.49
+G3 X-10.49 Y-6.798 I0.307 J-0.001
+G1 X-6.504
+G0 Z5
+(operation: recess: finish)
+X2.499 Y4.998
+Z1
+G1 Z-2
+G3 X0.499 Y6.998 I-2 J0 F504
+G1 X-10.48 F1008
+G3 X-10.998 Y6.48 I-0.018 J-0.5 F302
+G1 Y-6.48 F1008
+G3 X-10.48 Y-6.998 I0.5 J-0.018 F302
+G1 X10.48 F1008
+G3 X10.998 Y-6.48 I0.018 J0.5 F302
+G1 Y6.48 F1008
+G3 X10.48 Y6.998 I-0.5 J0.018 F302
+G1 X0.499 F1008
+G3 X-1.501 Y4.998 I0 J-2 F504
+G1 X2.499 F1008
+G3 X0.499 Y6.998 I-2 J0 F504
+G1 X-10.48 F1008
+G3 X-10.998 Y6.48 I-0.018 J-0.5 F302
+G1 Y-6.48 F1008
+G3 X-10.48 Y-6.998 I0.5 J-0.018 F302
+G1 X10.48 F1008
+G3 X10.998 Y-6.48 I0.018 J0.5 F302
+G1 Y6.48 F1008
+G3 X10.48 Y6.998 I-0.5 J0.018 F302
+G1 X0.499 F1008
+G3 X-1.501 Y4.998 I0 J-2 F504
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

@@ -1,0 +1,56 @@
+(program second-side-underside-1-t24, Grbl 1.1)
+(part second-side-underside, aluminium, 6 mm thick)
+(stock 40.00 x 30.00 x 6 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(the underside: the plate is turned over about X)
+(file 1 of 1, load T24 mill-6, touch it off on the stock as Z0)
+(origin G55, Z0 on top of the stock, units mm and mm/min)
+(T24 D 6 mm: mill-6, end mill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: counterbore: bore)
+T24
+G55 S11671 M3
+G0 X3.39 Y0
+G49
+Z5
+M8
+Z1
+G1 Z0 F1470
+G3 X-3.39 Y0 Z-0.5 I-3.39 J0 F735
+X3.39 Y0 Z-1 I3.39 J0
+X-3.39 Y0 Z-1.5 I-3.39 J0
+X3.39 Y0 Z-2 I3.39 J0
+X-3.39 Y0 Z-2.5 I-3.39 J0
+X3.39 Y0 Z-3 I3.39 J0
+X-3.39 Y0 I-3.39 J0 F780
+X3.39 Y0 I3.39 J0
+G1 X0 F1470
+G0 Z5
+X4.8
+Z1
+G1 Z0
+G3 X-4.8 Y0 Z-0.75 I-4.8 J0 F735
+X4.8 Y0 Z-1.5 I4.8 J0
+X-4.8 Y0 Z-2.25 I-4.8 J0
+X4.8 Y0 Z-3 I4.8 J0
+X-4.8 Y0 I-4.8 J0 F905
+X4.8 Y0 I4.8 J0
+G1 X0 F1470
+G0 Z5
+(operation: counterbore: finish)
+Z1
+G1 Z-3
+G3 X4.999 Y0 I2.5 J0 F919
+X-4.999 Y0 I-4.999 J0
+X4.999 Y0 I4.999 J0
+X0 Y0 I-2.499 J0
+X4.999 Y0 I2.5 J0
+X-4.999 Y0 I-4.999 J0
+X4.999 Y0 I4.999 J0
+X0 Y0 I-2.499 J0
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30

@@ -1,0 +1,28 @@
+(program spot-2-t7, Grbl 1.1)
+(part spot, aluminium, 4 mm thick)
+(stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
+(origin: axis of the part, Z0 on top of the stock)
+(drills go 1.80 mm below the stock: leave room under the holes)
+(file 2 of 2, load T7 drill-5, touch it off on the stock as Z0)
+(origin G54, Z0 on top of the stock, units mm and mm/min)
+(T7 D 5 mm: drill-5, drill)
+G17 G21 G40 G49 G80 G90 G91.1 G94
+G53 G0 Z0
+(operation: drill 5)
+T7
+G54 S4456 M3
+G0 X-10 Y5
+G49
+Z5
+M8
+Z1
+G1 Z-5.803 F267
+G0 Z5
+X10 Y-5
+Z1
+G1 Z-5.803
+G0 Z5
+M9
+M5
+G53 G0 Z0
+M30
