@@ -1,9 +1,19 @@
 """What the CAD room registers beside exporters: solids, the page of the motion, and what collides."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from mechwright.build import Build, Inspection, Page
 from mechwright.contracts.finding import Finding, Stage
+
+if TYPE_CHECKING:
+    from mechwright_cad.making import Solids
+
+
+def _solids(build: Build) -> "Solids":
+    from mechwright_cad.making import Solids
+
+    return build.made(Solids)
 
 
 class SolidFiles(Page):
@@ -16,19 +26,19 @@ class SolidFiles(Page):
     def warm(self, build: Build) -> None:
         """Have the CAD kernel imported beside the programs of a build."""
         if build.wanted.command == "build":
-            build.made(Solids).warm()
+            _solids(build).warm()
 
     def begin(self, build: Build) -> None:
         """Have the solids made beside the programs."""
-        build.made(Solids).begin()
+        _solids(build).begin()
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes them."""
-        return build.made(Solids).beside
+        return _solids(build).beside
 
     def files(self, build: Build) -> dict[str, bytes]:
         """File name to content."""
-        return build.made(Solids).files()
+        return _solids(build).files()
 
 
 class MotionPage(Page):
@@ -40,11 +50,11 @@ class MotionPage(Page):
 
     def late(self, build: Build) -> bool:
         """Whether a second process makes it."""
-        return build.made(Solids).beside
+        return _solids(build).beside
 
     def files(self, build: Build) -> dict[str, bytes]:
         """The page."""
-        return build.made(Solids).page()
+        return _solids(build).page()
 
 
 class Interference(Inspection):
@@ -58,8 +68,8 @@ class Interference(Inspection):
 
     def late(self, build: Build) -> bool:
         """Whether a second process compares them."""
-        return build.made(Solids).beside
+        return _solids(build).beside
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """What meets, and where."""
-        return build.made(Solids).collisions()
+        return _solids(build).collisions()

@@ -10,6 +10,7 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.shim import dialect_of
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.prepare import plates, prepare
 from mechwright_cam.planning.setups import carried
@@ -113,7 +114,9 @@ class Machining:
         """Name and text of the control's table of the tools of all programs; two empty texts without one."""
         tools = {tool.number: tool for item in self.made for tool in item.program.tools}
         listed = [tools[number] for number in sorted(tools)]
-        compensated = (item.job.settings for item in self.made if item.job.settings.compensation != "computer")
+        compensated = (
+            item.job.settings for item in self.made if item.job.settings.compensation != "computer"
+        )
         settings = next(compensated, None)
         return self.control.offset_table(listed, settings) if settings else self.control.tool_table(listed)
 
@@ -128,7 +131,7 @@ def control_of(design: Design, host: Host) -> Control:
 
 def second_setup(first: Machined, job: Job, control: Control) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
-    cut = cut_away(first.proven, first.job, control)
+    cut = cut_away(first.proven, first.job, dialect_of(control))
     return replace(job, gone=carried(cut, first.job, job))
 
 
@@ -155,7 +158,7 @@ def machine(job: Job, control: Control, place: int = 0) -> Machined:
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
-    proof = prove(text, job, control)
+    proof = prove(text, job, dialect_of(control))
     proof.require()
     return Machined(job, program, files, proof, text)
 

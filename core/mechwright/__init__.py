@@ -35,8 +35,8 @@ if TYPE_CHECKING:
         ToolError,
     )
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
-    from mechwright.plugins.host import Host, host
     from mechwright.plugins.hookspecs import hookimpl
+    from mechwright.plugins.host import Host, host
     from mechwright.tolerances import TOLERANCES
 
 _HOMES = {
@@ -67,7 +67,65 @@ _HOMES = {
 
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
-__all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - the names are texts
+__all__ = [
+    "__version__",
+    *sorted(_HOME),
+    "Array",
+    "Build",
+    "Inspection",
+    "Page",
+    "Wanted",
+    "Command",
+    "Chamfer",
+    "Detail",
+    "Engraving",
+    "Thread",
+    "Exporter",
+    "Family",
+    "Finding",
+    "Severity",
+    "Stage",
+    "Channel",
+    "Motion",
+    "Poses",
+    "Scalar",
+    "Trace",
+    "Parameters",
+    "Bore",
+    "Feature",
+    "Instance",
+    "OpenProfile",
+    "Part",
+    "Pocket",
+    "Profile",
+    "HOOK_API",
+    "Plugin",
+    "Candidate",
+    "Progress",
+    "Synthesis",
+    "Table",
+    "Design",
+    "DesignError",
+    "GeometryError",
+    "KinematicsError",
+    "MechwrightError",
+    "OutputError",
+    "PluginError",
+    "ProgramError",
+    "ProofError",
+    "ToolError",
+    "Arc",
+    "BSpline",
+    "Line",
+    "Loop",
+    "Outline",
+    "Segment",
+    "circle",
+    "hookimpl",
+    "Host",
+    "host",
+    "TOLERANCES",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from mechwright_cam.pipeline import Machined, machine, second_setup
 from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
@@ -19,7 +20,6 @@ from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, 
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright.plugins.host import host
-from mechwright_cam.pipeline import Machined, machine, second_setup
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.shop.settings import CamSettings
 

@@ -10,6 +10,7 @@ from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_optio
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from long_program import long_program
+from mechwright_cam.pipeline import check, machine
 from planning_parts import bore, job, plate
 from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_job, plate_program
@@ -22,7 +23,6 @@ from mechwright.plugins.host import host
 from mechwright_cam.controls import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
 from mechwright_cam.controls.contract import Post
 from mechwright_cam.controls.reading import DIALECTS, Kind, Run, interpret
-from mechwright_cam.pipeline import check, machine
 from mechwright_cam.program.moves import Drill, Program, Rapid
 from mechwright_cam.proof import prove
 from mechwright_cam.setup.job import Job

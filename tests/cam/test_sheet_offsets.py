@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from mechwright_cam.pipeline import machine
 from planning_parts import bore, job, plate
 from shop import MILL, plate_job, plate_program
 
@@ -12,7 +13,6 @@ from mechwright.plugins.host import host
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pages.setup_sheet.facts import reach
 from mechwright_cam.pages.trace import trace
-from mechwright_cam.pipeline import machine
 from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
 from mechwright_cam.shop.posting import Measured
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 from golden_operations import CONTROLS, made
+from mechwright_cam.pipeline import machine
 from planning_parts import bore, job, plate
 
 from mechwright.plugins.host import host
 from mechwright_cam.controls.reading import DIALECTS, Kind, interpret
-from mechwright_cam.pipeline import machine
 from mechwright_cam.proof import prove
 from mechwright_cam.shop.posting import Posting
 

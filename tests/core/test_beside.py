@@ -6,9 +6,9 @@ import sys
 import time
 
 import pytest
+from mechwright.cli.solids import SolidWork, Work, compared_and_made
 
 from mechwright.beside import Beside
-from mechwright.cli.solids import SolidWork, Work, compared_and_made
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.cores import cores

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
     from mechwright.contracts.finding import Finding
     from mechwright_cam.program.moves import Program
+    from mechwright_cam.shop.posting import ToolChange
     from mechwright_cam.shop.settings import CamSettings
     from mechwright_cam.shop.tool import Tool
 
@@ -58,3 +59,6 @@ class Post(Plugin):
         By default that of :meth:`tool_table`.
         """
         return self.tool_table(tools)
+
+
+Control = Post

@@ -92,15 +92,25 @@ class SetupSheets(Page):
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
         pictures = {item.program.name: simulated_view(one, item.job) for item, one, _ in seen.measured}
         deviations = {item.program.name: walls_view(walls, item.job) for item, _, walls in seen.measured}
-        named = {
-            "suffix": machining.control.suffix,
-            "tool_table": machining.table[0],
-            "design": build.path.name,
-            "files": {item.program.name: list(item.files) for item in machining.made},
-        }
-        shown = {"pictures": pictures, "deviations": deviations, "summary": SUMMARY}
-        pages = {sheet[1].name + SHEET: setup_html([sheet], **named, **shown) for sheet in sheets}
-        return pages | {SUMMARY: summary_html(sheets, name=build.design.name, **named)}
+        suffix, table = machining.control.suffix, machining.table[0]
+        files = {item.program.name: list(item.files) for item in machining.made}
+        made = {}
+        for sheet in sheets:
+            made[sheet[1].name + SHEET] = setup_html(
+                [sheet],
+                suffix=suffix,
+                tool_table=table,
+                design=build.path.name,
+                pictures=pictures,
+                deviations=deviations,
+                summary=SUMMARY,
+                files=files,
+            )
+        name, design = build.design.name, build.path.name
+        made[SUMMARY] = summary_html(
+            sheets, name=name, suffix=suffix, tool_table=table, design=design, files=files
+        )
+        return made
 
 
 def curve_kind(text: str) -> Curves:

@@ -21,6 +21,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
+from mechwright_cam.shop.holding import Nesting
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
@@ -73,7 +74,7 @@ def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Pa
     wanted = settings_of(design).cam.nest
     if wanted is None:
         return list(parts)
-    groups = _groups(design, parts)
+    groups = _groups(design, wanted, parts)
     made: dict[str, Nest] = {}
     for number, group in enumerate(groups, start=1):
         name = wanted.name if number == 1 else f"{wanted.name}-{number}"
@@ -83,15 +84,14 @@ def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Pa
             raise DesignError(f"{design.path}: cam.nest.name: {error}") from error
         if name in {part.name for part in parts}:
             raise DesignError(f"{design.path}: cam.nest.name: {name!r} is a part; take another name")
-        nest = _nested(design, name, group, library)
+        nest = _nested(design, wanted, name, group, library)
         made |= {part.name: nest for part in group}
     return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())
 
 
-def _groups(design: Design, parts: Sequence[Part]) -> list[list[Part]]:
+def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list[Part]]:
     """The parts of each nest: those named, or all that are alike in material and thickness."""
-    assert settings_of(design).cam.nest is not None  # noqa: S101 - asked for nests only
-    names = settings_of(design).cam.nest.parts
+    names = wanted.parts
     known = {part.name: part for part in parts}
     where = f"{design.path}: cam.nest.parts"
     if not names:
@@ -120,7 +120,7 @@ def _groups(design: Design, parts: Sequence[Part]) -> list[list[Part]]:
         if name in settings_of(design).parts:
             raise DesignError(
                 f"{design.path}: cam.part.{name}: the part is cut in the nest; set it in "
-                f"[cam.part.{settings_of(design).cam.nest.name}], or take the part out of cam.nest.parts"
+                f"[cam.part.{wanted.name}], or take the part out of cam.nest.parts"
             )
         if _second_side(part):
             raise DesignError(f"{where}: {name} is cut from both sides; it cannot be nested, leave it out")
@@ -136,9 +136,8 @@ def copies(part: Part) -> int:
     return max(1, len(part.instances))
 
 
-def _nested(design: Design, name: str, group: Sequence[Part], library: Library) -> Nest:
+def _nested(design: Design, wanted: Nesting, name: str, group: Sequence[Part], library: Library) -> Nest:
     settings = settings_of(design).of(name)
-    assert settings_of(design).cam.nest is not None  # noqa: S101 - asked for nests only
     total = sum(map(copies, group))
     if total > MOST:
         raise DesignError(
@@ -149,9 +148,9 @@ def _nested(design: Design, name: str, group: Sequence[Part], library: Library) 
             f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
             "none at a finished edge; leave finished out, or cam.nest"
         )
-    gap = settings_of(design).cam.nest.gap or 2 * channel_of(group, settings, library) + WEB
+    gap = wanted.gap or 2 * channel_of(group, settings, library) + WEB
     try:
-        return nest_of(name, group, settings, gap, turn=settings_of(design).cam.nest.turn)
+        return nest_of(name, group, settings, gap, turn=wanted.turn)
     except DesignError as error:
         raise DesignError(f"{design.path}: {error}") from error
 

@@ -106,7 +106,8 @@ def _as_cut(design: Design, tops: Sequence[Job]) -> list[Finding]:
 
 def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
     """Cutting data in the design for tools that no job has."""
-    named = dict.fromkeys(name for cam in (settings_of(design).cam, *settings_of(design).parts.values()) for name in cam.cutting)
+    settings = settings_of(design)
+    named = dict.fromkeys(name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting)
     used = {tool.name for job in jobs for tool in job.tools}
     return [
         Finding(

@@ -1,7 +1,7 @@
 """The mill: its limits and its places; the table ``[cam.machine]`` of a design file, or a machine file."""
 
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
@@ -9,6 +9,7 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
+from mechwright.errors import DesignError
 
 MACHINES = Path(__file__).with_name("machines.toml")
 """The machines that come with the program, by name."""
@@ -109,4 +110,3 @@ def machine_figures(model: str, path: Path) -> dict[str, Any]:
     figures = machines[model]
     assert isinstance(figures, dict)  # noqa: S101 - a file of our own
     return figures
-

@@ -8,7 +8,6 @@ from pydantic import AfterValidator, Field
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.units import Millimetres
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
-from mechwright_cam.shop.settings import ToolChange
 
 LEAST_CLEARANCE = 0.5
 """Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
@@ -25,6 +24,10 @@ def _work_offset(text: str) -> str:
 
 WorkOffset = Annotated[str, AfterValidator(_work_offset)]
 """Every work offset that some control has; its post says which."""
+
+
+ToolChange = Literal["pause", "files"]
+"""How a tool is changed by hand: at a stop in the program, or between files of one tool each."""
 
 
 class Posting(Parameters):

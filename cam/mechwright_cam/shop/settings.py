@@ -12,9 +12,6 @@ from mechwright_cam.shop.machine import Machine as Machine  # families and CAM k
 from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, WorkOffset
 from mechwright_cam.shop.tool import CuttingChange
 
-ToolChange = Literal["pause", "files"]
-"""How a tool is changed by hand: at a stop in the program, or between files of one tool each."""
-
 DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
 """Most that a wall may be asked to be too deep, mm: what chords of outlines leave of the permitted gouge."""
 

@@ -36,7 +36,7 @@ class JobSettings:
         The design's own tool library; it lies in or below the folder of the file.
     """
 
-    cam: CamSettings = CamSettings()
+    cam: CamSettings = field(default_factory=CamSettings)
     parts: Mapping[str, CamSettings] = field(default_factory=dict)
     tool_library: Path | None = None
 
@@ -81,8 +81,8 @@ class CamTable(Table[JobSettings]):
         """The same settings; the tool library and the machine file go along."""
         if value.parts:
             raise DesignError(
-                f"{path}: cam.part: the designs that are found share one [cam]; write cam.part.{min(value.parts)} "
-                "into the one that you take"
+                f"{path}: cam.part: the designs that are found share one [cam]; write "
+                f"cam.part.{min(value.parts)} into the one that you take"
             )
         changes: dict[str, object] = {}
         files: dict[str, Path] = {}

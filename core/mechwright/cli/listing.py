@@ -6,14 +6,14 @@ from typing import Any
 
 import typer
 
+from mechwright.cli.hosting import open_host
+from mechwright.contracts.family import Family
+from mechwright.contracts.table import Table
 from mechwright.designs.requirement import require_synthesis
 from mechwright.designs.tables import unknown
 from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
 from mechwright.output.folder import write_new
-from mechwright.cli.hosting import open_host
-from mechwright.contracts.family import Family
-from mechwright.contracts.table import Table
 from mechwright.plugins.host import Registered
 
 

@@ -1,4 +1,4 @@
-"""What ``solve``, ``model``, ``cam`` and ``build`` have in common: inspect a build, make pages, write them."""
+"""What ``solve``, ``model``, ``cam`` and ``build`` share: inspect a build, make its pages, write them."""
 
 from collections.abc import Iterable
 from pathlib import Path

@@ -13,9 +13,6 @@ A design file is data. It names a family, gives its parameters and says how the 
     work_offset = "G54"
 """
 
-
-
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,6 +34,7 @@ FORMAT = 1
 
 HEAD = ("format", "family", "name")
 """Keys of every file; what else it may hold are tables."""
+
 
 @dataclass(frozen=True)
 class Design:
@@ -92,9 +90,7 @@ def load(path: Path, host: Host) -> Design:
 
 def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:
     """The values of all registered tables of a file; raises as :meth:`Table.read` does."""
-    return {
-        name: entry.item.read(content.get(name, {}), path) for name, entry in host.of(Table).items()
-    }
+    return {name: entry.item.read(content.get(name, {}), path) for name, entry in host.of(Table).items()}
 
 
 def read_head(

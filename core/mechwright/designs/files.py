@@ -55,4 +55,3 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         reason = str(error) if isinstance(error, tomllib.TOMLDecodeError) else "nested too deep"
         raise DesignError(f"{path}: is no valid TOML: {reason}") from error
-

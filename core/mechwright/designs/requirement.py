@@ -13,7 +13,8 @@ They are laid out as design files are, with the table ``[requirement]`` in the p
     [cam]
     work_offset = "G54"
 
-``kind`` may be left out where the family knows one only. Other tables, such as ``[cam]``, go into the designs.
+``kind`` may be left out where the family knows one only. Other tables, such as ``[cam]``, go into the
+designs.
 """
 
 from collections.abc import Mapping
@@ -29,6 +30,7 @@ from mechwright.designs.files import read_toml
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
+
 
 @dataclass(frozen=True)
 class Requirement:
@@ -94,7 +96,9 @@ def load_requirement(path: Path, host: Host) -> Requirement:
         raise DesignError(f"{path}: requirement.kind: is missing; one of: {', '.join(kinds)}")
     if not isinstance(kind, str) or kind not in kinds:
         raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
-    tables, files, inputs = [], {}, {}
+    tables: list[tuple[Table[Any], Any]] = []
+    files: dict[str, Path] = {}
+    inputs: dict[str, Path] = {}
     for key, value in read_tables(content, path, host).items():
         reader = registered[key].item
         inputs |= reader.inputs(value, path)

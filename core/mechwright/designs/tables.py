@@ -66,4 +66,3 @@ def unknown(key: str, known: tuple[str, ...], what: str = "key") -> str:
     close = difflib.get_close_matches(key, known, 1)
     hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
     return f"unknown {what} {key!r}; {hint}"
-

@@ -17,9 +17,7 @@ def template(family: Family[Any], name: str, tables: Iterable[Table[Any]]) -> st
     return _file(family, name, table_lines(family.Params, "parameters"), *(table.text() for table in tables))
 
 
-def requirement_template(
-    family: Family[Any], kind: str, name: str, tables: Iterable[Table[Any]]
-) -> str:
+def requirement_template(family: Family[Any], kind: str, name: str, tables: Iterable[Table[Any]]) -> str:
     """A commented requirement file of a family; what it asks for can be met."""
     asked = table_lines(family.requirements[kind], "requirement")
     head = [asked[0], f"kind = {toml(kind)}", *asked[1:]]

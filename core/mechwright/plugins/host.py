@@ -90,7 +90,9 @@ class Host:
 
     def family(self, name: str) -> "Family[Any]":
         """The family of this name; raises PluginError that lists the installed ones."""
-        from mechwright.contracts.family import Family  # its tables take long to import, --help has no use for
+        from mechwright.contracts.family import (
+            Family,  # its tables take long to import, --help has no use for
+        )
 
         return self.get(Family, name)
 
@@ -126,15 +128,19 @@ class Host:
             except _ANY_FAILURE as error:
                 fail(f"{cls.__name__}(): {_reason(error)}")
                 continue
-            items = self.registered.setdefault(contract_of(cls), {})
-            items[cls.name] = Registered(made, distribution, plugin)
+            self._file(cls)[cls.name] = Registered(made, distribution, plugin)
 
-    def _taken(self, cls: type[Plugin]) -> str:
+    def _file(self, cls: type[Plugin]) -> "dict[str, Registered[Any]]":
+        """Where a class is filed: under its contract."""
         contract = contract_of(cls)
         assert contract is not None  # noqa: S101 - a class without one has been refused
-        if cls.name not in self.of(contract):
+        return self.registered.setdefault(contract, {})
+
+    def _taken(self, cls: type[Plugin]) -> str:
+        items = self._file(cls)
+        if cls.name not in items:
             return ""
-        other = self.of(contract)[cls.name]
+        other = items[cls.name]
         return f"{cls.kind} {cls.name!r} is already registered by {other.plugin} of {other.distribution}"
 
 
