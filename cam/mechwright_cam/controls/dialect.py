@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from mechwright_cam.controls.reading.corners import EXACT, LINUXCNC_CORNERS, Corners
+
 PECK_CLEARANCE = 0.254
 """How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
 
@@ -65,12 +67,18 @@ class Dialect:
         Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
     home_cancels_length
         Whether G28 of Z may end G43, so that it has to be stated anew.
+    length_write
+        L of the G10 that sets a tool's length, and the letter of the length; None without such a table.
     retract
         How a full retract is written; the machine's Z of it stands for ``{}``.
     switch_at_zero
         Whether machine Z0 is where the homing switch is, so that a retract ends below it.
     forbidden
         Characters that the control obeys out of the stream, wherever they stand.
+    bare_home
+        Whether G28 without an axis sends all of them home.
+    corners
+        How far the control leaves the path between two moves.
     """
 
     name: str
@@ -97,12 +105,15 @@ class Dialect:
     program_numbers: bool = False
     tool_by_t: bool = False
     length_table: bool = True
+    length_write: tuple[int, str] | None = (1, "Z")
     retract: str = "G53 G0 Z{}"
     switch_at_zero: bool = False
     forbidden: str = ""
     variables: bool = False
     home_cancels_length: bool = False
     numbers_needed: str = ""
+    bare_home: bool = True
+    corners: Corners = EXACT
 
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
@@ -113,6 +124,7 @@ _MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
 LINUXCNC = Dialect(
     name="LinuxCNC",
     variables=True,
+    corners=LINUXCNC_CORNERS,
     g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
     m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
     unsupported=(

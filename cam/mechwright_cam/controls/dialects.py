@@ -5,6 +5,7 @@ many details are settings of the machine, and docs/controls.md says which readin
 """
 
 from mechwright_cam.controls.dialect import LINUXCNC, Dialect
+from mechwright_cam.controls.reading.corners import FANUC_CORNERS, GRBL_CORNERS, HAAS_CORNERS, MACH3_CORNERS
 
 _TAPPING = "tapping is not simulated"
 _CENTRE = "shift the origin with a work offset"
@@ -30,9 +31,12 @@ _SHARED = (
 
 FANUC = Dialect(
     name="Fanuc",
+    bare_home=False,
+    corners=FANUC_CORNERS,
     retract="G91 G28 Z0., then G90",
     home_cancels_length=True,
     numbers_needed="DH",
+    length_write=(10, "R"),
     percent_ends=False,
     g_codes=frozenset(_COMMON | _CYCLES | {541, 300}),
     m_codes=frozenset(_M),
@@ -52,8 +56,10 @@ FANUC = Dialect(
 
 HAAS = Dialect(
     name="Haas",
+    corners=HAAS_CORNERS,
     home_cancels_length=True,
     numbers_needed="DH",
+    length_write=(10, "R"),
     percent_ends=False,
     g_codes=frozenset(_COMMON | _CYCLES | {1540, 300}),
     m_codes=frozenset(_M),
@@ -72,6 +78,7 @@ HAAS = Dialect(
 
 MACH3 = Dialect(
     name="Mach3",
+    corners=MACH3_CORNERS,
     numbers_needed="H",
     g_codes=frozenset(_COMMON | _CYCLES | {901, 911, 300}),
     m_codes=frozenset(_M),
@@ -86,6 +93,7 @@ MACH3 = Dialect(
 
 GRBL = Dialect(
     name="Grbl",
+    corners=GRBL_CORNERS,
     switch_at_zero=True,
     g_codes=frozenset(
         {0, 10, 20, 30, 40, 100, 280, 300, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900, 910, 911}
@@ -111,6 +119,7 @@ GRBL = Dialect(
     decimals=3,
     tool_by_t=True,
     length_table=False,
+    length_write=None,
     forbidden="?!~",
 )
 """Grbl 1.1; arc limits are those of its source."""

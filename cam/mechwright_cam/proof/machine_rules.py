@@ -182,15 +182,25 @@ def work_offset(scene: Scene) -> Check:
 
 
 def positions(scene: Scene) -> Check:
-    """No feed and no sideways rapid starts at a place or height that the program never stated."""
+    """No feed and no low or sideways rapid starts at a place or height that the program never stated."""
     run = scene.run
     sideways = np.nan_to_num(run.end[:, :2] - run.start[:, :2], nan=1.0).any(axis=1)
     unknown = ~np.isfinite(run.start).all(axis=1) | ~np.isfinite(run.end).all(axis=1)
     lost = np.isnan(run.start[:, 2]) | np.isnan(run.end[:, 2])
-    step = first((run.cutting & unknown) | ((run.kind == Kind.RAPID) & sideways & lost))
+    step = first((run.cutting & unknown) | ((run.kind == Kind.RAPID) & ((sideways & lost) | _blind(scene))))
     if step is not None:
         return scene.bad("positions", step, f"moves from an unknown height or place; first {retract(scene)}")
     return Check("positions", True, "every move starts from a known height")
+
+
+def _blind(scene: Scene) -> NDArray[np.bool_]:
+    """(n,) whether a step from an X or Y that the text does not say ends, or goes sideways, low down."""
+    run, least = scene.run, scene.job.settings.clearance - NEAR
+    start, end = np.isfinite(run.start[:, :2]), np.isfinite(run.end[:, :2])
+    found = (end & ~start).any(axis=1)
+    low = ~(run.end[:, 2] >= least) | (found & ~(run.start[:, 2] >= least))
+    blind: NDArray[np.bool_] = low & ~(start & end).all(axis=1)
+    return blind
 
 
 def spindle(scene: Scene) -> Check:

@@ -107,6 +107,7 @@ class Machine(Moving):
                 continue
             letters = dict(self.dialect.inert).get(code)
             if letters is not None:
+                self._check_looser(block, code)
                 for letter in letters:
                     block.words.pop(letter, None)
                 continue
@@ -117,6 +118,17 @@ class Machine(Moving):
         for code in block.m:
             if code not in self.dialect.m_codes | self.dialect.inert_m:
                 raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+
+    def _check_looser(self, block: Block, code: int) -> None:
+        """Refuse a word that lets the control leave the path further than its setting."""
+        for looser, letter, kept, remedy in self.dialect.corners.looser:
+            value = block.words.get(letter)
+            if code == looser and value is not None and value not in kept:
+                raise fail(
+                    block.line,
+                    f"{spell(code)} {letter}{value:g} lets {self.dialect.name} round corners further than "
+                    f"the setting of the machine; {remedy}",
+                )
 
     def _stop(self, block: Block) -> None:
         for code in block.m:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.expressions import Reader
+from mechwright_cam.controls.reading.parameters import check_writable
 
 MOST_LINES = 1_000_000
 """A program that runs more lines than this is taken for an endless loop."""
@@ -127,6 +128,7 @@ class Macros(Lines):
         return self.numbers[number] if number in self.numbers else self.system(number)
 
     def _set(self, name: float | str, value: float) -> None:
+        check_writable(name)
         if isinstance(name, str):
             (self.names if name.startswith("_") else self.frames[-1].names)[name] = value
         else:

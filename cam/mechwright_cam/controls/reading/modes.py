@@ -9,7 +9,7 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
-from mechwright_cam.controls.reading.run import Coolant, Kind, State
+from mechwright_cam.controls.reading.run import Coolant, Kind, TableWrite
 
 INCH = 25.4
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
@@ -35,7 +35,7 @@ class Modal(Compensation):
         self.absolute_centres = dialect.absolute_centres
         self.selected: int | None = None
         self.to_initial = True
-        self.state = State()
+        self.state = self.states[0]
         self.plane = 170
         self.motion: int | None = None
         self.offsets_are_zero = False
@@ -139,9 +139,20 @@ class Modal(Compensation):
                 number, diameter = self._diameter(block, code)
                 self.begin_compensation(block.line, side, diameter)
                 self._set(side=side, diameter_offset=number)
-            elif code == 640:
-                words.pop("P", None)
-                words.pop("Q", None)
+            elif code in GROUPS["path"]:
+                self._corners(block, words, code)
+
+    def _corners(self, block: Block, words: dict[str, float], code: int) -> None:
+        """G61 and G64: how far the control may leave the path; P and Q only where the control has them."""
+        corners = self.dialect.corners
+        if self.side and corners.tolerance:
+            raise fail(block.line, f"{spell(code)} while compensation is on; write it before")
+        bound = 0.0
+        if code == 640:
+            given = [words.pop(letter, None) if corners.tolerance else None for letter in "PQ"]
+            blend, merge = (None if value is None else value * self.scale for value in given)
+            bound = corners.bound(blend, merge)
+        self._set(off_path=bound)
 
     def _number(self, block: Block, letter: str, code: int) -> int:
         """The number of an offset: as it is written, or the tool's where the control takes that."""
@@ -202,9 +213,11 @@ class Modal(Compensation):
         """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
         if 100 not in block.g:
             return
-        if self._take(block, "L", "G10 needs L") not in {1, 2, 10, 11, 12, 13, 20}:
+        table = self._take(block, "L", "G10 needs L")
+        if table not in {1, 2, 10, 11, 12, 13, 20}:
             raise fail(block.line, "G10 is read with L1, L2, L10 to L13 and L20")
-        self._take(block, "P", "G10 needs P")
-        for letter in "XYZRIJQ":
-            words.pop(letter, None)
+        number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
+        values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
+        self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))
+        self._row(Kind.TABLE, block.line, self.x, self.y, self.z)
         self._lose_place()

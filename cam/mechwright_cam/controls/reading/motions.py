@@ -61,12 +61,21 @@ class Moving(Modal):
 
     def _home(self, block: Block, words: dict[str, float]) -> None:
         """G28 and G30: by way of a point in work coordinates to the machine's home; without axes all go."""
-        axes = [axis for axis in AXES if axis in words] or list(AXES)
+        name = "G28" if 280 in block.g else "G30"
+        if self.side:
+            raise fail(block.line, f"{name} while compensation is on; write G40 before")
+        named = [axis for axis in AXES if axis in words]
+        if not named and not self.dialect.bare_home:
+            raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
+        axes = named or list(AXES)
+        aside = "X" in axes or "Y" in axes
         if words.keys() & set(AXES):
             via = self._target(block, words)
             here = (self.x, self.y, self.z)
             if any(a != b and not (math.isnan(a) and math.isnan(b)) for a, b in zip(via, here, strict=True)):
+                self._mark(aside)
                 self._row(Kind.RAPID, block.line, *via)
+        self._mark(aside)
         self._row(
             Kind.HOME,
             block.line,
@@ -77,12 +86,21 @@ class Moving(Modal):
         if "Z" in axes and self.dialect.home_cancels_length:
             self._set(length_offset=None, length=None)
 
+    def _mark(self, machine_xy: bool) -> None:
+        """Tell of the next step whether it takes X or Y to a place that the work does not know."""
+        if machine_xy:
+            self.machine_xy.append(self.steps)
+
     def _machine_move(self, block: Block, words: dict[str, float]) -> None:
         """G53: machine coordinates, whose place in the work the text does not know."""
         if self.motion not in {0, 10}:
             raise fail(block.line, "G53 needs G0 or G1")
         if self.side:
             raise fail(block.line, "G53 while compensation is on; write G40 before")
+        if not self.absolute:
+            raise fail(
+                block.line, "G53 with distances (G91): some controls refuse or skip it; write G90 before"
+            )
         axes = {axis: words.pop(axis) for axis in AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
@@ -91,6 +109,7 @@ class Moving(Modal):
         z = self.z
         if "Z" in axes:
             z = math.inf if axes["Z"] * self.scale >= self.upper_end else math.nan
+        self._mark("X" in axes or "Y" in axes)
         self._row(Kind.HOME, block.line, x, y, z)
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:

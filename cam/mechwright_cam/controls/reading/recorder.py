@@ -11,7 +11,7 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.groups import spell
-from mechwright_cam.controls.reading.run import Kind, Remark, Run, State
+from mechwright_cam.controls.reading.run import Kind, Remark, Run, State, TableWrite
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
@@ -32,7 +32,7 @@ class Recorder:
         self.x = self.y = self.z = math.nan
         self.feed = 0.0
         self.ended = False
-        self.states: list[State] = [State()]
+        self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
         self.index = 0
         self.tables: list[Array] = []
         self.rows: list[tuple[float, ...]] = []
@@ -40,6 +40,8 @@ class Recorder:
         self.before = 0
         """Number of steps in all tables."""
         self.pieces: list[int] = []
+        self.machine_xy: list[int] = []
+        self.writes: list[TableWrite] = []
         self.remarks: list[Remark] = []
 
     def _row(
@@ -157,6 +159,8 @@ class Recorder:
             ended=self.ended,
             lines=lines,
             piece=np.isin(np.arange(len(table)), self.pieces),
+            machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
+            writes=tuple(self.writes),
         )
 
 

@@ -1,6 +1,7 @@
 """What the interpreter gives back: steps as arrays, and the machine states they ran in."""
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -33,6 +34,8 @@ class Kind(IntEnum):
     END = 7
     MAYBE = 8
     """M1: a stop if the operator has switched it on."""
+    TABLE = 9
+    """G10: the program writes into a table of the control."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +65,8 @@ class State:
     stated
         The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
         that the program has set itself.
+    off_path
+        How far the control may leave the programmed path between two moves, mm; inf without a bound.
     """
 
     tool: int = 0
@@ -74,6 +79,7 @@ class State:
     side: int = 0
     diameter_offset: int | None = None
     stated: frozenset[str] = frozenset()
+    off_path: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +89,17 @@ class Remark:
     line: int
     text: str
     step: int
+
+
+@dataclass(frozen=True, slots=True)
+class TableWrite:
+    """What one G10 writes: its step, L and P, its axes and R by letter (mm), and whether G91 was in force."""
+
+    step: int
+    table: int
+    number: int
+    values: Mapping[str, float]
+    incremental: bool
 
 
 @dataclass(frozen=True)
@@ -124,6 +141,11 @@ class Run:
         Number of the first line of a program that stands behind its end, and is not run; 0 if none does.
     piece
         (n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one.
+    machine_xy
+        (n,) bool, whether the step belongs to a move of X or Y to a place in machine coordinates (G53) or to
+        a reference point (G28, G30): the way there by a point in the work, and the way from it.
+    writes
+        What the program writes into tables of the control (G10), in order.
     files
         Names of the files that were run one after the other; empty if it was one text.
     file
@@ -146,6 +168,8 @@ class Run:
     lines: int = 0
     beyond: int = 0
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    machine_xy: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    writes: tuple[TableWrite, ...] = ()
     files: tuple[str, ...] = ()
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
@@ -184,12 +208,14 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     """Several files, run one after the other; between two of them the machine is where it happens to be."""
     states: list[State] = []
     remarks: list[Remark] = []
+    writes: list[TableWrite] = []
     first: list[int] = []
     step = 0
     for run in runs:
         first.append(len(states))
         states += run.states
         remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
+        writes += [replace(write, step=write.step + step) for write in run.writes]
         step += len(run)
 
     def column(name: str) -> Any:
@@ -200,6 +226,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         state=np.concatenate([run.state + at for run, at in zip(runs, first, strict=True)]),
         states=tuple(states),
         remarks=tuple(remarks),
+        writes=tuple(writes),
         ended=all(run.ended for run in runs),
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),
@@ -208,4 +235,16 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     )
 
 
-_COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "feed", "seconds", "arc_error", "piece")
+_COLUMNS = (
+    "kind",
+    "line",
+    "start",
+    "end",
+    "centre",
+    "sweep",
+    "feed",
+    "seconds",
+    "arc_error",
+    "piece",
+    "machine_xy",
+)

@@ -1,0 +1,128 @@
+"""Moves in machine coordinates and to reference points: X and Y with the tool up only, Z up only."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from machine_programs import (
+    CONTROLS,
+    RETRACT,
+    at_the_end,
+    before_the_last_retract,
+    in_cut,
+    job_of,
+    judged,
+    refused,
+    scene_of,
+    text_of,
+)
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading import DIALECTS, interpret
+from mechwright_cam.proof import prove
+from mechwright_cam.proof.machine_moves import machine_moves
+from mechwright_cam.proof.machine_rules import positions
+
+ASIDE = (
+    *("G53 G0 X0. Y0.", "G0 G53 X10.", "G53 G0 Y-5.", "G53 G1 X0. F500.", "G53 G0 X0. Y0. Z-2."),
+    *("G28 X0. Y0.", "G91 G28 X0.\nG90", "G91 G28 X0. Y0. Z0.\nG90", "G91 G28 Y0.\nG90"),
+)
+"""Words that take X or Y to a place that the work does not know."""
+
+
+@pytest.mark.parametrize("words", ASIDE)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_in_the_work_x_and_y_stay_in_work_coordinates(control: str, words: str) -> None:
+    text, line = in_cut(text_of(control), words)
+    found = refused(machine_moves, control, text, line)
+    assert "from Z-4.8, the clearance plane is Z5; before it retract with" in found.message
+
+
+@pytest.mark.parametrize("words", ASIDE)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_with_the_tool_up_they_go_anywhere(control: str, words: str) -> None:
+    for place in (at_the_end, before_the_last_retract):  # at the machine's upper end, at the clearance plane
+        assert judged(machine_moves, control, place(text_of(control), words)[0]).passed
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_program_may_end_far_away(control: str) -> None:
+    text = at_the_end(text_of(control), "G53 G0 X0. Y0.\nG91 G28 X0. Y0. Z0.\nG90")[0]
+    assert prove(text, job_of(control), DIALECTS[control]).ok
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
+def test_the_second_reference_point_is_one_too(control: str) -> None:
+    text, line = in_cut(text_of(control), "G30 X0. Y0.")
+    refused(machine_moves, control, text, line)
+    assert judged(machine_moves, control, at_the_end(text_of(control), "G91 G30 X0. Y0.\nG90")[0]).passed
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_reference_move_without_an_axis_is_one_of_all(control: str) -> None:
+    text, line = in_cut(text_of(control), "G28")
+    if control == "fanuc":
+        with pytest.raises(ProgramError, match=f"^line {line}: G28 without an axis sends none home"):
+            scene_of(control, text)
+        return
+    refused(machine_moves, control, text, line)
+    assert judged(machine_moves, control, at_the_end(text_of(control), "G28")[0]).passed
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("G53 G0 X0. Y0. Z-100.", "Z comes below the clearance plane, Z5, while X or Y go"),
+        ("G28 X0. Y0. Z1.", "Z comes below the clearance plane"),
+        ("G53 G0 Z-100.", "below Z-2, which may be in the work; retract with"),
+    ],
+)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_nothing_comes_down_on_the_way(control: str, words: str, said: str) -> None:
+    text, line = at_the_end(text_of(control), words)
+    assert said in refused(machine_moves, control, text, line).message
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_rapid_from_there_does_not_come_down_blindly(control: str) -> None:
+    """X and Y are not known after the move, so that nobody sees what a rapid down meets."""
+    text, line = at_the_end(text_of(control), "G53 G0 X0. Y0.")
+    for words in ("G0 Z2.", "G0 X0. Y0. Z2.", "G0 Z-3."):
+        low = text.replace("M30", f"{words}\nM30")
+        assert refused(positions, control, low, line + 1).message.endswith(
+            tuple(f"Z{z:.3f}" for z in (2, -3))
+        )
+    assert judged(positions, control, text.replace("M30", "G0 Z5.\nX0. Y0.\nZ2.\nM30")).passed
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_machine_coordinates_are_no_distances(control: str) -> None:
+    """LinuxCNC refuses G53 with G91, Fanuc skips it: a retract that does not happen."""
+    text, line = in_cut(text_of(control), "G91 G53 G0 Z0.")
+    with pytest.raises(ProgramError, match=rf"^line {line}: G53 with distances \(G91\).* write G90 before"):
+        scene_of(control, text)
+
+
+def test_a_reference_move_does_not_end_compensation() -> None:
+    text = "G21 G90 G17\nG0 X0 Y0 Z5\nG41 D1 X9\nG28 Z5\nM2"
+    with pytest.raises(ProgramError, match=r"^line 4: G28 while compensation is on; write G40 before"):
+        interpret(text, diameters={1: 2.0})
+
+
+LINES = text_of("linuxcnc").splitlines()
+AXES = st.dictionaries(
+    st.sampled_from("XYZ"), st.floats(-100, 0).map(lambda value: round(value, 1)), min_size=1
+)
+
+
+@given(st.integers(9, LINES.index("M30")), AXES)
+@settings(max_examples=150)
+def test_wherever_it_stands_the_height_decides(at: int, axes: dict[str, float]) -> None:
+    before = interpret("\n".join(LINES[:at]), upper_end=RETRACT)
+    z = float(before.end[-1, 2]) if len(before) else math.nan
+    words = "G53 G0 " + " ".join(f"{axis}{value}" for axis, value in axes.items())
+    found = judged(machine_moves, "linuxcnc", "\n".join([*LINES[:at], words, "M30"]))
+    goes_up = axes.get("Z", RETRACT) >= RETRACT
+    assert found.passed == (goes_up and (not axes.keys() & {"X", "Y"} or z >= 5))
+    assert found.passed or found.line == at + 1
