@@ -15,8 +15,7 @@ from mechwright.output.folder import Output
 from mechwright.plugins.host import Host
 from mechwright.plugins.host import host as default_host
 from mechwright_cad.exporters import Curves, DxfExporter
-from mechwright_cam.controls.contract import Post
-from mechwright_cam.controls.reading import DIALECTS, LINUXCNC, Dialect
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.pages.setup_sheet.walls import walls_view
@@ -163,7 +162,7 @@ def curve_kind(text: str) -> Curves:
     raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")
 
 
-def _post(design: Design, host: Host) -> Post:
+def _post(design: Design, host: Host) -> Control:
     try:
         return host.post(design.cam.control)
     except PluginError as error:
@@ -177,19 +176,19 @@ def check(design: Design, host: Host) -> list[Finding]:
     return _control(post, design.cam, jobs) + findings
 
 
-def _control(post: Post, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
+def _control(post: Control, cam: CamSettings, jobs: Sequence[Job]) -> list[Finding]:
     """What the control cannot do, for both sides."""
     every = [cam, *(job.settings for job in jobs)]
     return list(dict.fromkeys(finding for settings in every for finding in post.check(settings)))
 
 
-def second_setup(first: Machined, job: Job, post: Post) -> Job:
+def second_setup(first: Machined, job: Job, post: Control) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
-    cut = cut_away(first.proven, first.job, dialect_of(post))
+    cut = cut_away(first.proven, first.job, post)
     return replace(job, gone=carried(cut, first.job, job))
 
 
-def machine(job: Job, post: Post, place: int = 0) -> Machined:
+def machine(job: Job, post: Control, place: int = 0) -> Machined:
     """Plan a program, post it, and prove the posted text.
 
     Programs of one design that have numbers are told apart by their ``place``.
@@ -208,7 +207,7 @@ def machine(job: Job, post: Post, place: int = 0) -> Machined:
     files = post.files(program)
     named = {name + post.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
-    proof = prove(text, job, dialect_of(post))
+    proof = prove(text, job, post)
     proof.require()
     return Machined(job, program, files, proof, text)
 
@@ -217,16 +216,6 @@ def _measured(tool: Tool, cam: CamSettings) -> Tool:
     """The tool with the length that the design file gives it."""
     length = cam.measured.lengths.get(tool.name, tool.length)
     return tool if length == tool.length else tool.model_copy(update={"length": length})
-
-
-def dialect_of(post: Post) -> Dialect:
-    """How the post's control reads a program; raises PluginError if the post names none that is known."""
-    try:
-        return DIALECTS[post.dialect]
-    except KeyError:
-        raise PluginError(
-            f"post {post.name!r} names the dialect {post.dialect!r}; known: {', '.join(DIALECTS)}"
-        ) from None
 
 
 def cut_parts(design: Design) -> dict[str, Part]:
@@ -268,7 +257,7 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     table, text = post.offset_table(listed, compensated) if compensated else post.tool_table(listed)
     if table:
         output.add(table, text)
-    runs = {item.program.name: read(item.proven, item.job, dialect_of(post)) for item in made}
+    runs = {item.program.name: read(item.proven, item.job, post) for item in made}
     seen = {item.program.name: simulate(runs[item.program.name], item.job) for item in made}
     walls = {item.program.name: wall_deviation(runs[item.program.name], item.job) for item in made}
     proofs = {
@@ -283,14 +272,14 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     sheets = [(item.job, item.program, proofs[item.program.name]) for item in made]
     pictures = {item.program.name: simulated_view(seen[item.program.name], item.job) for item in made}
     deviations = {item.program.name: walls_view(walls[item.program.name], item.job) for item in made}
-    named = {"suffix": post.suffix, "tool_table": table, "design": design.path.name}
+    named = {"tool_table": table, "design": design.path.name}
     files = {item.program.name: list(item.files) for item in made}
     for sheet in sheets:
         page = setup_html(
-            [sheet], **named, pictures=pictures, deviations=deviations, summary=SUMMARY, files=files
+            [sheet], post, **named, pictures=pictures, deviations=deviations, summary=SUMMARY, files=files
         )
         output.add(sheet[1].name + SHEET, page)
-    output.add(SUMMARY, summary_html(sheets, name=design.name, **named, files=files))
+    output.add(SUMMARY, summary_html(sheets, post, name=design.name, **named, files=files))
     return findings
 
 
@@ -308,17 +297,14 @@ def verify(
     It is one text, or several files by name in the order they are run. It is read as ``control`` reads it, or
     else the control of the design file. It cuts the first side of the part, or its underside.
     """
-    dialect = LINUXCNC
-    if host is not None:
-        dialect = dialect_of(_post(design, host))
-    if control:
-        try:
-            dialect = (
-                DIALECTS[control] if control in DIALECTS or host is None else dialect_of(host.post(control))
-            )
-        except (KeyError, PluginError):
-            known = sorted({*DIALECTS, *(host.posts if host else ())})
-            raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
+    host = host or default_host()
+    try:
+        post = host.post(control) if control else _post(design, host)
+    except PluginError as error:
+        if not control:
+            raise
+        known = ", ".join(sorted(host.posts))
+        raise PluginError(f"--control: {control!r} is not known; one of: {known}") from error
     cam = design.cam_of(part.name)
     library = _library(design).cutting(cam.cutting)
     parts = plates(design.family.parts(design.params))
@@ -332,9 +318,9 @@ def verify(
             raise DesignError(f"{design.path}: {fault}")
         (job,) = chosen
         if underside:  # on the plate as our own program for the first side leaves it
-            post = _post(design, host or default_host())
-            job = second_setup(machine(jobs[0], post), job, post)
+            own = _post(design, host)
+            job = second_setup(machine(jobs[0], own), job, own)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library))
     tools = tuple(_measured(tool, cam) for tool in library.tools)
-    return prove(text, replace(job, tools=tools), dialect)
+    return prove(text, replace(job, tools=tools), post)

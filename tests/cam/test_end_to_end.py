@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret
 from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
@@ -22,7 +23,6 @@ from mechwright.plugins.host import host
 from mechwright_cad.exporters import StepExporter
 from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cam import pipeline
-from mechwright_cam.controls.reading import interpret
 from mechwright_cam.pipeline import Machined
 from mechwright_elliptic_gears.proof import prove_outlines
 

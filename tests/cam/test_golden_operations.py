@@ -4,12 +4,12 @@ import difflib
 
 import numpy as np
 import pytest
+from by_control import interpret
 from golden_operations import CASES, CONTROLS, FOLDER, made, texts
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.plugins.host import host
-from mechwright_cam.controls.reading import interpret
 
 
 @pytest.mark.parametrize("operation", CASES)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, part, plate, rounded_box
@@ -19,14 +20,12 @@ from mechwright.errors import DesignError
 from mechwright.geometry import Loop
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.holes import plan_bore
-from mechwright_cam.pipeline import dialect_of
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.zones import inner_zones
-from mechwright_cam.proof import prove
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings, PathSettings
@@ -54,7 +53,7 @@ def gear_job(**changes):
 def checked(of):
     """The program of a job, its text, and its proof, which has nothing to complain of."""
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text, proof
@@ -194,7 +193,7 @@ def test_teeth_lie_between_their_tolerances(compensation, inner, outer):
     (gear,) = design.family.parts(design.params)
     post = host().post("haas")
     of = make_job(gear, wanted, choose_tools(gear, wanted, LIBRARY))
-    proof = prove(post.write(plan(of)), of, dialect_of(post))
+    proof = prove(post.write(plan(of)), of, post)
     assert proof.ok, [check.message for check in proof.failures]
     three_decimals = 5e-4
     assert proof.gouge_max_mm <= inner + three_decimals

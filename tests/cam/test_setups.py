@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 import shapely
+from by_control import BY_NAME, interpret, prove, setup_html, steps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
@@ -19,13 +20,9 @@ from mechwright.errors import DesignError
 from mechwright.geometry import Line, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright.plugins.host import host
-from mechwright_cam.controls.reading import DIALECTS, interpret
-from mechwright_cam.pages.setup_sheet import setup_html
-from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.pipeline import machine, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import lay_out_setups, turned_shape
-from mechwright_cam.proof import prove
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.settings import CamSettings
@@ -324,7 +321,7 @@ def test_a_face_below_leaves_no_place_for_tabs() -> None:
 @pytest.mark.parametrize("control", ["fanuc", "grbl"])
 def test_second_sides_on_every_control(control) -> None:
     _, second = both(part(COUNTERBORE), control=control)
-    run = interpret(second.text, DIALECTS[control])
+    run = interpret(second.text, BY_NAME[control])
     assert {run.states[i].work_offset for i in run.state[run.cutting]} == {"G55"}
 
 

@@ -5,11 +5,11 @@ import re
 from dataclasses import replace
 
 import pytest
+from by_control import setup_html
 from planning_parts import bore, job, plate
 from shop import MILL, plate_job, plate_program
 
 from mechwright.plugins.host import host
-from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pages.setup_sheet.facts import reach
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.pipeline import machine

@@ -3,13 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from by_control import BY_NAME, interpret, prove
 from golden_operations import CONTROLS, made
 from planning_parts import bore, job, plate
 
 from mechwright.plugins.host import host
-from mechwright_cam.controls.reading import DIALECTS, Kind, interpret
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.pipeline import machine
-from mechwright_cam.proof import prove
 from mechwright_cam.shop.posting import Posting
 
 HELD = {"hold": {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}}
@@ -17,7 +17,7 @@ HELD = {"hold": {"method": "bore", "clamp_diameter": 10, "clamp_height": 8}}
 
 def failed(text: str, control: str) -> set[str]:
     (one,) = made("profile-outside", control)
-    return {check.name for check in prove(text, one.job, DIALECTS[control]).failures}
+    return {check.name for check in prove(text, one.job, BY_NAME[control]).failures}
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -35,9 +35,9 @@ def test_an_optional_stop_sets_no_clamp(control: str) -> None:
     made_of = machine(of, host().post(control))
     assert made_of.text.count("\nM1\n") == 2
     plain = made_of.text.replace("\nM0\n(", "\n(").replace("\nM0\nS", "\nS")
-    kinds = interpret(made_of.text, DIALECTS[control]).kind
+    kinds = interpret(made_of.text, BY_NAME[control]).kind
     assert list(kinds).count(Kind.MAYBE) == 2
-    assert "clamp" in {check.name for check in prove(plain, of, DIALECTS[control]).failures}
+    assert "clamp" in {check.name for check in prove(plain, of, BY_NAME[control]).failures}
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -53,8 +53,8 @@ def test_the_length_offset_is_stated_anew_after_a_stop(control: str) -> None:
 
 def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> None:
     text = "G21 G90 G17\nT1 M6\nG54 S1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\nG91 G28 Z0.\nG90\nG0 X3.\nM30\n"
-    for control, dialect in DIALECTS.items():
+    for control, reader in BY_NAME.items():
         if control == "grbl":
             continue
-        run = interpret(text, replace(dialect, percent=True))
+        run = interpret(text, replace(reader.dialect, percent=True))
         assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)

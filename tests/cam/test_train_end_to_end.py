@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
@@ -20,7 +21,6 @@ from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cad.interference import faithful_motion, interference
 from mechwright_cad.interference.readback import parts_from_step
 from mechwright_cam import pipeline
-from mechwright_cam.controls.reading import interpret
 from mechwright_cam.pipeline import Machined
 from mechwright_elliptic_gears.proof import prove_outlines
 

@@ -13,7 +13,7 @@ from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.design.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.slots import outside_mills
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.pipeline import machine
@@ -52,9 +52,11 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     text = drawing(crank).decode("cp1252")
     assert f"pin-1: %%c{fit.text}" in text
     job = job_of(crank)
-    made = machine(job, LinuxCncPost())
+    made = machine(job, LinuxCnc())
     assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
-    assert f"pin-1 ⌀{fit.text}" in setup_html([(made.job, made.program, made.proof.as_dict())])
+    assert f"pin-1 ⌀{fit.text}" in setup_html(
+        [(made.job, made.program, made.proof.as_dict())], host().post("linuxcnc")
+    )
     ((tool, moves),) = [
         (section.tool, operation.moves)
         for section in made.program.sections

@@ -7,7 +7,7 @@ import pluggy
 
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
-from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.contract import Control
 
 PROJECT = "mechwright"
 hookspec = pluggy.HookspecMarker(PROJECT)
@@ -21,8 +21,8 @@ def mechwright_register_families() -> Sequence[type[Family[Any]]]:  # type: igno
 
 
 @hookspec
-def mechwright_register_posts() -> Sequence[type[Post]]:  # type: ignore[empty-body]
-    """Give the posts of this plugin, one class per control."""
+def mechwright_register_posts() -> Sequence[type[Control]]:  # type: ignore[empty-body]
+    """Give the controls of this plugin, one class for each."""
 
 
 @hookspec

@@ -16,7 +16,7 @@ from mechwright.contracts.family import HOOK_API, Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.errors import PluginError
 from mechwright.plugins import hookspecs
-from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.contract import Control
 
 GROUP = "mechwright"
 """Entry-point group in which a distribution names its plugin modules."""
@@ -68,7 +68,7 @@ class Host:
     """
 
     families: dict[str, Registered[Family[Any]]] = field(default_factory=dict)
-    posts: dict[str, Registered[Post]] = field(default_factory=dict)
+    posts: dict[str, Registered[Control]] = field(default_factory=dict)
     exporters: dict[str, Registered[Exporter]] = field(default_factory=dict)
     broken: list[Broken] = field(default_factory=list)
 
@@ -76,8 +76,8 @@ class Host:
         """The family of this name; raises PluginError that lists the installed ones."""
         return self._get(self.families, name, "family")
 
-    def post(self, name: str) -> Post:
-        """The post of this name; raises PluginError that lists the installed ones."""
+    def post(self, name: str) -> Control:
+        """The control of this name; raises PluginError that lists the installed ones."""
         return self._get(self.posts, name, "control")
 
     def exporter(self, name: str) -> Exporter:
@@ -109,7 +109,7 @@ class Host:
                 fail(reason)
         kinds: list[tuple[pluggy.HookCaller, dict[str, Registered[Any]], type[Any]]] = [
             (manager.hook.mechwright_register_families, self.families, Family),
-            (manager.hook.mechwright_register_posts, self.posts, Post),
+            (manager.hook.mechwright_register_posts, self.posts, Control),
             (manager.hook.mechwright_register_exporters, self.exporters, Exporter),
         ]
         for hook, items, base in kinds:
@@ -161,7 +161,7 @@ def _call(hook: pluggy.HookCaller) -> list[Any]:
 
 
 def _class_fault(cls: Any, base: type[Any]) -> str:
-    """What keeps a class from being used as a family, post or exporter; nothing if it is well made."""
+    """What keeps a class from being used as a family, control or exporter; nothing if it is well made."""
     if not (isinstance(cls, type) and issubclass(cls, base)):
         return f"{cls!r} is no subclass of {base.__name__}"
     api = getattr(cls, "api", None)

@@ -6,9 +6,9 @@ from functools import partial
 
 import pytest
 
-from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
-from mechwright_cam.testing import PostContract, sample_program
+from mechwright_cam.testing import ControlContract, sample_program
 
 
 def note(text):
@@ -16,7 +16,7 @@ def note(text):
     return f"({words[:60]})"
 
 
-class Plain(Post):
+class Plain(Control):
     """Writes every number of every move, and no more than the contract asks for."""
 
     name = "plain"
@@ -42,12 +42,12 @@ class Plain(Post):
         return "tool.tbl", "".join(f"T{tool.number} D{tool.diameter}\n" for tool in tools)
 
 
-class TestPlain(PostContract):
-    post = Plain
+class TestPlain(ControlContract):
+    control = Plain
 
 
 def assert_refused(post, test, words="", *arguments):
-    contract = type("Contract", (PostContract,), {"post": post})()
+    contract = type("Contract", (ControlContract,), {"control": post})()
     with pytest.raises(AssertionError) as caught:
         getattr(contract, test)(*arguments)
     assert words in str(caught.value)
@@ -148,7 +148,7 @@ def test_tool_table(table):
 
 def test_a_control_may_have_no_tool_table():
     other = type("Other", (Plain,), {"tool_table": lambda *_: ("", "")})
-    type("Contract", (PostContract,), {"post": other})().test_tool_table()
+    type("Contract", (ControlContract,), {"control": other})().test_tool_table()
 
 
 def test_the_sample_holds_every_kind_of_move_and_hangs_together():
@@ -178,8 +178,8 @@ def test_the_contract_takes_a_program_of_ones_own():
     section = sample_program().sections[0]
     short = only((replace(section, operations=(Operation("hole", section.operations[0].moves[:2]),)),))
 
-    class Contract(PostContract):
-        post = Plain
+    class Contract(ControlContract):
+        control = Plain
 
         def program(self):
             return short
