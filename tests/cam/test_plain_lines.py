@@ -119,7 +119,7 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
 
 @given(st.lists(st.text("NGXYZIJFgxK0123456789.+- \t(%", max_size=9), max_size=5))
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
-    read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"])
+    read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):
         match = PLAIN.fullmatch(text)
         words = {} if match is None else {k: float(v) for k, v in match.groupdict().items() if v is not None}
@@ -132,14 +132,14 @@ def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
 
 def test_a_point_that_the_control_wants_makes_a_line_plain() -> None:
     text = "X1.Y2.5\nX1\nX0Y1.\nX1.F100"
-    assert PlainLines(text, BY_NAME["fanuc"]).plain.tolist() == [True, False, True, True]
-    assert PlainLines(text, BY_NAME["linuxcnc"]).plain.all()
+    assert PlainLines(text, BY_NAME["fanuc"].dialect).plain.tolist() == [True, False, True, True]
+    assert PlainLines(text, BY_NAME["linuxcnc"].dialect).plain.all()
 
 
 def test_a_line_too_long_for_the_control_is_not_plain() -> None:
     text = "G1 X" + "0" * 80 + "1"
-    assert not PlainLines(text, BY_NAME["grbl"]).plain[0]
-    assert PlainLines(text, BY_NAME["linuxcnc"]).plain[0]
+    assert not PlainLines(text, BY_NAME["grbl"].dialect).plain[0]
+    assert PlainLines(text, BY_NAME["linuxcnc"].dialect).plain[0]
 
 
 STRAIGHT = "".join(f"X{k}.\n" for k in range(1, 40))

@@ -91,6 +91,6 @@ def assert_one_d(control: Control, job: Job, program: Program) -> None:
         if table:
             value = re.escape(number(offset.planned))
             rows = [row for row in table.splitlines() if re.search(rf"(?<!\d){offset.number}(?!\d)", row)]
-            assert [row for row in rows if re.search(rf"(?<![\d.-]){value}\.?(?![\d.])", row)], (
+            assert [row for row in rows if re.search(rf"(?<![\d.-]){value}(\.0*)?(?![\d.])", row)], (
                 f"{offset.planned:g} for D{offset.number} is not in the file of offsets"
             )
