@@ -42,8 +42,7 @@ from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.designs.design import load
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.plugins.host import host
-from mechwright_cam.controls import LinuxCncPost
-from mechwright_cam.controls.reading import interpret
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.reading.run import Kind
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import grow
@@ -147,11 +146,12 @@ def ours(part, settings, tools):
     start = time.process_time()
     program = plan(job)
     seconds = time.process_time() - start
-    text = LinuxCncPost().write(program)
-    proof = prove(text, job)
+    control = LinuxCnc()
+    text = control.write(program)
+    proof = prove(text, job, control)
     if not proof.ok:
         sys.exit(f"our own proof fails: {proof.failures[0].message}")
-    run = interpret(text)
+    run = control.read(text)
     named = [r for r in run.remarks if r.text.startswith(OPERATION_COMMENT)]
     cuts = {}
     for feature, wall, bottom in (("outside", "profile", job.floor), ("recess", "pocket", -DEPTH)):

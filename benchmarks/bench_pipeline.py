@@ -13,10 +13,12 @@ from harness import child, race, report, require
 
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_cam.pipeline import machine
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.table import settings_of
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
@@ -35,7 +37,7 @@ def forget() -> None:
 
 def main() -> int:
     design = load(EXAMPLE, host())
-    post = host().post(design.cam.control)
+    post = host().get(Control, settings_of(design).cam.control)
     params = design.family.Params(teeth=41, module=2, eccentricity=0.4)
     (part,) = design.family.parts(params)
     library = load_library()
@@ -48,7 +50,10 @@ def main() -> int:
 
     def job_of(which: object) -> object:
         forget()
-        return machine(make_job(which, design.cam, choose_tools(which, design.cam, library)), post).proof.ok
+        return machine(
+            make_job(which, settings_of(design).cam, choose_tools(which, settings_of(design).cam, library)),
+            post,
+        ).proof.ok
 
     with tempfile.TemporaryDirectory() as folder:
         timings = race(

@@ -25,11 +25,12 @@ import golden_compensation
 import golden_operations
 import height_map
 import random_parts
+from by_control import BY_NAME, prove, read
 from mutants import FAULTS, Mutant, differences, mutant, trace
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import DIALECTS, Dialect, Kind, Run
-from mechwright_cam.proof import prove, read
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
 
@@ -52,8 +53,8 @@ class Source:
     text: str
 
     @property
-    def dialect(self) -> Dialect:
-        return DIALECTS[self.control]
+    def reader(self) -> Control:
+        return BY_NAME[self.control]
 
 
 @dataclass(frozen=True)
@@ -137,14 +138,14 @@ def _cut(run: Run, job: Job) -> tuple[height_map.Simulation, np.ndarray]:
 @cache
 def _original(name: str) -> tuple[Run, height_map.Simulation, np.ndarray]:
     source = next(s for s in sources() if s.name == name)
-    run = read(source.text, source.job, source.dialect)
+    run = read(source.text, source.job, source.reader)
     return run, *_cut(run, source.job)
 
 
 def judge(source: Source, text: str) -> tuple[tuple[str, ...], str]:
     """In what a program differs from the proven one, and what comes of it."""
     run, before, stamps = _original(source.name)
-    other = read(text, source.job, source.dialect)
+    other = read(text, source.job, source.reader)
     differs = differences(trace(run), trace(other))
     if not differs:
         return (), "the machine does the same"
@@ -183,7 +184,7 @@ def one(case: tuple[int, Mutant]) -> Verdict:
     place, made = case
     source = sources()[place]
     try:
-        proof = prove(made.text, source.job, source.dialect)
+        proof = prove(made.text, source.job, source.reader)
     except ProgramError as error:
         said = str(error)
         line = int(said.split(":")[0].removeprefix("line ")) if said.startswith("line ") else None

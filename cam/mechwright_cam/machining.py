@@ -10,7 +10,6 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
-from mechwright_cam.controls.shim import dialect_of
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.prepare import plates, prepare
 from mechwright_cam.planning.setups import carried
@@ -131,7 +130,7 @@ def control_of(design: Design, host: Host) -> Control:
 
 def second_setup(first: Machined, job: Job, control: Control) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
-    cut = cut_away(first.proven, first.job, dialect_of(control))
+    cut = cut_away(first.proven, first.job, control)
     return replace(job, gone=carried(cut, first.job, job))
 
 
@@ -158,7 +157,7 @@ def machine(job: Job, control: Control, place: int = 0) -> Machined:
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
-    proof = prove(text, job, dialect_of(control))
+    proof = prove(text, job, control)
     proof.require()
     return Machined(job, program, files, proof, text)
 

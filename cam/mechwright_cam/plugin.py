@@ -7,10 +7,14 @@ from mechwright.plugins.hookspecs import hookimpl
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """Imports what it gives only now: a module of plugins stays light."""
-    from mechwright_cam.controls import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
+    from mechwright_cam.controls.fanuc import Fanuc
+    from mechwright_cam.controls.grbl import Grbl
+    from mechwright_cam.controls.haas import Haas
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.controls.mach3 import Mach3
     from mechwright_cam.inspection import Machinable
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.shop.table import CamTable
 
-    controls = [LinuxCncPost, FanucPost, HaasPost, Mach3Post, GrblPost]
+    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
     return [*controls, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]

@@ -11,7 +11,8 @@ from planning_parts import LIBRARY, bore, part
 
 from mechwright.geometry import Loop
 from mechwright.plugins.host import host
-from mechwright_cam.pipeline import Machined, machine
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
@@ -34,7 +35,7 @@ def made(way: str, control: str) -> Machined:
     }
     plate = part(CORNERED, bore(10.0, (0.0, -4.0)), thickness=3.0)
     job = make_job(plate, CamSettings.model_validate(settings), [LIBRARY.get("mill-4")])
-    return machine(job, host().post(control))
+    return machine(job, host().get(Control, control))
 
 
 def texts() -> dict[str, str]:

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from mechwright_cam.pipeline import Machined, machine, second_setup
 from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
@@ -20,6 +19,8 @@ from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, 
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine, second_setup
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.shop.settings import CamSettings
 
@@ -295,7 +296,7 @@ CASES: dict[str, Case] = {
 @cache
 def made(operation: str, control: str) -> tuple[Machined, ...]:
     """The proven programs of an operation's part: one, or two where it has a second side."""
-    case, post = CASES[operation], host().post(control)
+    case, post = CASES[operation], host().get(Control, control)
     plain = {"control": control, "tools": case.tools, "floor_to_leave": 0}
     cam = CamSettings.model_validate({**plain, **case.settings})
     jobs, found = lay_out_setups(case.part(operation), cam, LIBRARY)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.posting import Measured, Posting
@@ -120,10 +121,10 @@ def texts() -> dict[str, str]:
     """File name to text of everything that is kept."""
     kept = {}
     for control in CONTROLS:
-        post = host().post(control)
+        post = host().get(Control, control)
         kept[f"{control}.nc"] = post.write(every_operation())
         kept[f"{control}-options.nc"] = post.write(with_options())
-    for stem, text in host().post("grbl").files(every_operation()).items():
+    for stem, text in host().get(Control, "grbl").files(every_operation()).items():
         kept[f"grbl-{stem}.nc"] = text
     return kept
 

@@ -3,10 +3,11 @@
 from dataclasses import replace
 from functools import cache
 
+from by_control import BY_NAME
 from shop import DRILL, MILL, SPOT, plate_job, plate_program
 
 from mechwright.plugins.host import host
-from mechwright_cam.controls.reading import DIALECTS
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof import Check, read
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.scene import Rule, Scene
@@ -40,7 +41,7 @@ def text_of(control: str, *, measured: bool = False, work_offset: str = "G54") -
         program = replace(
             program, sections=sections, posting=Posting(offsets=True), measured=Measured(**PLACE)
         )
-    return host().post(control).write(program)
+    return host().get(Control, control).write(program)
 
 
 def in_cut(text: str, words: str) -> tuple[str, int]:
@@ -67,9 +68,9 @@ def before_the_last_retract(text: str, words: str) -> tuple[str, int]:
 def scene_of(control: str, text: str, job: Job | None = None) -> Scene:
     """What a rule about the machine's state looks at; it asks nothing of the stock."""
     job = job or job_of(control)
-    run = read(text, job, DIALECTS[control])
+    run = read(text, job, BY_NAME[control])
     tools = {tool.number: tool for tool in job.tools}
-    return Scene(run, job, tools, Paths(run, tools), None, DIALECTS[control])
+    return Scene(run, job, tools, Paths(run, tools), None, BY_NAME[control])
 
 
 def judged(rule: Rule, control: str, text: str, job: Job | None = None) -> Check:

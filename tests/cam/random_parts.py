@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from by_control import prove
 from planning_parts import LIBRARY, rounded_box
 from random_shapes import Rng, polygon, ring, slot
 
@@ -18,10 +19,11 @@ from mechwright.errors import MechwrightError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright.plugins.host import host
-from mechwright_cam.pipeline import Machined, dialect_of, second_setup
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import lay_out_setups
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.proof import Proof
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
@@ -395,7 +397,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         **drawn.settings,
         **changes,
     }
-    post = host().post(control)
+    post = host().get(Control, control)
     made: list[Machined] = []
     try:
         cam = CamSettings.model_validate(wanted)
@@ -406,9 +408,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
             laid = job if job.side == "top" else second_setup(made[-1], job, post)
             program = plan(laid)
             text = post.write(program)
-            made.append(
-                Machined(laid, program, {program.name: text}, prove(text, laid, dialect_of(post)), text)
-            )
+            made.append(Machined(laid, program, {program.name: text}, prove(text, laid, post), text))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))
     return Outcome(drawn, control, made=tuple(made))
@@ -426,8 +426,8 @@ def without(outcome: Outcome, place: int, name: str) -> Proof | None:
         return None
     if not sections:
         return None
-    post = host().post(outcome.control)
-    return prove(post.write(replace(one.program, sections=tuple(sections))), one.job, dialect_of(post))
+    post = host().get(Control, outcome.control)
+    return prove(post.write(replace(one.program, sections=tuple(sections))), one.job, post)
 
 
 def named(job: Job, tools: tuple[Tool, ...]) -> set[str]:

@@ -7,6 +7,7 @@ import height_map
 import numpy as np
 import pytest
 import shapely
+from by_control import BY_NAME, cut_away, interpret, prove
 from planning_parts import LIBRARY, bore, rounded_box
 
 from mechwright.contracts.details import Chamfer
@@ -14,12 +15,11 @@ from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Outline
 from mechwright.plugins.host import host
-from mechwright_cam.controls import LinuxCncPost
-from mechwright_cam.controls.reading import DIALECTS, interpret
-from mechwright_cam.pipeline import machine, second_setup
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import carried, lay_out_setups, turned_shape
-from mechwright_cam.proof import cut_away, prove
 from mechwright_cam.proof.carried import SWEPT
 from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.setup.job import Air
@@ -48,8 +48,8 @@ def made(flip="x"):
     settings = CamSettings.model_validate({"tools": tools, "second_side": {"flip": flip}})
     jobs, found = lay_out_setups(part, settings, LIBRARY)
     assert not errors(found), found
-    first = machine(jobs[0], LinuxCncPost())
-    return first, machine(second_setup(first, jobs[1], LinuxCncPost()), LinuxCncPost())
+    first = machine(jobs[0], LinuxCnc())
+    return first, machine(second_setup(first, jobs[1], LinuxCnc()), LinuxCnc())
 
 
 @cache
@@ -144,7 +144,7 @@ def test_the_same_stock_stands_in_both_simulators():
 def test_the_underside_does_not_cut_air():
     _, second = made()
     blind = replace(second.job, gone=())
-    plain = LinuxCncPost().write(plan(blind))
+    plain = LinuxCnc().write(plan(blind))
     assert prove(plain, blind).ok
     knowing, not_knowing = (simulate(interpret(text), second.job) for text in (second.text, plain))
     assert knowing.feed_mm < 0.9 * not_knowing.feed_mm
@@ -209,9 +209,9 @@ def test_nothing_is_carried_from_a_program_that_cuts_nothing():
 def test_other_controls_hand_on_the_same():
     first, _ = made()
     reference = cut_away(first.text, first.job)
-    haas = host().post("haas")
+    haas = host().get(Control, "haas")
     text = haas.write(first.program)
-    found = cut_away(text, first.job, DIALECTS["haas"])
+    found = cut_away(text, first.job, BY_NAME["haas"])
     assert [z for _, z in found] == [z for _, z in reference]
     for (one, _), (two, _) in zip(found, reference, strict=True):
         assert one.symmetric_difference(two).area < SWEPT * one.length

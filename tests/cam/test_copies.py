@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from engagement import engagements
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,13 +13,12 @@ from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations import adaptive
 from mechwright_cam.operations.adaptive import clear
 from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
 from mechwright_cam.plane.offsets import ROUGH
 from mechwright_cam.planning import plan
-from mechwright_cam.proof import prove
 
 MILL = LIBRARY.get("mill-6")
 HOOK = [(6.0, -4.0), (18.0, -4.0), (18.0, 9.0), (10.0, 9.0), (10.0, 4.0), (6.0, 4.0)]
@@ -118,7 +118,7 @@ def test_five_slots_are_planned_once_and_proven(planned):
     assert len(planned) == 1
     names = [o.name for s in program.sections for o in s.operations]
     assert [name for name in names if name.endswith("clear")] == [f"slot-{i}: clear" for i in range(5)]
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 
@@ -127,7 +127,7 @@ def test_a_slot_that_runs_into_another_feature_has_a_plan_of_its_own(planned):
     of = wheel(4, (crossing,))
     program = plan(of)
     assert len(planned) >= 2
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 

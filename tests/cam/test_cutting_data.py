@@ -5,7 +5,7 @@ import pytest
 from mechwright.designs.design import load
 from mechwright.errors import ToolError
 from mechwright.plugins.host import host
-from mechwright_cam.pipeline import prepare
+from mechwright_cam.planning.prepare import prepare
 from mechwright_cam.shop.library import built_in
 from mechwright_cam.shop.tool import CuttingChange
 

@@ -11,7 +11,7 @@ from planning_simulation import keep_at
 
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
@@ -45,7 +45,7 @@ def cut(request):
     of, changes = CASES[request.param]
     settings = CamSettings.model_validate(changes)
     job = make_job(of, settings, choose_tools(of, settings, LIBRARY))
-    moves = read(LinuxCncPost().write(plan(job)))
+    moves = read(LinuxCnc().write(plan(job)))
     simulation = Simulation(job.stock, job.thickness, PITCH)
     simulation.run(moves, cutters(job))
     return job, moves, simulation

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import (
@@ -19,7 +20,6 @@ from machine_programs import (
 )
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import DIALECTS, interpret
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.machine_moves import machine_moves
 from mechwright_cam.proof.machine_rules import positions
@@ -49,7 +49,7 @@ def test_with_the_tool_up_they_go_anywhere(control: str, words: str) -> None:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_program_may_end_far_away(control: str) -> None:
     text = at_the_end(text_of(control), "G53 G0 X0. Y0.\nG91 G28 X0. Y0. Z0.\nG90")[0]
-    assert prove(text, job_of(control), DIALECTS[control]).ok
+    assert prove(text, job_of(control), BY_NAME[control]).ok
 
 
 @pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])

@@ -11,6 +11,7 @@ from mechwright.errors import DesignError
 from mechwright.plugins.host import host
 from mechwright_cam.shop.part_settings import WHOLE_JOB
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
 
 HEAD = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
 
@@ -73,7 +74,7 @@ def test_every_key_holds_for_the_part_and_for_no_other(key, tmp_path):
     assert key in OVERRIDES, "a new key of [cam]: add a value that is not its default"
     text = toml(key, OVERRIDES[key], "cam.part.gear")
     found = load(design(tmp_path, text), host())
-    own, job = found.cam_of("gear"), found.cam_of("another")
+    own, job = settings_of(found).of("gear"), settings_of(found).of("another")
     assert job == CamSettings()
     assert getattr(own, key) != getattr(job, key)
     rest = {name for name in CamSettings.model_fields if name != key}
@@ -83,9 +84,9 @@ def test_every_key_holds_for_the_part_and_for_no_other(key, tmp_path):
 def test_a_table_lies_over_the_job_key_by_key(tmp_path):
     text = "[cam]\nclearance = 8\n[cam.hold]\ntabs = 6\ntab_width = 1.5\n[cam.part.gear.hold]\ntabs = 3\n"
     found = load(design(tmp_path, text), host())
-    assert (found.cam_of("gear").hold.tabs, found.cam_of("gear").hold.tab_width) == (3, 1.5)
-    assert found.cam_of("gear").clearance == 8
-    assert found.cam.hold.tabs == 6
+    assert (settings_of(found).of("gear").hold.tabs, settings_of(found).of("gear").hold.tab_width) == (3, 1.5)
+    assert settings_of(found).of("gear").clearance == 8
+    assert settings_of(found).cam.hold.tabs == 6
 
 
 @pytest.mark.parametrize(
@@ -97,7 +98,7 @@ def test_a_table_lies_over_the_job_key_by_key(tmp_path):
 )
 def test_a_margin_and_a_size_put_each_other_out(job, own, left, tmp_path):
     found = load(design(tmp_path, f"[cam.stock]\n{job}\n[cam.part.gear.stock]\n{own}\n"), host())
-    stock = found.cam_of("gear").stock
+    stock = settings_of(found).of("gear").stock
     assert (stock.margin, stock.length, stock.width) == left
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, part, plate, rounded_box
@@ -19,17 +20,17 @@ from mechwright.errors import DesignError
 from mechwright.geometry import Loop
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.holes import plan_bore
-from mechwright_cam.pipeline import dialect_of
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.zones import inner_zones
-from mechwright_cam.proof import prove
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings, PathSettings
+from mechwright_cam.shop.table import settings_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ZONES = [(0.0, 0.003), (0.001, 0.004), (0.003, 0.003), (0.0045, 0.0045), (0.0, 0.008), (0.0045, 0.008)]
@@ -54,7 +55,7 @@ def gear_job(**changes):
 def checked(of):
     """The program of a job, its text, and its proof, which has nothing to complain of."""
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text, proof
@@ -190,11 +191,11 @@ def test_teeth_lie_between_their_tolerances(compensation, inner, outer):
     """Teeth have what is hard on contours: tips of 0.03 mm, flanks that meet their fillets at slight angles."""
     design = load(EXAMPLES / "elliptic-pair-haas.toml", host())
     changed = {"compensation": compensation, "path": PathSettings(**path(inner, outer))}
-    wanted = design.cam.model_copy(update=changed)
+    wanted = settings_of(design).cam.model_copy(update=changed)
     (gear,) = design.family.parts(design.params)
-    post = host().post("haas")
+    post = host().get(Control, "haas")
     of = make_job(gear, wanted, choose_tools(gear, wanted, LIBRARY))
-    proof = prove(post.write(plan(of)), of, dialect_of(post))
+    proof = prove(post.write(plan(of)), of, post)
     assert proof.ok, [check.message for check in proof.failures]
     three_decimals = 5e-4
     assert proof.gouge_max_mm <= inner + three_decimals

@@ -6,13 +6,13 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import CONTROLS, in_cut, job_of, judged, refused, scene_of, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.reading import DIALECTS, interpret
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.corridor import ADVICE, corridor
 
@@ -67,7 +67,7 @@ def test_a_tighter_path_is_accepted(words: str) -> None:
 
 def test_the_advice_is_good() -> None:
     for words in re.findall(r"G6\d(?: P[\d.]+)?", ADVICE):
-        assert prove(with_words(words), job_of("linuxcnc"), DIALECTS["linuxcnc"]).ok
+        assert prove(with_words(words), job_of("linuxcnc"), BY_NAME["linuxcnc"]).ok
 
 
 def test_what_is_loosened_later_counts_from_there() -> None:
@@ -87,7 +87,7 @@ def test_elsewhere_the_machine_is_set_and_no_word_loosens_it(control: str) -> No
     text = text_of(control)
     assert ("G64\n" in text) == (control != "grbl")
     for words in ("", "G61\n"):
-        assert prove(text.replace("G64\n", words), job_of(control), DIALECTS[control]).ok
+        assert prove(text.replace("G64\n", words), job_of(control), BY_NAME[control]).ok
     said = "G64 is no code" if control == "grbl" else "P means nothing in this line"
     looser, line = in_cut(text, "G64 P0.5")
     with pytest.raises(ProgramError, match=f"^line {line}: {said}"):

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret, prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
@@ -13,10 +14,9 @@ from test_proof_parts import coordinate, cuts, height, paths_of
 
 from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
-from mechwright_cam.controls import LinuxCncPost
-from mechwright_cam.controls.reading import interpret
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.proof import gouge, leftover, near, prove, stock
+from mechwright_cam.proof import gouge, leftover, near, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import Paths
@@ -123,7 +123,7 @@ def test_cuts_near_a_shape(
 
 @pytest.fixture(scope="module")
 def program() -> str:
-    return LinuxCncPost().write(plate_program())
+    return LinuxCnc().write(plate_program())
 
 
 @pytest.mark.parametrize("lines", [[], ["G1 Z-6.2\n"], ["Z-6.2\n", "X-3\n"], ["G3 X-27 Y-24"]])
@@ -195,7 +195,7 @@ def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: f
     part = Part("plate", plate, 8.0, "aluminium", machined=(recess,))
     cam = CamSettings.model_validate({"stock": {"margin": 0}, "tools": ["mill-4"]})
     job = make_job(part, cam, choose_tools(part, cam, load_library()))
-    text = LinuxCncPost().write(plan(job))
+    text = LinuxCnc().write(plan(job))
     proof = prove(text, job)
     assert proof.ok
     # The corners of the wide end keep r (1 - 1/√2) beside their walls, the slot half its width.

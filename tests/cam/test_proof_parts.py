@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import DRILL, MILL, TOOLS, plate_job
 
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
-from mechwright_cam.controls.reading import Kind, Run, interpret
+from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.gouge import deepest_cut
 from mechwright_cam.proof.paths import Paths

@@ -9,16 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_control import LINUXCNC, interpret, read, setup_html
 from planning_parts import bore, job, plate
 from shop import DRILL, MILL, SPOT, TOOLS, plate_job, plate_program
 
-from mechwright_cam.controls import LinuxCncPost
-from mechwright_cam.controls.reading import LINUXCNC, interpret
-from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
-from mechwright_cam.pipeline import machine
 from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
-from mechwright_cam.proof import read
 from mechwright_cam.proof.simulation import Simulation, deviation, simulate
 
 
@@ -26,7 +24,7 @@ def simulation(*moves: object, feed: float = 600.0) -> tuple[Simulation, object]
     made = plate_job()
     section = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(moves)),))
     program = Program("plate", "G54", 5.0, (section,))
-    return simulate(read(LinuxCncPost().write(program), made, LINUXCNC), made), made
+    return simulate(read(LinuxCnc().write(program), made, LINUXCNC), made), made
 
 
 def row(x0, x1, y, z, feed=600.0):
@@ -62,7 +60,7 @@ def test_the_thickest_chip_follows_the_engagement(over: float) -> None:
     other = MILL.model_copy(update={"number": 9, "name": "mill-9"})
     second = ToolSection(other, 8000, "flood", (Operation("p", tuple(row(-20, 20, over, -2.0))),))
     made = replace(made, tools=(*made.tools, other))
-    text = LinuxCncPost().write(Program("plate", "G54", 5.0, (first, second)))
+    text = LinuxCnc().write(Program("plate", "G54", 5.0, (first, second)))
     work = simulate(read(text, made, LINUXCNC), made).works[1]
     angle = math.acos(1 - over / 3.0)
     assert work.tool == 9
@@ -92,7 +90,7 @@ def test_arcs_and_helices_are_followed() -> None:
 
 def test_a_drill_leaves_its_point() -> None:
     made = plate_job()
-    text = LinuxCncPost().write(plate_program())
+    text = LinuxCnc().write(plate_program())
     run = read(text, made, LINUXCNC)
     stop = int(np.flatnonzero(run.tool == DRILL.number)[0])
     spot_only = interpret("\n".join(text.split("\n")[: int(run.line[stop]) - 1]))
@@ -104,7 +102,7 @@ def test_a_drill_leaves_its_point() -> None:
 
 
 def test_the_finished_part_has_no_deviation_and_a_defect_has() -> None:
-    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
     seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
     off = deviation(seen, made.job, 2)
     assert np.nanmax(np.abs(off)) == 0
@@ -138,7 +136,7 @@ def test_the_picture_shows_what_is_left_and_what_is_hurt() -> None:
 
 
 def test_the_setup_sheet_has_picture_and_loads() -> None:
-    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
     seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
     proof = {**made.proof.as_dict(), "simulation": seen.as_dict()}
     page = setup_html(

@@ -6,17 +6,15 @@ from functools import cache
 
 import numpy as np
 import pytest
+from by_control import interpret, prove, setup_html
 from planning_parts import job
 from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
 from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline
-from mechwright_cam.controls import LinuxCncPost
-from mechwright_cam.controls.reading import interpret
-from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.pages.setup_sheet.walls import exaggeration, walls_view
 from mechwright_cam.planning import plan
-from mechwright_cam.proof import prove
 from mechwright_cam.proof.walls import wall_deviation
 from mechwright_cam.shop.settings import CamSettings
 
@@ -25,7 +23,7 @@ SQUARE = Loop.polygon([(-24, -14), (-8, -14), (-8, 6), (-24, 6)])
 
 
 def measured(bias=BIAS):
-    return wall_deviation(interpret(LinuxCncPost().write(plate_program(bias=bias))), plate_job())
+    return wall_deviation(interpret(LinuxCnc().write(plate_program(bias=bias))), plate_job())
 
 
 @cache
@@ -34,7 +32,7 @@ def angle():
     machined = (Pocket("pocket", SQUARE, (), 0, 3), Profile("outside", ANGLE, "outside", 0, 6))
     of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6", "mill-4")
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     return of, program, text, wall_deviation(interpret(text), of)
 
 
@@ -50,7 +48,7 @@ def test_a_path_that_keeps_off_by_a_bias_is_off_by_that_everywhere(bias):
 
 
 def test_the_worst_cut_is_where_it_was_planted():
-    text = LinuxCncPost().write(plate_program())
+    text = LinuxCnc().write(plate_program())
     lines = text.splitlines()
     # The last pass along the right side comes 4 µm nearer at its end.
     edge = f"X{HALF_X + 3 + BIAS:.4f}".rstrip("0")

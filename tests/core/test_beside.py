@@ -171,7 +171,7 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     )
     found = host()
     design = load(tmp_path / "pair.toml", found)
-    exporters = [found.exporter(name) for name in ("step", "stl")]
+    exporters = [found.get(Exporter, name) for name in ("step", "stl")]
     motion = design.family.solve(design.params, 2)
     with Beside([]) as second:
         second.ask(compared_and_made, Work(design, exporters, motion, 1))

@@ -14,6 +14,7 @@ from mechwright.designs.text import template
 from mechwright.designs.units import Degrees, Millimetres
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.plugins.host import Host, Registered
+from mechwright_cam.shop.table import settings_of
 
 
 class DiscParams(Parameters):
@@ -60,7 +61,7 @@ def test_units_are_converted_and_defaults_filled(tmp_path: Path, host: Host) -> 
         "lead": pytest.approx(28.64788975654116),
         "boss": None,
     }
-    assert design.cam.work_offset == "G54"
+    assert settings_of(design).cam.work_offset == "G54"
 
 
 def test_the_template_is_a_design_file_with_the_defaults(tmp_path: Path, host: Host) -> None:

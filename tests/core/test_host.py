@@ -36,11 +36,12 @@ OUTPUT = """
 from mechwright.plugins.hookspecs import hookimpl
 from mechwright.contracts.exporter import Exporter
 
-from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.contract import Control
 
-class Mill(Post):
+class Mill(Control):
     name, title = "mill", "Mill"
     def write(self, program): return ""
+    def read(self, program, **settings): return None
     def tool_table(self, tools): return "", ""
 
 class Stl(Exporter):

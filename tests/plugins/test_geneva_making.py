@@ -13,15 +13,17 @@ from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing
-from mechwright_cam.controls import LinuxCncPost
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine
 from mechwright_cam.operations.slots import outside_mills
 from mechwright_cam.pages.setup_sheet import setup_html
-from mechwright_cam.pipeline import machine
 from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.table import settings_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 
@@ -39,7 +41,7 @@ def parts(name, **changes):
 
 
 def job_of(part, *tools, **changes):
-    settings = example("cycloidal").cam.model_copy(update={"tools": tools, **changes})
+    settings = settings_of(example("cycloidal")).cam.model_copy(update={"tools": tools, **changes})
     return make_job(part, settings, choose_tools(part, settings, LIBRARY))
 
 
@@ -52,9 +54,11 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     text = drawing(crank).decode("cp1252")
     assert f"pin-1: %%c{fit.text}" in text
     job = job_of(crank)
-    made = machine(job, LinuxCncPost())
+    made = machine(job, LinuxCnc())
     assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
-    assert f"pin-1 ⌀{fit.text}" in setup_html([(made.job, made.program, made.proof.as_dict())])
+    assert f"pin-1 ⌀{fit.text}" in setup_html(
+        [(made.job, made.program, made.proof.as_dict())], host().get(Control, "linuxcnc")
+    )
     ((tool, moves),) = [
         (section.tool, operation.moves)
         for section in made.program.sections
@@ -96,7 +100,7 @@ def test_no_tab_stands_on_a_wall_that_works(design):
             continue
         (outside,) = [f for f in part.features if isinstance(f, Profile) and f.side == "outside"]
         working = [s for s in outside.loop.segments if s.tag not in ("rim", "relief", "crank", "hub")]
-        job = make_job(part, example("cycloidal").cam, LIBRARY.tools)
+        job = make_job(part, settings_of(example("cycloidal")).cam, LIBRARY.tools)
         assert len(job.tabs) == 4
         plate = shapely.Polygon(outside.loop.flatten())
         for tab in job.tabs:

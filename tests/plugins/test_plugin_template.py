@@ -16,9 +16,10 @@ TEMPLATE = Path(__file__).parents[2] / "examples" / "plugin-template"
 
 ASK = """
 import json
+from mechwright.contracts.family import Family
 from mechwright.plugins.host import load
 host = load()
-yoke = host.families.get("scotch-yoke")
+yoke = host.of(Family).get("scotch-yoke")
 print(json.dumps({
     "distribution": yoke and yoke.distribution,
     "plugin": yoke and yoke.plugin,

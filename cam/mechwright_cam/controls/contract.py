@@ -1,22 +1,32 @@
-"""The contract of a control: what writes its programs."""
+"""The contract of a control: all that there is to know about one kind of machine control, in one class."""
 
 from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.contracts.plugin import Plugin
+from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.reading.corners import EXACT, Corners
+from mechwright_cam.controls.work_offsets import G54_TO_G59, WorkOffsets
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from mechwright.contracts.finding import Finding
+    from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
+    from mechwright_cam.shop.machine import Machine
     from mechwright_cam.shop.posting import ToolChange
     from mechwright_cam.shop.settings import CamSettings
     from mechwright_cam.shop.tool import Tool
 
 
-class Post(Plugin):
-    """Turns a program into the text that one control reads."""
+class Control(Plugin):
+    """Writes programs, reads them, and knows its tables, its limits and its words for the operator.
+
+    Pages and proof ask the control itself, never its name: a control that inherits from another and changes
+    one fact is told of rightly everywhere. Controls that read RS274 words derive from
+    :class:`mechwright_cam.controls.gcode.GcodeControl`.
+    """
 
     kind = "control"
     plural = "controls"
@@ -26,12 +36,14 @@ class Post(Plugin):
     """Name for people."""
     suffix: ClassVar[str] = ".nc"
     """Ending of program files."""
-    dialect: ClassVar[str] = "linuxcnc"
-    """The control, by the name of a post that comes with the program, whose rules the text follows when the
-    proof reads it back."""
-
+    offsets: ClassVar[OffsetTables] = OffsetTables()
+    """What it keeps of each tool."""
+    work_offsets: ClassVar[tuple[WorkOffsets, ...]] = (G54_TO_G59,)
+    """The work offsets it has."""
     by_hand: ClassVar["ToolChange"] = "pause"
     """How a control without a tool change has tools changed, unless the design file says so itself."""
+
+    # -- programs -----------------------------------------------------------------------------------------
 
     @abstractmethod
     def write(self, program: "Program") -> str:
@@ -40,6 +52,51 @@ class Post(Plugin):
     def files(self, program: "Program") -> dict[str, str]:
         """The program as files, stem to text, in the order in which they are run; most controls take one."""
         return {program.name: self.write(program)}
+
+    @abstractmethod
+    def read(
+        self,
+        program: "str | Mapping[str, str]",
+        *,
+        block_delete: bool = False,
+        upper_end: float = 0.0,
+        diameters: "Mapping[int, float] | None" = None,
+    ) -> "Run":
+        """Run a program as the control would, wherever it comes from.
+
+        Parameters
+        ----------
+        program
+            The text, or several files by name in the order in which they are run.
+        block_delete
+            Whether lines that start with ``/`` are skipped.
+        upper_end
+            Machine Z of a full retract, mm: to there or higher is the machine's upper end.
+        diameters
+            D number to the diameter of the cutter that it stands for, mm.
+
+        Raises
+        ------
+        ProgramError
+            The control would stop, or the reader would have to guess. The message names file and line.
+        """
+
+    @property
+    def decimals(self) -> int:
+        """Decimals of a coordinate, mm, that the control keeps."""
+        return 4
+
+    @property
+    def corners(self) -> Corners:
+        """How far the control leaves the path between two moves."""
+        return EXACT
+
+    @property
+    def length_write(self) -> tuple[int, str] | None:
+        """L of the G10 that sets a tool's length, and the letter of the length; None without such a table."""
+        return None
+
+    # -- limits and tables --------------------------------------------------------------------------------
 
     def check(self, settings: "CamSettings") -> "Sequence[Finding]":  # noqa: ARG002 - for controls with limits
         """What the control cannot do of what a design file asks for."""
@@ -60,5 +117,28 @@ class Post(Plugin):
         """
         return self.tool_table(tools)
 
+    # -- words for the operator, in programs, on setup sheets and in the proof's advice -------------------
 
-Control = Post
+    def m(self, code: int) -> str:
+        """The control's word for a usual M code: 0 stop, 3 and 5 spindle, 6 tool, 7 to 9 coolant, 30 end."""
+        return f"M{code}"
+
+    def change_words(self, tool: int) -> str:
+        """What changes to a tool."""
+        return f"T{tool} {self.m(6)}"
+
+    def length_words(self, tool: int) -> str:
+        """What puts a tool's length offset in force."""
+        return f"G43 H{tool}"
+
+    def setting_words(self, offset: str) -> str:
+        """What sets a work offset, without its axes."""
+        return next(row for row in self.work_offsets if row.has(offset)).setting(offset)
+
+    def retract_words(self, machine: "Machine") -> str:
+        """What goes to the upper end of a machine."""
+        return f"G53 G0 Z{machine.retract_z:g}"
+
+    def table_words(self, table: str) -> str:
+        """What to do with the file of the tool table."""
+        return f"{table} lists the tools: enter the measured lengths there."

@@ -1,12 +1,16 @@
 """How controls differ in reading the same text."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
-from mechwright_cam.controls.reading.corners import EXACT, LINUXCNC_CORNERS, Corners
+from mechwright_cam.controls.reading.corners import EXACT, Corners
 
 PECK_CLEARANCE = 0.254
 """How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
+USUAL_M = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
+"""M codes that mean the same on nearly every mill."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,10 +19,11 @@ class Dialect:
 
     Parameters
     ----------
-    name
-        Name for messages.
     g_codes, m_codes
         Codes that are interpreted, G codes in tenths (``591`` is G59.1).
+    m_words
+        Usual M codes that the control spells otherwise, each with its own; the usual one is then none of its
+        words, unless it spells another of them.
     unsupported
         G codes in tenths that the control knows and this interpreter refuses, each with what to do instead.
     inert
@@ -59,31 +64,28 @@ class Dialect:
         Whether a line may be a program number, O1234.
     tool_by_t
         Whether a tool counts as changed at its T word, by hand, because there is no M6.
-    length_table
-        Whether the control has a table of tool lengths for G43 H.
-    variables
-        Whether parameters, expressions and O-words are worked out.
+    macros
+        Gives the lines that are run of a program that works out its values and its way, such as
+        :class:`mechwright_cam.controls.reading.macros.Macros`; None if the control has no such programs.
     numbers_needed
         Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
     home_cancels_length
         Whether G28 of Z may end G43, so that it has to be stated anew.
     length_write
         L of the G10 that sets a tool's length, and the letter of the length; None without such a table.
-    retract
-        How a full retract is written; the machine's Z of it stands for ``{}``.
-    switch_at_zero
-        Whether machine Z0 is where the homing switch is, so that a retract ends below it.
-    forbidden
-        Characters that the control obeys out of the stream, wherever they stand.
     bare_home
         Whether G28 without an axis sends all of them home.
     corners
         How far the control leaves the path between two moves.
+    forbidden
+        Characters that the control obeys out of the stream, wherever they stand.
+    name
+        Name for messages; a control gives its own title.
     """
 
-    name: str
     g_codes: frozenset[int]
-    m_codes: frozenset[int]
+    m_codes: frozenset[int] = USUAL_M
+    m_words: tuple[tuple[int, int], ...] = ()
     unsupported: tuple[tuple[int, str], ...] = ()
     inert: tuple[tuple[int, str], ...] = ()
     inert_m: frozenset[int] = frozenset()
@@ -104,35 +106,82 @@ class Dialect:
     point_needed: bool = False
     program_numbers: bool = False
     tool_by_t: bool = False
-    length_table: bool = True
-    length_write: tuple[int, str] | None = (1, "Z")
-    retract: str = "G53 G0 Z{}"
-    switch_at_zero: bool = False
     forbidden: str = ""
-    variables: bool = False
+    macros: Callable[..., Any] | None = None
     home_cancels_length: bool = False
     numbers_needed: str = ""
+    length_write: tuple[int, str] | None = (1, "Z")
     bare_home: bool = True
     corners: Corners = EXACT
+    name: str = "the control"
+
+    def m(self, code: int) -> int:
+        """The control's own M code for a usual one.
+
+        >>> dialect = Dialect(frozenset(), m_words=((8, 108),))
+        >>> dialect.m(8), dialect.m(9)
+        (108, 9)
+        """
+        return dict(self.m_words).get(code, code)
+
+    def usual_m(self, code: int) -> int | None:
+        """The usual M code for one of the control's own; None for a usual one that is none of its words.
+
+        >>> dialect = Dialect(frozenset(), m_words=((8, 108),))
+        >>> dialect.usual_m(108), dialect.usual_m(9), dialect.usual_m(8)
+        (8, 9, None)
+        """
+        for usual, own in self.m_words:
+            if code == own:
+                return usual
+        return None if code in dict(self.m_words) else code
 
 
-_MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
-_PLANE_UNITS = {170, 180, 190, 200, 210}
-_OFFSETS = {100, 400, 410, 411, 420, 421, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
-_MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
+CENTRE = "shift the origin with a work offset"
+FEEDS = "write feeds in units per minute (G94)"
+_TAPPING = "tapping is not simulated"
+_MACRO = "macros and subprograms are not read; post the program without them"
 
-LINUXCNC = Dialect(
-    name="LinuxCNC",
-    variables=True,
-    corners=LINUXCNC_CORNERS,
-    g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
-    m_codes=frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30}),
-    unsupported=(
-        (300, "retract with G53 G0 Z0 or G28"),
-        (840, "tapping is not simulated"),
-        (920, "shift the origin with the work offset, G54 to G59.3"),
-        (930, "write feeds in units per minute (G94)"),
-        (950, "write feeds in units per minute (G94)"),
-    ),
+RETURN = 300
+"""G30: to the second reference point."""
+MILLING = frozenset(
+    {
+        0,
+        10,
+        20,
+        30,
+        40,
+        280,
+        RETURN,
+        530,
+        170,
+        180,
+        190,
+        410,
+        420,
+        200,
+        210,
+        400,
+        430,
+        490,
+        800,
+        810,
+        820,
+        830,
+    }
+    | {540, 550, 560, 570, 580, 590, 610, 640, 900, 910, 940, 100, 730, 850, 890, 980, 990}
 )
-"""LinuxCNC 2.9, three axes. The arc limits are those of its interpreter's source in millimetres."""
+"""G codes that Fanuc and those who follow it share, in tenths."""
+NOT_SIMULATED = (
+    (650, _MACRO),
+    (660, _MACRO),
+    (740, _TAPPING),
+    (840, _TAPPING),
+    (520, CENTRE),
+    (920, CENTRE),
+    (930, FEEDS),
+    (950, FEEDS),
+    (680, "rotation is not simulated"),
+    (510, "scaling is not simulated"),
+)
+"""G codes that they share as well, and that are refused, each with what to do."""

@@ -1,18 +1,26 @@
-"""The post for Grbl 1.1."""
+"""Grbl 1.1, from its documents and sources."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
 from mechwright.contracts.finding import Finding, Severity
-from mechwright_cam.controls.writing.base import GcodePost
+from mechwright_cam.controls.dialect import CENTRE, FEEDS, RETURN, USUAL_M, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.reading.corners import EXACT
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
+_NO_D = "there is G40 only; post the path of the tool's centre"
+_REALTIME = "?!~"
+"""Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 
-class GrblPost(GcodePost):
+
+class Grbl(GcodeControl):
     """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
 
     Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
@@ -22,11 +30,34 @@ class GrblPost(GcodePost):
 
     name = "grbl"
     title = "Grbl 1.1"
-    dialect = "grbl"
-    decimals = 3
-    forbidden = "%?!~$;"  # Grbl takes ? ! ~ out of the stream wherever they stand: ! is a feed hold
+    dialect = Dialect(
+        g_codes=frozenset(
+            {0, 10, 20, 30, 40, 100, 280, RETURN, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900}
+            | {910, 911, 540, 550, 560, 570, 580, 590, 610, 940}
+        ),
+        m_codes=USUAL_M - {6},
+        unsupported=(
+            (410, _NO_D),
+            (420, _NO_D),
+            (430, "there is no table of lengths; write G43.1 Z"),
+            *((probing, "probing is not simulated") for probing in (382, 383, 384, 385)),
+            (920, CENTRE),
+            (930, FEEDS),
+        ),
+        arc_absolute=0.005,
+        arc_most=0.5,
+        line_length=80,
+        counts_code=True,
+        percent=False,
+        decimals=3,
+        tool_by_t=True,
+        forbidden=_REALTIME,
+        length_write=None,
+        corners=EXACT,  # the path is always followed: junction deviation ($11) slows down, and rounds nothing
+    )
+    offsets = OffsetTables(lengths=False, length_word="G43.1", d=None)
+    forbidden = "%$;" + _REALTIME
     highest_tool = 255
-    compensates = False
     by_hand = "files"
     modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
 
@@ -85,11 +116,12 @@ class GrblPost(GcodePost):
         """Grbl always follows the path exactly; it knows G61 only."""
         return ["G61"] if exact else []
 
-    def retract(self, out: Writer) -> None:
-        """Go to the upper end of travel, in machine coordinates."""
-        out.line("G53", "G0", "Z" + out.length(out.program.machine.retract_z))
-        out.motion = "G0"
-        out.lost_height()
+    def retract_words(self, machine: Machine) -> str:
+        """What goes to the upper end of a machine, off the homing switch."""
+        words = super().retract_words(machine)
+        if machine.retract_z >= 0:
+            words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
+        return words
 
     def tool_change(self, out: Writer, section: ToolSection) -> None:
         """Name the tool, and wait for it unless it is in a file of its own, or in the spindle."""
@@ -99,7 +131,7 @@ class GrblPost(GcodePost):
         out.line(f"T{section.tool.number}")
         if out.program.posting.tool_change != "files":
             self.message(out, self._load(section))
-            out.line("M0")
+            out.line(self.m(0))
             self.retract(out)  # whoever has touched off has left the tool low
 
     def _load(self, section: ToolSection) -> str:
@@ -112,7 +144,7 @@ class GrblPost(GcodePost):
         if section.tool.length is None:
             out.line("G49")
         else:
-            out.line("G43.1", "Z" + out.length(section.tool.length))
+            out.line(self.offsets.length_word, "Z" + out.length(section.tool.length))
         out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
 
     def drill(self, out: Writer, hole: Drill) -> None:

@@ -1,24 +1,33 @@
-"""The post for Mach3."""
+"""Mach3 mill, by common practice; G4 in seconds."""
 
 import csv
 import io
 from collections.abc import Mapping, Sequence
 
-from mechwright_cam.controls.writing.base import GcodePost
-from mechwright_cam.controls.writing.offsets import d_offset
+from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.reading.corners import EXACT
 from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
-from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.program.moves import Drill, Program
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 
-class Mach3Post(GcodePost):
+class Mach3(GcodeControl):
     """Mach3: arcs by G91.1, G53 retracts, a tool change that runs the machine's own macro."""
 
     name = "mach3"
     title = "Mach3"
-    dialect = "mach3"
+    dialect = Dialect(
+        g_codes=MILLING | {901, 911},
+        unsupported=NOT_SIMULATED,
+        inert=((500, ""), (690, "")),
+        inert_m=frozenset({48, 49}),
+        semicolon_comments=False,
+        numbers_needed="H",
+        corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
+    )
     forbidden = "%;"
     highest_tool = 254
     modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
@@ -29,20 +38,6 @@ class Mach3Post(GcodePost):
         if _waits(out.program):
             self.comment(out, "dwells are in seconds: G04 dwell in ms must be off")
 
-    def retract(self, out: Writer) -> None:
-        """Go to the upper end of travel, in machine coordinates."""
-        out.line("G53", "G0", "Z" + out.length(out.program.machine.retract_z))
-        out.motion = "G0"
-        out.lost_height()
-
-    def tool_change(self, out: Writer, section: ToolSection) -> None:
-        """Change the tool."""
-        out.line(f"T{section.tool.number} M6")
-
-    def drill(self, out: Writer, hole: Drill) -> None:
-        """Drill with a cycle."""
-        self.cycle(out, hole)
-
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
         return _table({tool.number: (tool, "", tool.diameter) for tool in tools})
@@ -52,8 +47,8 @@ class Mach3Post(GcodePost):
         rows = {tool.number: (tool, "", tool.diameter) for tool in tools}
         for tool in tools:
             if tool.kind is ToolKind.END_MILL:
-                offset = d_offset(
-                    tool, self.dialect, settings.post, settings.compensation, settings.wear_limit
+                offset = self.offsets.d_offset(
+                    tool, settings.post, settings.compensation, settings.wear_limit
                 )
                 rows[offset.number] = tool, f", D of T{tool.number}", offset.planned
         return _table(rows)

@@ -92,13 +92,13 @@ class SetupSheets(Page):
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
         pictures = {item.program.name: simulated_view(one, item.job) for item, one, _ in seen.measured}
         deviations = {item.program.name: walls_view(walls, item.job) for item, _, walls in seen.measured}
-        suffix, table = machining.control.suffix, machining.table[0]
+        table = machining.table[0]
         files = {item.program.name: list(item.files) for item in machining.made}
         made = {}
         for sheet in sheets:
             made[sheet[1].name + SHEET] = setup_html(
                 [sheet],
-                suffix=suffix,
+                machining.control,
                 tool_table=table,
                 design=build.path.name,
                 pictures=pictures,
@@ -108,7 +108,7 @@ class SetupSheets(Page):
             )
         name, design = build.design.name, build.path.name
         made[SUMMARY] = summary_html(
-            sheets, name=name, suffix=suffix, tool_table=table, design=design, files=files
+            sheets, machining.control, name=name, tool_table=table, design=design, files=files
         )
         return made
 

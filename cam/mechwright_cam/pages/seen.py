@@ -4,7 +4,6 @@ from functools import cached_property
 from typing import Any
 
 from mechwright.build import Build
-from mechwright_cam.controls.shim import dialect_of
 from mechwright_cam.machining import Machined, Machining
 from mechwright_cam.proof import read
 from mechwright_cam.proof.simulation import Simulation, simulate
@@ -21,7 +20,7 @@ class Seen:
     def measured(self) -> list[tuple[Machined, Simulation, Walls]]:
         """Each program with its simulated stock and the deviation along its walls."""
         control = self.machining.control
-        runs = [(item, read(item.proven, item.job, dialect_of(control))) for item in self.machining.made]
+        runs = [(item, read(item.proven, item.job, control)) for item in self.machining.made]
         return [(item, simulate(run, item.job), wall_deviation(run, item.job)) for item, run in runs]
 
     @cached_property

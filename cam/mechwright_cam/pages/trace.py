@@ -6,7 +6,7 @@ Where the control compensates the cutter's radius, strokes are those of the cutt
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from mechwright_cam.controls.reading import LINUXCNC, Kind
+from mechwright_cam.controls.reading import Dialect, Kind
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.program.moves import (
     Drill,
@@ -21,6 +21,8 @@ from mechwright_cam.program.moves import (
 )
 
 Place = tuple[float, float, float]
+_AS_PLANNED = Dialect(frozenset())
+"""No control has touched the program yet: of a dialect the limits of arcs alone count here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +115,7 @@ def _side(move: Feed | FeedArc) -> str | None:
 
 def _compensated(moves: Sequence[Feed | FeedArc], start: Place, diameter: float) -> Iterator[Stroke]:
     """The strokes of moves that turn compensation on, follow a contour, and turn it off."""
-    control = Compensation(LINUXCNC)
+    control = Compensation(_AS_PLANNED)
     control.x, control.y, control.z = start
     control.begin_compensation(0, 1 if _side(moves[0]) == "left" else -1, diameter)
     for move in moves[:-1]:

@@ -95,7 +95,7 @@ def _as_cut(design: Design, tops: Sequence[Job]) -> list[Finding]:
     """
     copies: dict[str, list[shapely.Polygon]] = {}
     for job in tops:
-        for name, outline in _cut_parts(job):
+        for name, outline in parts_as_cut(job):
             copies.setdefault(name, []).append(outline)
     findings: list[Finding] = []
     for number in range(max(map(len, copies.values()), default=0)):
@@ -121,7 +121,7 @@ def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
     ]
 
 
-def _cut_parts(job: Job) -> list[tuple[str, shapely.Polygon]]:
+def parts_as_cut(job: Job) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
     cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job)]
     if isinstance(job.part, Nest):

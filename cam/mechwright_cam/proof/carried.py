@@ -9,7 +9,8 @@ from collections.abc import Mapping
 import shapely
 
 from mechwright.contracts.details import Chamfer
-from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.leftover import TAB_SLACK
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, swept
@@ -26,14 +27,12 @@ DIGITS = 3
 """Decimals of heights, mm: nearer ones are one."""
 
 
-def cut_away(
-    text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC
-) -> tuple[tuple[Shape, float], ...]:
+def cut_away(text: str | Mapping[str, str], job: Job, control: Control) -> tuple[tuple[Shape, float], ...]:
     """Regions that a program has cut down to a height z, mm, deepest first; higher ones hold deeper ones.
 
     The heights are those of the job's floors, tabs and details, and of the holes that the program drills.
     """
-    paths = Paths(read(text, job, dialect), {tool.number: tool for tool in job.tools})
+    paths = Paths(read(text, job, control), {tool.number: tool for tool in job.tools})
     sweeps, found = Sweeps(paths), list[tuple[Shape, float]]()
     for height in sorted(_heights(paths, job)):
         cut = sweeps.at(height + ROUNDING, height)

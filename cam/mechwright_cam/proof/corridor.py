@@ -14,7 +14,7 @@ ADVICE = f"write G64 P{TOLERANCES.arc_fit:g} (in mm) or G61"
 
 def corridor(scene: Scene) -> Check:
     """The control has a bound on how far it leaves the path, and in the work it is within that of a gouge."""
-    limit, name = TOLERANCES.gouge, scene.dialect.name
+    limit, name = TOLERANCES.gouge, scene.control.title
     off, cuts = scene.of_states(lambda state: state.off_path), in_work(scene)
     step = first(moving(scene.run) & np.isinf(off))
     if step is not None:
@@ -39,7 +39,7 @@ def corridor(scene: Scene) -> Check:
             limit,
             "mm",
         )
-    if not scene.dialect.corners.tolerance:
+    if not scene.control.corners.tolerance:
         return Check(NAME, True, f"no word lets {name} leave the path further than its settings do")
     worst = float(off[cuts].max(initial=0.0))
     return Check(NAME, True, "the control stays near the path", value=worst, limit=limit, unit="mm")

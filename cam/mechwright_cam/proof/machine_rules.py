@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Kind
-from mechwright_cam.controls.writing.text import number as written
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work, moving
@@ -20,12 +19,8 @@ SAFE_MODES = {"units": "G21", "distance": "G90", "plane": "G17", "cutter compens
 
 
 def retract(scene: Scene) -> str:
-    """What to write for a full retract on this control and machine, as its post does."""
-    dialect, z = scene.dialect, scene.job.settings.machine.retract_z
-    words = dialect.retract.format(written(z, dialect.decimals, dialect.point_needed))
-    if dialect.switch_at_zero and z >= 0:
-        words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
-    return f"retract with {words}"
+    """What to write for a full retract on this control and machine."""
+    return f"retract with {scene.control.retract_words(scene.job.settings.machine)}"
 
 
 def program_end(scene: Scene) -> Check:
@@ -33,7 +28,8 @@ def program_end(scene: Scene) -> Check:
     run = scene.run
     if not run.ended:
         where = "" if run.files else f"line {run.lines}: "
-        return Check("program-end", False, f"{where}the program has no end; write M30 or M2", run.lines)
+        end = f"{scene.control.m(30)} or {scene.control.m(2)}"
+        return Check("program-end", False, f"{where}the program has no end; write {end}", run.lines)
     if run.beyond:
         return Check(
             "program-end",
@@ -80,7 +76,7 @@ def length_offset(scene: Scene) -> Check:
     """The active length offset is the tool's own before Z is moved to a height above the work."""
     run = scene.run
     stated = moving(run) & np.isfinite(run.end[:, 2]) & (run.tool > 0)
-    if not scene.dialect.length_table:
+    if not scene.control.offsets.lengths:
         return _length_by_hand(scene, stated)
     offset = scene.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
     step = first(stated & (offset != run.tool))
@@ -93,14 +89,21 @@ def length_offset(scene: Scene) -> Check:
         else:
             found = f"Z is moved with H{active}"
         return scene.bad(
-            "length-offset", step, f"{found} while T{tool} is in the spindle; write G43 H{tool}", active, tool
+            "length-offset",
+            step,
+            f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}",
+            active,
+            tool,
         )
     return Check("length-offset", True, "every tool moves Z under its own G43 H")
 
 
 def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
-    """Without a table: each tool has its length from G43.1, or is touched off at a stop or between files."""
-    run = scene.run
+    """Without a table: each tool has its length from the program (G43.1), or is touched off.
+
+    That is at a stop, or between files.
+    """
+    run, word = scene.run, scene.control.offsets.length_word
     given = scene.of_states(lambda state: np.nan if state.length is None else state.length)
     known = {number: tool.length for number, tool in scene.tools.items()}
     measured = np.array([np.nan if (n := known.get(t)) is None else n for t in run.tool.tolist()])
@@ -109,7 +112,8 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
         return scene.bad(
             "length-offset",
             step,
-            f"G43.1 Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm",
+            f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is "
+            f"{measured[step]:g} mm",
             float(given[step]),
             float(measured[step]),
             "mm",
@@ -129,9 +133,14 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
                 "length-offset",
                 at,
                 f"Z is moved with T{run.tool[at]} as if it were as long as the tool before; "
-                "stop (M0) to touch it off, or write G43.1 with its length",
+                f"stop ({scene.control.m(0)}) to touch it off"
+                + (f", or write {word} with its length" if word else ""),
             )
-    return Check("length-offset", True, "every tool is touched off, or has its length from G43.1")
+    return Check(
+        "length-offset",
+        True,
+        "every tool is touched off" + (f", or has its length from {word}" if word else ""),
+    )
 
 
 def diameter_offset(scene: Scene) -> Check:
@@ -158,14 +167,18 @@ def diameter_offset(scene: Scene) -> Check:
 def stops(scene: Scene) -> Check:
     """Where the program stops for the operator's hands, the spindle stands still and the tool is up."""
     run = scene.run
-    stop = run.kind == Kind.STOP
+    stop, halt = run.kind == Kind.STOP, scene.control.m(0)
     step = first(stop & (scene.of_states(lambda state: state.spindle) != 0))
     if step is not None:
-        return scene.bad("stops", step, "M0 stops the program while the spindle turns; write M5 before it")
+        return scene.bad(
+            "stops",
+            step,
+            f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it",
+        )
     step = first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))
     if step is not None:
         return scene.bad(
-            "stops", step, f"M0 stops the program with the tool down; before it {retract(scene)}"
+            "stops", step, f"{halt} stops the program with the tool down; before it {retract(scene)}"
         )
     return Check("stops", True, "at stops the spindle stands still and the tool is up")
 
@@ -208,9 +221,11 @@ def spindle(scene: Scene) -> Check:
     turning = scene.of_states(lambda state: state.spindle if state.rpm > 0 else 0)
     step = first(in_work(scene) & (turning != 1))
     if step is not None:
-        how = "backwards (M4)" if turning[step] == -1 else "not at all"
+        how = f"backwards ({scene.control.m(4)})" if turning[step] == -1 else "not at all"
         return scene.bad(
-            "spindle", step, f"feeds into the work while the spindle turns {how}; write S and M3"
+            "spindle",
+            step,
+            f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}",
         )
     return Check("spindle", True, "the spindle turns clockwise whenever the cutter is in the work")
 
@@ -221,7 +236,7 @@ def coolant(scene: Scene) -> Check:
     wrong = scene.of_states(lambda state: state.coolant != wanted)
     step = first(in_work(scene) & wrong)
     if step is not None:
-        word = {"flood": "M8", "mist": "M7", "off": "M9"}[wanted]
+        word = scene.control.m({"flood": 8, "mist": 7, "off": 9}[wanted])
         return scene.bad(
             "coolant",
             step,

@@ -243,7 +243,7 @@ def entries(scene: Scene) -> Check:
     plunge = flat <= NEAR
     allowed = plunge & np.isin(run.tool[steps], list(plunges))
     # Both ends are rounded in the text: a ramp may end a last decimal lower, and be one and a half shorter.
-    digit = 10.0**-scene.dialect.decimals
+    digit = 10.0**-scene.control.decimals
     steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(limit)) + digit
     threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     # A thread mill goes down a finished hole, as steeply as its pitch asks.

@@ -14,7 +14,8 @@ from mechwright.contracts.part import Profile
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind, Run, interpret, joined
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands, floor_of, stock_shape
@@ -44,7 +45,7 @@ ROUGHLY = 0.01
 """Accuracy of that, mm."""
 
 
-def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) -> Proof:
+def prove(text: str | Mapping[str, str], job: Job, control: Control) -> Proof:
     """Simulate a program against the part it should make.
 
     Parameters
@@ -54,8 +55,8 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
         name to text, if they are run one after the other.
     job
         The part, its stock, its holding and the tools on the machine.
-    dialect
-        The control.
+    control
+        The control that reads it.
 
     Returns
     -------
@@ -67,12 +68,12 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     ProgramError
         The text cannot be read; the message names the line.
     """
-    proof = _prove(text, job, dialect)
+    proof = _prove(text, job, control)
     if not proof.ok or not any(map(SWITCHED.search, [text] if isinstance(text, str) else text.values())):
         return proof
     words = "with lines that start with / skipped, "
     try:
-        other = _prove(text, job, dialect, block_delete=True)
+        other = _prove(text, job, control, block_delete=True)
     except ProgramError as error:
         raise ProgramError(words + str(error)) from error
     if other.ok:
@@ -86,12 +87,12 @@ def prove(text: str | Mapping[str, str], job: Job, dialect: Dialect = LINUXCNC) 
     )
 
 
-def _prove(text: str | Mapping[str, str], job: Job, dialect: Dialect, *, block_delete: bool = False) -> Proof:
+def _prove(text: str | Mapping[str, str], job: Job, control: Control, *, block_delete: bool = False) -> Proof:
     """Simulate a program with the switch for optional lines off, or on."""
-    run = read(text, job, dialect, block_delete=block_delete)
+    run = read(text, job, control, block_delete=block_delete)
     tools = {tool.number: tool for tool in job.tools}
     paths = Paths(run, tools)
-    scene = Scene(run, job, tools, paths, Stock(paths, job), dialect)
+    scene = Scene(run, job, tools, paths, Stock(paths, job), control)
     with ThreadPoolExecutor() as pool:  # none of the three depends on another
         cuts, stays = pool.submit(_cuts, scene), pool.submit(_stays, scene)
         checks = [rule(scene) for rule in RULES]
@@ -104,7 +105,7 @@ def _prove(text: str | Mapping[str, str], job: Job, dialect: Dialect, *, block_d
         _leftover_check(left),
         held,
         details.cut(scene.paths, job),
-        follows(scene, lambda more: read(text, job, dialect, more, block_delete=block_delete)),
+        follows(scene, lambda more: read(text, job, control, more, block_delete=block_delete)),
     ]
     seconds = step_times(run, job.settings.machine)
     by_name = {check.name: check for check in checks}
@@ -153,7 +154,7 @@ def _stays(scene: Scene) -> tuple[Remains, Check, list[str]]:
 def read(
     text: str | Mapping[str, str],
     job: Job,
-    dialect: Dialect,
+    control: Control,
     more: float = 0.0,
     *,
     block_delete: bool = False,
@@ -163,21 +164,9 @@ def read(
     Every D is ``more`` mm larger than planned, as a radius. With ``block_delete`` lines that start with ``/``
     are skipped.
     """
-    upper_end = job.settings.machine.retract_z
     diameters = {number: 2 * (d + more) for number, d in planned_offsets(job).items()}
-
-    def run(one: str) -> Run:
-        return interpret(one, dialect, block_delete=block_delete, upper_end=upper_end, diameters=diameters)
-
-    if isinstance(text, str):
-        return run(text)
-    runs = []
-    for name, one in text.items():
-        try:
-            runs.append(run(one))
-        except ProgramError as error:
-            raise ProgramError(f"{name}: {error}") from error
-    return joined(tuple(text), runs)
+    upper_end = job.settings.machine.retract_z
+    return control.read(text, block_delete=block_delete, upper_end=upper_end, diameters=diameters)
 
 
 def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright_cam.controls.reading import LINUXCNC, Dialect, Kind, Run, State
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind, Run, State
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
@@ -24,7 +25,7 @@ class Scene:
     tools: dict[int, Tool]
     paths: Paths
     stock: Stock
-    dialect: Dialect = LINUXCNC
+    control: Control
 
     def where(self, step: int) -> tuple[float, float, float]:
         """End of a step."""

@@ -31,7 +31,7 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
     if write.incremental:
         return "while G91 is in force may add to what the table holds; write G90 before it"
     job = scene.job
-    offset, lengths = job.settings.work_offset, scene.dialect.length_write
+    offset, lengths = job.settings.work_offset, scene.control.length_write
     own: dict[str, tuple[str, float | None]] = {}
     if (write.table, write.number) == _place_of(offset):
         own = {
@@ -66,8 +66,8 @@ def _allowed(scene: Scene) -> str:
     """The G10 that may stand in a program of this job."""
     offset = scene.job.settings.work_offset
     words = "its own: G10 L{} P{} for {}".format(*_place_of(offset), offset)
-    if scene.dialect.length_write is not None:
-        words += f", L{scene.dialect.length_write[0]} for the lengths of its tools"
+    if scene.control.length_write is not None:
+        words += f", L{scene.control.length_write[0]} for the lengths of its tools"
     return words
 
 

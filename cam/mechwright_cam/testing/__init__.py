@@ -6,9 +6,9 @@ It needs pytest, which the ``test`` extra brings; nothing else of Mechwright imp
 
 import pytest
 
-pytest.register_assert_rewrite("mechwright_cam.testing.post")
+pytest.register_assert_rewrite("mechwright_cam.testing.control", "mechwright_cam.testing.agreement")
 
-from mechwright_cam.testing.post import PostContract
-from mechwright_cam.testing.programs import sample_program
+from mechwright_cam.testing.control import ControlContract
+from mechwright_cam.testing.programs import compensated_sample, plate_job, sample_program
 
-__all__ = ["PostContract", "sample_program"]
+__all__ = ["ControlContract", "compensated_sample", "plate_job", "sample_program"]

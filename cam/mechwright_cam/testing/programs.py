@@ -1,6 +1,15 @@
-"""A program that holds every kind of move, for tests of posts and interpreters."""
+"""Programs and jobs for tests of controls: every kind of move, cutter compensation, a plate to be planned."""
 
+from typing import Any, Literal
+
+from mechwright.contracts.part import Part
+from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.posting import Compensation
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 CLEARANCE = 5.0
@@ -62,3 +71,46 @@ def sample_program() -> Program:
         ),
         notes=("Sample of every kind of move", "Plate 60 x 40 x 6 mm, origin at its lower left corner"),
     )
+
+
+def plate_job(**settings: Any) -> Job:
+    """The job of a plate of 60 mm x 40 mm x 6 mm with a bore of 14 mm, held by tabs; see [cam]."""
+    corners = [(-30.0, -20.0), (30.0, -20.0), (30.0, 20.0), (-30.0, 20.0)]
+    outline = Outline(Loop.polygon(corners), (Loop((circle((0.0, 0.0), 7.0, clockwise=True),)),))
+    library = load_library()
+    cam = CamSettings.model_validate({"hold": {"method": "tabs", "tabs": 2}, **settings})
+    return make_job(Part("plate", outline, 6.0, "aluminium"), cam, [library.get("mill-6")])
+
+
+def compensated_sample(way: Compensation, quantity: Literal["radius", "diameter"]) -> tuple[Job, Program]:
+    """The plate, and a program that goes around it with the mill on the left of its contour.
+
+    ``quantity`` is what D holds where that is a setting of the machine.
+    """
+    job = plate_job(compensation=way, post={"d_value": quantity})
+    (mill,) = job.tools
+    around = ((-30.0, 20.0), (30.0, 20.0), (30.0, -20.0), (-30.0, -20.0))
+    outline = Operation(
+        "outline",
+        (
+            Rapid(x=-50.0, y=-30.0),
+            Rapid(z=1.0),
+            Feed(None, None, -6.25, 300.0),
+            Feed(-30.0, -20.0, None, 300.0, side="left"),
+            *(Feed(x, y, None, 400.0) for x, y in around),
+            Feed(-50.0, -30.0, None, 400.0, side="off"),
+            Rapid(z=CLEARANCE),
+        ),
+    )
+    section = ToolSection(mill, 6000.0, "flood", (outline,))
+    settings = job.settings
+    program = Program(
+        "outline",
+        settings.work_offset,
+        CLEARANCE,
+        (section,),
+        posting=settings.post,
+        compensation=way,
+        wear_limit=settings.wear_limit,
+    )
+    return job, program

@@ -62,8 +62,7 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
 
     Examples
     --------
-    >>> from mechwright_cam.controls.dialect import LINUXCNC
-    >>> block = read_block(7, "N10 g01 X-.5 (to the edge) F200", LINUXCNC)
+    >>> block = read_block(7, "N10 g01 X-.5 (to the edge) F200", Dialect(frozenset({10})))
     >>> block.g, block.words, block.comments
     ([10], {'X': -0.5, 'F': 200.0}, ['to the edge'])
     """
@@ -87,7 +86,7 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
         match = _WORD.match(code, position)
         if match is None:
             raise fail(line, _explain(code[position:]))
-        _add(block, match[1], match[2], first=position == 0, polar=dialect.variables)
+        _add(block, match[1], match[2], dialect, first=position == 0)
         position = match.end()
     if dialect.point_needed and block.bare & _LENGTHS:
         _check_points(block, dialect)
@@ -151,18 +150,21 @@ def _explain(rest: str) -> str:
     return f"{letter!r} starts no word: {rest[:12]!r}"
 
 
-def _add(block: Block, letter: str, number: str, *, first: bool, polar: bool) -> None:
+def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: bool) -> None:
     value = float(number)
     if letter == "G":
         _add_code(block, "G", block.g, round(value * 10), value * 10, G_GROUP)
     elif letter == "M":
-        _add_code(block, "M", block.m, round(value), value, M_GROUP)
+        usual = dialect.usual_m(round(value))
+        if usual is None:
+            raise fail(block.line, f"M{number} is no code that {dialect.name} is known to read")
+        _add_code(block, "M", block.m, usual, value + usual - round(value), M_GROUP)
     elif letter == "N":
         if not first:
             raise fail(block.line, "a line number stands at the start of its line")
     elif letter == "O":
         raise fail(block.line, _explain("O"))
-    elif letter in POLAR and not polar:
+    elif letter in POLAR and not dialect.macros:
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in _OTHER_AXES:
         raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")

@@ -1,6 +1,5 @@
 """How far controls leave the programmed path between two moves, and what a program can say about it."""
 
-import math
 from dataclasses import dataclass
 
 
@@ -36,9 +35,10 @@ class Corners:
         LinuxCNC first merges lines into one that passes within Q (as wide as P if there is no Q), then rounds
         the corners of what it has made within P; P 0 is to it no tolerance at all.
 
-        >>> LINUXCNC_CORNERS.bound(0.002, None), LINUXCNC_CORNERS.bound(0.002, 0.0)
+        >>> linuxcnc = Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True)
+        >>> linuxcnc.bound(0.002, None), linuxcnc.bound(0.002, 0.0)
         (0.004, 0.002)
-        >>> LINUXCNC_CORNERS.bound(0.0, 0.0), LINUXCNC_CORNERS.bound(None, 0.01)
+        >>> linuxcnc.bound(0.0, 0.0), linuxcnc.bound(None, 0.01)
         (inf, inf)
         """
         if blend is None or not blend > 0:
@@ -48,22 +48,3 @@ class Corners:
 
 EXACT = Corners()
 """A control that follows the path, or whose settings alone say how far it leaves it."""
-
-MACH3_CORNERS = EXACT
-"""Mach3: G64 (constant velocity) rounds corners as the settings of the machine say."""
-
-GRBL_CORNERS = EXACT
-"""Grbl: the path is always followed; junction deviation ($11) slows down, and rounds nothing."""
-
-FANUC_CORNERS = Corners(
-    looser=((51, "R", frozenset({10.0}), "write R10 (precision), or leave the level to the machine"),)
-)
-"""Fanuc: G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed."""
-
-HAAS_CORNERS = Corners(
-    looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),),
-)
-"""Haas: corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further."""
-
-LINUXCNC_CORNERS = Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True)
-"""LinuxCNC: without P, or without any word, it keeps up its speed however far it leaves the path."""

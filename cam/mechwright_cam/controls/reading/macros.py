@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.expressions import Reader
+from mechwright_cam.controls.reading.lines import Lines
 from mechwright_cam.controls.reading.parameters import check_writable
 
 MOST_LINES = 1_000_000
@@ -25,24 +26,12 @@ DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 OWN = 30
 """So many numbered parameters belong to a subroutine."""
-_USES = re.compile(
-    r"^(?:[^(;\n]|\([^)\n]*\))*?[#\[]|^\s*(?:n\d+\s*)?/?o\s*[\d<\[]", re.IGNORECASE | re.MULTILINE
-)
 _COMMENT = re.compile(r"\([^)]*\)|;.*")
 _O_WORD = re.compile(
     r"(?:n\d+)?o(\d+|<[^<>]+>)"
     r"(sub|endsub|return|call|do|while|endwhile|if|elseif|else|endif|repeat|endrepeat|break|continue)(.*)"
 )
 _LETTER = re.compile(r"[a-z@^]")
-
-
-def uses_macros(text: str) -> bool:
-    """Whether a program has anything that is not plain words.
-
-    >>> uses_macros("G0 X1 (#5)"), uses_macros("G0 X#5"), uses_macros("O100 sub")
-    (False, True, True)
-    """
-    return _USES.search(text) is not None
 
 
 @dataclass(slots=True)
@@ -52,20 +41,6 @@ class _Frame:
     saved: dict[int, float]
     names: dict[str, float] = field(default_factory=dict)
     repeats: dict[int, int] = field(default_factory=dict)
-
-
-class Lines:
-    """The lines of a program, one after the other; whoever has run some more of them moves ``at`` on."""
-
-    def __init__(self, lines: list[str]) -> None:
-        self.lines = lines
-        self.at = 0
-
-    def run(self) -> Iterator[tuple[int, str]]:
-        """Index and text of each line that the machine has to obey, in the order of running."""
-        while self.at < len(self.lines):
-            self.at += 1
-            yield self.at - 1, self.lines[self.at - 1]
 
 
 class Macros(Lines):

@@ -87,8 +87,7 @@ class PlainLines:
 
     Examples
     --------
-    >>> from mechwright_cam.controls.dialect import LINUXCNC
-    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", LINUXCNC)
+    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", Dialect(frozenset({10})))
     >>> lines.plain.tolist(), lines.words[X].tolist()
     ([True, False, True], [1.5, nan, -0.5])
     """

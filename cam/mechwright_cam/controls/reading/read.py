@@ -4,13 +4,15 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import compress
+from typing import Any
 
-from mechwright_cam.controls.dialect import LINUXCNC, Dialect
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import read_block
+from mechwright_cam.controls.reading.lines import Lines, uses_macros
 from mechwright_cam.controls.reading.machine import Machine
-from mechwright_cam.controls.reading.macros import Lines, Macros, uses_macros
 from mechwright_cam.controls.reading.plain import PlainLines
-from mechwright_cam.controls.reading.run import Run
+from mechwright_cam.controls.reading.run import Run, joined
 from mechwright_cam.controls.reading.stretch import run_stretch
 
 CODE = re.compile(r"\s*/?\s*[A-Z]\s*[-+.#\[\d]", re.IGNORECASE)
@@ -19,7 +21,7 @@ CODE = re.compile(r"\s*/?\s*[A-Z]\s*[-+.#\[\d]", re.IGNORECASE)
 
 def interpret(
     text: str,
-    dialect: Dialect = LINUXCNC,
+    dialect: Dialect,
     *,
     block_delete: bool = False,
     upper_end: float = 0.0,
@@ -56,7 +58,8 @@ def interpret(
 
     Examples
     --------
-    >>> run = interpret("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG2 X10 I5 J0\nM2")
+    >>> from mechwright_cam.controls.linuxcnc import LinuxCnc
+    >>> run = interpret("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG2 X10 I5 J0\nM2", LinuxCnc.dialect)
     >>> run.end[-2].tolist(), run.ended
     ([10.0, 0.0, -1.0], True)
     """
@@ -67,8 +70,8 @@ def interpret(
     text = text.replace("\r\n", "\n")
     lines, plain = text.split("\n"), PlainLines(text, dialect)
     source = Lines(lines)
-    if dialect.variables and uses_macros("\n".join(compress(lines, ~plain.plain))):
-        source = Macros(lines, machine.system_value, machine.look_anew)
+    if dialect.macros and uses_macros("\n".join(compress(lines, ~plain.plain))):
+        source = dialect.macros(lines, machine.system_value, machine.look_anew)
     percents = 0
     for index, raw in source.run():
         # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
@@ -101,6 +104,22 @@ def _beyond(lines: Sequence[str], end: int, dialect: Dialect) -> int:
         if raw.strip() == "%":
             break
         if CODE.match(raw):
-            subroutine = dialect.variables and raw.strip()[0] in "oO"
+            subroutine = dialect.macros is not None and raw.strip()[0] in "oO"
             return 0 if subroutine else index + 1
     return 0
+
+
+def interpret_files(program: str | Mapping[str, str], dialect: Dialect, **settings: Any) -> Run:
+    """Run a program: one text, or several files by name, one after the other.
+
+    Settings are those of :func:`interpret`; an error names the file as well.
+    """
+    if isinstance(program, str):
+        return interpret(program, dialect, **settings)
+    runs = []
+    for name, text in program.items():
+        try:
+            runs.append(interpret(text, dialect, **settings))
+        except ProgramError as error:
+            raise ProgramError(f"{name}: {error}") from error
+    return joined(tuple(program), runs)

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Sequence
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.writing.offsets import has_offset
+from mechwright_cam.controls.work_offsets import WorkOffsets
 from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
 
 
 def unmet(
-    settings: CamSettings, title: str, work_offsets: Sequence[str], compensates: bool
+    settings: CamSettings, title: str, work_offsets: Sequence[WorkOffsets], compensates: bool
 ) -> Iterator[Finding]:
     """What of a design file's wishes a control lacks: the work offset, cutter compensation.
 
@@ -21,13 +21,13 @@ def unmet(
     title
         Name of the control.
     work_offsets
-        Those it has: keys of :data:`mechwright_cam.controls.writing.offsets.OFFSETS`.
+        Those it has.
     compensates
         Whether it has G41 and G42.
     """
-    if not has_offset(work_offsets, settings.work_offset):
+    if not any(row.has(settings.work_offset) for row in work_offsets):
         message = f"{title} has no work offset {settings.work_offset}"
-        remedy = f"use one of: {', '.join(work_offsets)}"
+        remedy = f"use one of: {', '.join(row.name for row in work_offsets)}"
         yield Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy)
     if settings.compensation != "computer" and not compensates:
         message = f"{title} has no cutter compensation (G41, G42)"

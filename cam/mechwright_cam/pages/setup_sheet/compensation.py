@@ -2,19 +2,17 @@
 
 from collections.abc import Sequence
 
-from mechwright_cam.controls.writing.offsets import DOffset, d_offset
+from mechwright_cam.controls.offsets import DOffset, OffsetTables
 from mechwright_cam.program.moves import Program
-from mechwright_cam.setup.job import Job
 
 OVERSIZE = 0.5
 """Share of the wear allowed by which D is made larger for a careful first cut: the part stays too large."""
 
 
-def d_offsets(job: Job, program: Program) -> tuple[DOffset, ...]:
+def d_offsets(program: Program, tables: OffsetTables) -> tuple[DOffset, ...]:
     """The D offsets that a program uses."""
-    settings = job.settings
     return tuple(
-        d_offset(tool, settings.control, program.posting, program.compensation, program.wear_limit)
+        tables.d_offset(tool, program.posting, program.compensation, program.wear_limit)
         for tool in program.compensated
     )
 
@@ -31,18 +29,18 @@ def value(offset: DOffset) -> str:
     return f"{offset.planned:.3f}, the {what}{offset.quantity}"
 
 
-SETTINGS = {"fanuc": "commonly parameter 5004, bit 2", "haas": "setting 40"}
-"""Where a control is told whether D is a radius or a diameter."""
-
-
-def lines(offsets: Sequence[DOffset], control: str) -> tuple[str, ...]:
+def lines(offsets: Sequence[DOffset], tables: OffsetTables) -> tuple[str, ...]:
     """How D is set, and how a part is brought to size."""
-    said = []
-    if control in SETTINGS:
-        said.append(
-            f"The control has to take D as a {offsets[0].quantity} ({SETTINGS[control]}). Geometry and wear "
-            "are added up: enter the planned value as geometry, with wear 0, and correct sizes in wear."
+    about = []
+    if tables.d == "setting":
+        where = f" ({tables.d_setting})" if tables.d_setting else ""
+        about.append(f"The control has to take D as a {offsets[0].quantity}{where}.")
+    if tables.wear:
+        about.append(
+            "Geometry and wear are added up: enter the planned value as geometry, with wear 0, and correct "
+            "sizes in wear."
         )
+    said = [" ".join(about)] if about else []
     for offset in offsets:
         low, high = offset.planned - offset.limit, offset.planned + offset.limit
         measured = f"{offset.tool.diameter:g} mm in diameter as planned"

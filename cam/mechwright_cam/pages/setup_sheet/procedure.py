@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.part import Bore
-from mechwright_cam.controls.reading import DIALECTS, LINUXCNC
-from mechwright_cam.controls.writing.offsets import DOffset, setting_words
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
 from mechwright_cam.pages.svg import signed
 from mechwright_cam.setup.job import Job
@@ -32,6 +32,7 @@ class Step:
 
 def steps(
     job: Job,
+    control: Control,
     tools: Sequence[int],
     *,
     file_names: Sequence[str],
@@ -46,6 +47,8 @@ def steps(
     ----------
     job
         What is set up.
+    control
+        The control that reads the program.
     tools
         T numbers in the order of use.
     file_names
@@ -61,22 +64,18 @@ def steps(
     """
     offset = job.settings.work_offset
     over = job.side == "underside"
-    by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
-    touched = by_hand and not _measured(job, tools)
+    by_hand = not control.offsets.lengths
+    touched = by_hand and not _in_program(job, control, tools)
     return [
         _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
         _second_plane(job, offset) if over else _plane(job, offset),
-        *([] if touched else [_height(offset)]),
+        *([] if touched else [_height(offset, control)]),
         *(
-            [_touch_off(job, tools, by_file=by_file)]
+            [_touch_off(job, control, tools, by_file=by_file)]
             if by_hand
-            else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools)]
+            else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools, control)]
         ),
-        *(
-            [Step("Set D, and bring the part to size", lines(offsets, job.settings.control))]
-            if offsets
-            else []
-        ),
+        *([Step("Set D, and bring the part to size", lines(offsets, control.offsets))] if offsets else []),
         _run(job, offset, file_names, touched=touched),
     ]
 
@@ -151,17 +150,20 @@ def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> 
     return Step(step.title, (*step.lines, line))
 
 
-def _measured(job: Job, tools: Sequence[int]) -> bool:
+def _in_program(job: Job, control: Control, tools: Sequence[int]) -> bool:
     """Whether the lengths of all tools stand in the program."""
-    return set(tools) <= {tool.number for tool in job.tools if tool.length is not None}
+    return bool(control.offsets.length_word) and set(tools) <= {
+        tool.number for tool in job.tools if tool.length is not None
+    }
 
 
-def _touch_off(job: Job, tools: Sequence[int], *, by_file: bool) -> Step:
+def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: bool) -> Step:
     listed = ", ".join(f"T{tool}" for tool in tools)
-    if _measured(job, tools):
+    if _in_program(job, control, tools):
+        word = control.offsets.length_word
         lines = [
-            f"The lengths of {listed} are in the program (G43.1), as measured against the spindle nose.",
-            "Check each by hand before the first cut: G43.1 with its length, then the tip over the stock.",
+            f"The lengths of {listed} are in the program ({word}), as measured against the spindle nose.",
+            f"Check each by hand before the first cut: {word} with its length, then the tip over the stock.",
         ]
     else:
         when = "Before each file" if by_file else "At each stop"
@@ -263,13 +265,13 @@ def _plane(job: Job, offset: str) -> Step:
     return Step(f"Set {offset} X and Y", tuple(lines))
 
 
-def _height(offset: str) -> Step:
+def _height(offset: str, control: Control) -> Step:
     return Step(
         f"Set {offset} Z once, with the Z setter",
         (
             "No length offset active: G49. Stand the setter (height h) on the clean top of the stock.",
             "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
-            f"Enter {offset} Z = N − h on the offset page, or {setting_words(offset)} Z[N − h]. "
+            f"Enter {offset} Z = N − h on the offset page, or {control.setting_words(offset)} Z[N − h]. "
             "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
             "If the nose cannot reach, use the longest tool in its place for N: its H is 0, the others have "
             "negative H. Use the same one for all programs of the job, since they share the lengths.",
@@ -293,12 +295,13 @@ def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
     )
 
 
-def _check(offset: str, tools: Sequence[int]) -> Step:
+def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
     first = tools[0] if tools else 1
     return Step(
         "Check before the first cut",
         (
-            f"Beside the clamps, by hand: T{first} M6, {offset}, G43 H{first}, then G0 Z{CHECK_HEIGHT:g}. "
+            f"Beside the clamps, by hand: {control.change_words(first)}, {offset}, "
+            f"{control.length_words(first)}, then G0 Z{CHECK_HEIGHT:g}. "
             f"The tip must stand {CHECK_HEIGHT:g} mm above the stock: measure it. Repeat for every tool.",
             "If it does not: stop. Length offset or work offset is wrong.",
         ),

@@ -7,7 +7,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from mechwright_cam.controls.reading import DIALECTS, LINUXCNC
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import d_offsets, value
@@ -21,8 +21,8 @@ from mechwright_cam.setup.job import Job
 
 def setup_html(
     programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]],
+    control: Control,
     *,
-    suffix: str = ".nc",
     tool_table: str = "",
     design: str = "",
     pictures: Mapping[str, str] | None = None,
@@ -38,8 +38,8 @@ def setup_html(
         For each program what is made, from what, and how it is held; what the mill does; and its part of
         ``proof.json``. Keys that the proof lacks are left out of the sheet, and without a proof the sheet
         says that the program is not proven.
-    suffix
-        Ending of program files.
+    control
+        The control that reads them.
     tool_table
         The file of the control's tool table; empty if there is none.
     design
@@ -62,11 +62,12 @@ def setup_html(
     template = pages.get_template("sheet.html")
     sheets = []
     for job, program, proof in programs:
-        sheet = _sheet(job, program, proof or {}, file_names(program, suffix, files))
+        sheet = _sheet(job, control, program, proof or {}, file_names(program, control.suffix, files))
         sheet["simulated"] = Markup((pictures or {}).get(program.name, ""))  # noqa: S704 - our own markup
         sheet["deviation"] = Markup((deviations or {}).get(program.name, ""))  # noqa: S704 - ours as well
         sheet["places"] = facts.place_rows(proof or {})
-        body = template.render(**sheet, table_words=table_words(tool_table, suffix), design=design)
+        table_words = control.table_words(tool_table) if tool_table else ""
+        body = template.render(**sheet, table_words=table_words, design=design)
         sheets.append({**sheet, "body": Markup(body)})  # noqa: S704 - the template has escaped it
     titles = [job.part.name for job, _, _ in programs]
     return pages.get_template("page.html").render(sheets=sheets, titles=titles, summary=summary)
@@ -82,29 +83,15 @@ def span(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
 
 
-def table_words(table: str, suffix: str) -> str:
-    """What to do with the file of the control's offsets; empty if there is none.
-
-    >>> table_words("tool.tbl", ".nc")
-    'tool.tbl lists the tools: enter the measured lengths there.'
-    """
-    if not table:
-        return ""
-    if table.endswith(suffix):
-        return (
-            f"{table} is a program: run it once for new cutters, and H and D are set as far as known."
-            " Run again later it takes back what was corrected at the machine."
-        )
-    return f"{table} lists the tools: enter the measured lengths there."
-
-
-def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
+def _sheet(
+    job: Job, control: Control, program: Program, proof: Mapping[str, Any], names: Sequence[str]
+) -> dict[str, Any]:
     """What the template of one sheet shows."""
     traced = trace(program)
     tools = facts.tool_rows(job, program, traced, proof)
     spots = facts.spot_rows(proof)
     marks = [(spot["x"] or 0.0, spot["y"] or 0.0) for spot in spots]
-    offsets = {offset.tool.number: offset for offset in d_offsets(job, program)}
+    offsets = {offset.tool.number: offset for offset in d_offsets(program, control.offsets)}
     deepest = min((row.bottom for row in tools), default=0.0)
     return {
         "job": job,
@@ -119,6 +106,7 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence
         "loads": facts.load_rows(proof),
         "steps": steps(
             job,
+            control,
             [row.tool.number for row in tools],
             file_names=names,
             deepest=deepest,
@@ -129,7 +117,8 @@ def _sheet(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence
         "origin": origin_words(job),
         "edges": datum_edges(job),
         "quantity": quantity(job),
-        "by_hand": not DIALECTS.get(job.settings.control, LINUXCNC).length_table,
+        "control": control.name,
+        "by_hand": not control.offsets.lengths,
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, marks, traced)),  # noqa: S704
         "side": Markup(side_view(job, program, deepest)),  # noqa: S704

@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from mechwright_cam.controls.reading import DIALECTS, LINUXCNC
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.procedure import quantity
-from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span, table_words
+from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
@@ -21,9 +21,9 @@ _FIGURES = ("gouge_max_mm", "leftover_reachable_max_mm", "unreachable_area_mm2",
 
 def summary_html(
     programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]],
+    control: Control,
     *,
     name: str,
-    suffix: str = ".nc",
     tool_table: str = "",
     design: str = "",
     files: Mapping[str, Sequence[str]] | None = None,
@@ -33,7 +33,7 @@ def summary_html(
     Parameters are those of :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``name`` is that of the job.
     """
     rows = [
-        _row(job, program, proof or {}, file_names(program, suffix, files))
+        _row(job, program, proof or {}, file_names(program, control.suffix, files))
         for job, program, proof in programs
     ]
     verdicts = [row["verdict"] for row in rows]
@@ -44,9 +44,9 @@ def summary_html(
         .render(
             name=name,
             design=design,
-            table_words=table_words(tool_table, suffix),
+            table_words=control.table_words(tool_table) if tool_table else "",
             rows=rows,
-            tools=_tools(programs),
+            tools=_tools(programs, control),
             verdict=False if False in verdicts else None if None in verdicts else True,
             total=sum(times) if times else None,
         )
@@ -76,11 +76,12 @@ def _row(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[s
     }
 
 
-def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) -> list[dict[str, Any]]:
+def _tools(
+    programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]], control: Control
+) -> list[dict[str, Any]]:
     """One row per tool, by number, with what all programs ask of it."""
     found: dict[int, dict[str, Any]] = {}
     for job, program, proof in programs:
-        by_hand = not DIALECTS.get(job.settings.control, LINUXCNC).length_table
         compensated = {tool.number for tool in program.compensated}
         for row in facts.tool_rows(job, program, trace(program), proof or {}):
             tool: Tool = row.tool
@@ -89,7 +90,7 @@ def _tools(programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]]) ->
                 {
                     "tool": tool,
                     "description": row.description,
-                    "length": "–" if by_hand else f"H{tool.number}",
+                    "length": f"H{tool.number}" if control.offsets.lengths else "–",
                     "diameter": "–",
                     "programs": [],
                     "bottom": 0.0,

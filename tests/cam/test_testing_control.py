@@ -1,14 +1,16 @@
-"""The post contract lets an honest post pass, and names what is wrong with a broken one."""
+"""The contract lets an honest control pass, and names what is wrong with a broken one."""
 
 import re
 from dataclasses import fields, replace
 from functools import partial
 
 import pytest
+from by_control import LINUXCNC
 
-from mechwright_cam.controls.contract import Post
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid
-from mechwright_cam.testing import PostContract, sample_program
+from mechwright_cam.testing import ControlContract, sample_program
 
 
 def note(text):
@@ -16,38 +18,69 @@ def note(text):
     return f"({words[:60]})"
 
 
-class Plain(Post):
+CODES = {"FLOOD": "M8", "MIST": "M9 (off)\nM7", "OFF": "M9", "RAPID": "G0", "FEED": "G1"}
+SIDES = {"left": "G41 D{}", "right": "G42 D{}", "off": "G40"}
+
+
+def usual(line):
+    """A line of the plain control in the words of LinuxCNC."""
+    kind, _, words = line.partition(" ")
+    word = dict(re.findall(r"([A-Z]+?)(None|True|False|left|right|off|[-+.\de]+)(?: |$)", words))
+    if kind == "DRILL":
+        peck = word["PECK"] != "None"
+        code = f"G83 Q{word['PECK']}" if peck else f"G82 P{word['DWELL']}"
+        return f"G98 {code} X{word['X']} Y{word['Y']} Z{word['BOTTOM']} R{word['RETRACT']} F{word['FEED']}"
+    if kind not in {"RAPID", "FEED", "FEEDARC"}:
+        return CODES.get(line, line)
+    code = CODES[kind] if kind != "FEEDARC" else "G3" if word["CCW"] == "True" else "G2"
+    code += " " + SIDES.get(word.get("SIDE", ""), "").format(word.get("D"))
+    axes = [letter + word[letter] for letter in "XYZIJ" if word.get(letter, "None") != "None"]
+    return " ".join([code, *axes, "F" + word["FEED"] if "FEED" in word else ""])
+
+
+class Plain(Control):
     """Writes every number of every move, and no more than the contract asks for."""
 
     name = "plain"
     title = "Plain"
     note = staticmethod(note)
+    retract = ("M9", "M5", "G53 G0 Z0")
 
     def move(self, move):
-        words = " ".join(
-            f"{f.name.upper()}{getattr(move, f.name)}" for f in fields(move) if f.name != "message"
-        )
+        values = {f.name.upper(): getattr(move, f.name) for f in fields(move) if f.name != "message"}
+        words = " ".join(f"{n}{v:.6f}" if isinstance(v, float) else f"{n}{v}" for n, v in values.items())
         return f"{type(move).__name__.upper()} {words}" if words else f"M0 {self.note(move.message)}"
 
     def write(self, program):
-        lines = ["%", *map(self.note, program.notes), program.work_offset]
+        lines = ["%", *map(self.note, program.notes), "G21 G90 G17 G40 G64 P0.002", program.work_offset]
         for section in program.sections:
+            lines += self.retract
             lines += [f"T{section.tool.number} M6", f"S{section.spindle} M3", section.coolant.upper()]
             lines.append(f"G43 H{section.tool.number}")
             for operation in section.operations:
-                lines += [self.note(operation.name), *map(self.move, operation.moves)]
-        return "\n".join([*lines, "M30", "%", ""])
+                lines.append(self.note(operation.name))
+                for move in operation.moves:
+                    d = f" D{section.tool.d_number}" if getattr(move, "side", None) else ""
+                    lines.append(self.move(move) + d)
+        return "\n".join([*lines, *self.retract, "M30", "%", ""])
+
+    def read(self, program, **settings):
+        return LINUXCNC.read("\n".join(map(usual, program.splitlines())), **settings)
 
     def tool_table(self, tools):
         return "tool.tbl", "".join(f"T{tool.number} D{tool.diameter}\n" for tool in tools)
 
+    def offset_table(self, tools, settings):
+        d = [self.offsets.d_offset(tool, settings.post, settings.compensation, 0.1) for tool in tools]
+        return "tool.tbl", "".join(f"T{offset.number} D{offset.planned}\n" for offset in d)
 
-class TestPlain(PostContract):
-    post = Plain
+
+class TestPlain(ControlContract):
+    control = Plain
 
 
 def assert_refused(post, test, words="", *arguments):
-    contract = type("Contract", (PostContract,), {"post": post})()
+    contract = type("Contract", (ControlContract,), {"control": post})()
     with pytest.raises(AssertionError) as caught:
         getattr(contract, test)(*arguments)
     assert words in str(caught.value)
@@ -148,7 +181,7 @@ def test_tool_table(table):
 
 def test_a_control_may_have_no_tool_table():
     other = type("Other", (Plain,), {"tool_table": lambda *_: ("", "")})
-    type("Contract", (PostContract,), {"post": other})().test_tool_table()
+    type("Contract", (ControlContract,), {"control": other})().test_tool_table()
 
 
 def test_the_sample_holds_every_kind_of_move_and_hangs_together():
@@ -178,11 +211,51 @@ def test_the_contract_takes_a_program_of_ones_own():
     section = sample_program().sections[0]
     short = only((replace(section, operations=(Operation("hole", section.operations[0].moves[:2]),)),))
 
-    class Contract(PostContract):
-        post = Plain
+    class Contract(ControlContract):
+        control = Plain
 
         def program(self):
             return short
 
     Contract().test_every_number_counts()
     Contract().test_length_offsets()
+
+
+def misread(pattern, new):
+    """The plain control, which reads its own text as another one."""
+
+    class Other(Plain):
+        def read(self, program, **settings):
+            return super().read(re.sub(pattern, new, program), **settings)
+
+    return Other
+
+
+@pytest.mark.parametrize(
+    ("pattern", "new", "words"),
+    [
+        (r"Z-1\.500000", "Z-1.25", "is read as one to"),
+        (r"FEED400\.0", "FEED300.0", "is read as one to"),
+        (r"FEED XNone Y12.*\n", "\n", "is not read"),
+        (r"(FEED XNone Y12.*\n)", r"\1RAPID XNone YNone Z1\nFEED X1 Y1 Z-1 FEED9\n", "does not have"),
+        (r"S6000\.0", "S600", "read in another state"),
+        (r"FLOOD", "MIST", "read in another state"),
+        (r"G55", "G54", "read in another state"),
+        (r"T12 M6", "T3 M6", "read in another state"),
+        (r"M0 .*", "", "a stop is not read"),
+        (r"M30\n%", "", "does not see the program's end"),
+    ],
+)
+def test_a_control_that_reads_something_else_than_it_writes(pattern, new, words):
+    assert_refused(misread(pattern, new), "test_reads_back_what_it_writes", words)
+
+
+def test_a_control_that_says_two_things_of_d():
+    test = "test_program_tables_and_sheet_say_the_same_of_d"
+    note = "(D24 holds the radius)\nM30"
+    assert_refused(edited("M30", note), test, "D is the diameter", "control", "radius")
+    assert_refused(misread("SIDE(left|off)", "SIDENone"), test, "compensation is not read", "wear", "radius")
+    table = type("Other", (Plain,), {"offset_table": lambda *_: ("tool.tbl", "T24 D3\n")})
+    assert_refused(table, test, "6 for D24 is not in the file", "control", "radius")
+    none = type("Other", (Plain,), {"offsets": OffsetTables(d=None)})
+    assert_refused(none, test, "compensation is not refused", "control", "radius")

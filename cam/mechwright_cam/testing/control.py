@@ -1,19 +1,22 @@
-"""What every post must do; a post's own tests subclass :class:`PostContract`."""
+"""What every control must do; a control's own tests subclass :class:`ControlContract`."""
 
 import re
-from collections.abc import Iterator
-from dataclasses import fields, replace
-from typing import ClassVar
+from dataclasses import replace
+from typing import ClassVar, Literal, get_args
 
 import pytest
 
-from mechwright_cam.controls.contract import Post
-from mechwright_cam.program.moves import Drill, FeedArc, Move, Pause, Program
+from mechwright.contracts.finding import errors
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.program.moves import Pause, Program
+from mechwright_cam.shop.posting import Compensation
 from mechwright_cam.shop.tool import Tool
-from mechwright_cam.testing.programs import sample_program
-
-_STEP = 0.125
-"""Change of a number that any control can show: mm, mm/min or s."""
+from mechwright_cam.testing.agreement import assert_one_d, assert_read_back
+from mechwright_cam.testing.changes import changed
+from mechwright_cam.testing.programs import compensated_sample, plate_job, sample_program
 
 _HOSTILE = (
     "(nested) G0 Z-50 (",
@@ -24,11 +27,11 @@ _HOSTILE = (
     "(MSG, hello)",
     "long " * 100,
 )
-"""Texts that a careless post would let become commands, or lines that a control refuses."""
+"""Texts that a careless control would let become commands, or lines that a control refuses."""
 
 
-class PostContract:
-    """Tests of one post; subclass it and set :attr:`post`.
+class ControlContract:
+    """Tests of one control; subclass it and set :attr:`control`.
 
     What differs between controls stands in class attributes and in three small methods, which say how the
     control writes comments, its work offset and its length offset.
@@ -37,12 +40,12 @@ class PostContract:
     --------
     ::
 
-        class TestMill(PostContract):
-            post = MillPost
+        class TestMill(ControlContract):
+            control = MillControl
             longest_line = 80
     """
 
-    post: ClassVar[type[Post]]
+    control: ClassVar[type[Control]]
     """The class under test."""
     program_end: ClassVar[str] = r"M0*(2|30)"
     """Pattern that the last line of code matches."""
@@ -67,13 +70,13 @@ class PostContract:
         return rf"G43(?![\d.]).*H0*{tool.number}(?!\d)"
 
     def _write(self, program: Program) -> str:
-        return self.post().write(program)
+        return self.control().write(program)
 
     def test_names(self) -> None:
-        """The post can be chosen and listed, and its files have an ending."""
-        assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", self.post.name)
-        assert self.post.title.strip() == self.post.title != ""
-        assert re.fullmatch(r"(\.[a-z0-9]+)+", self.post.suffix)
+        """The control can be chosen and listed, and its files have an ending."""
+        assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", self.control.name)
+        assert self.control.title.strip() == self.control.title != ""
+        assert re.fullmatch(r"(\.[a-z0-9]+)+", self.control.suffix)
 
     def test_text(self) -> None:
         """The text is plain ASCII in lines that the control can read."""
@@ -113,8 +116,8 @@ class PostContract:
         """No move is dropped and no number of it: each one that changes, changes the text."""
         program = self.program()
         text = self._write(program)
-        for what, changed in _changed(program):
-            assert self._write(changed) != text, f"the text does not show {what}"
+        for what, other in changed(program):
+            assert self._write(other) != text, f"the text does not show {what}"
 
     def test_spindle_and_coolant_count(self) -> None:
         """Spindle speed and coolant of every section reach the text."""
@@ -154,49 +157,52 @@ class PostContract:
     def test_tool_table(self) -> None:
         """The tool table has a safe file name and holds every tool, or the control has none."""
         tools = self.program().tools
-        name, text = self.post().tool_table(tools)
+        name, text = self.control().tool_table(tools)
         assert (name == "") == (text == ""), "a tool table has both a name and a text, or neither"
-        assert (name, text) == self.post().tool_table(tools)
+        assert (name, text) == self.control().tool_table(tools)
         if name:
             assert re.fullmatch(r"[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*", name), f"unsafe file name {name!r}"
             assert text.endswith("\n")
             for tool in tools:
                 assert re.search(rf"(?<!\d){tool.number}(?!\d)", text), f"tool {tool.number} is missing"
 
+    def test_reads_back_what_it_writes(self) -> None:
+        """Every cut is read where the program has it, with its tool, feed, spindle, coolant and offset."""
+        assert_read_back(self.control(), self.program())
 
-def _changed(program: Program) -> Iterator[tuple[str, Program]]:
-    """The program with one number of one move changed, for every number of every move."""
-    for s, section in enumerate(program.sections):
-        for o, operation in enumerate(section.operations):
-            for m, move in enumerate(operation.moves):
-                for what, other in _changed_move(move):
-                    moves = (*operation.moves[:m], other, *operation.moves[m + 1 :])
-                    operations = list(section.operations)
-                    operations[o] = replace(operation, moves=moves)
-                    sections = list(program.sections)
-                    sections[s] = replace(section, operations=tuple(operations))
-                    where = f"{what} of {move} in operation {operation.name!r}"
-                    yield where, replace(program, sections=tuple(sections))
+    @pytest.mark.parametrize("way", ["control", "wear"])
+    @pytest.mark.parametrize("quantity", ["radius", "diameter"])
+    def test_program_tables_and_sheet_say_the_same_of_d(
+        self, way: Compensation, quantity: Literal["radius", "diameter"]
+    ) -> None:
+        """What D holds is the same in the program's head, in the offsets' file and on the setup sheet."""
+        control, (job, program) = self.control(), compensated_sample(way, quantity)
+        if control.offsets.d is None:
+            assert errors(control.check(job.settings)), "compensation is not refused, and there is no D"
+            with pytest.raises(ProgramError):
+                control.write(program)
+        else:
+            assert_read_back(control, program)
+            assert_one_d(control, job, program)
 
+    def test_the_sheet_says_whether_lengths_are_kept(self) -> None:
+        """The setup sheet asks for H where the control keeps lengths, and there alone."""
+        job, program = plate_job(), self.program()
+        page = setup_html([(job, program, None)], self.control())
+        kept = self.control.offsets.lengths
+        assert ("Offsets to type in" in page) == kept
+        assert ("The control keeps no lengths" in page) != kept
+        assert self.control.name in page
+        if kept:
+            first = program.sections[0].tool.number
+            assert self.control().length_words(first) in page
+            assert self.control().change_words(first) in page
 
-def _changed_move(move: Move) -> Iterator[tuple[str, Move]]:
-    if isinstance(move, Pause):
-        yield "the message", replace(move, message=f"{move.message} again")
-        return
-    if isinstance(move, FeedArc):
-        yield "the direction", replace(move, ccw=not move.ccw)
-    # The rest of an arc hangs together: one number alone would leave no circle.
-    free = {"z", "feed"} if isinstance(move, FeedArc) else {item.name for item in fields(move)}
-    if isinstance(move, Drill):
-        free -= {"breaking"}
-        if move.peck is not None and move.dwell == 0:  # a hole in one go breaks no chips
-            yield "the breaking of chips", replace(move, breaking=not move.breaking)
-    for name in sorted(free):
-        value = getattr(move, name)
-        # A dwell of nothing is no dwell, and not every control can dwell in every cycle.
-        if name == "breaking" and isinstance(move, Drill):
-            # How a peck ends matters only where there are pecks.
-            if move.peck is not None:
-                yield name, replace(move, breaking=not move.breaking)
-        elif value is not None and not (name == "dwell" and value == 0):
-            yield name, replace(move, **{name: value + _STEP})
+    @pytest.mark.parametrize("way", get_args(Compensation))
+    def test_a_planned_program_is_proven(self, way: Compensation) -> None:
+        """A plate with a bore is planned, posted, read back and proven."""
+        control = self.control()
+        if way != "computer" and control.offsets.d is None:
+            pytest.skip("the control has no cutter compensation")
+        made = machine(plate_job(compensation=way), control)
+        assert made.proof.ok
