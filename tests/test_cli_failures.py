@@ -3,7 +3,7 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -48,13 +48,12 @@ class Odd(Family[Parameters]):
 
 
 @pytest.fixture
-def odd(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Odd]]:
+def odd(monkeypatch: pytest.MonkeyPatch) -> type[Odd]:
     found = hosting.load()
-    found.families["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
-    monkeypatch.setattr(hosting, "load", lambda: found)
-    hosting.host.cache_clear()
-    yield Odd
-    hosting.host.cache_clear()
+    found.registered.setdefault(Family, {})["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
+    monkeypatch.setattr(hosting, "host", lambda: found)
+    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
+    return Odd
 
 
 @pytest.fixture

@@ -2,12 +2,13 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import mechwright.plugins.host as hosting
+from mechwright.contracts.family import Family
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import Registered
@@ -21,13 +22,11 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture(autouse=True)
-def disc(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def disc(monkeypatch: pytest.MonkeyPatch) -> None:
     found = hosting.load()
-    found.families["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
-    monkeypatch.setattr(hosting, "load", lambda: found)
-    hosting.host.cache_clear()
-    yield
-    hosting.host.cache_clear()
+    found.registered.setdefault(Family, {})["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
+    monkeypatch.setattr(hosting, "host", lambda: found)
+    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
 
 
 def requirement(folder: Path, text: str) -> Path:

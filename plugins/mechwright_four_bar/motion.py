@@ -4,17 +4,16 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
 from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.mechanics.linkage import Mass
-from mechwright.mechanics.planar import BodyMotion, PointMotion, acceleration_pole
+from mechwright.mechanics.planar import PointMotion, acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop, close
+from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import PEAK_SAMPLES, peaks_of, speed_of
+from mechwright_four_bar.peaks import peaks_of, rate_peaks, speed_of, turn
 from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
 
 
@@ -77,7 +76,7 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
         figures |= _mass_figures(bar, masses)
     else:
-        figures |= {f"{name}_max": value for name, value in _rate_peaks(_turn(bar, omega)[1]).items()}
+        figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
     point = params.coupler_point
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
     return Motion("phi", channels, frames_of(params, bodies), figures, traces)
@@ -125,18 +124,3 @@ def _balance_figures(balance: Balance) -> dict[str, Scalar]:
         for name, moment in (("crank", balance.crank), ("follower", balance.follower))
         for axis, value in (("x", moment.real), ("y", moment.imag))
     }
-
-
-def _turn(bar: FourBar, omega: float) -> tuple[Loop, dict[str, BodyMotion]]:
-    """The turn over which peaks are sought."""
-    loop = close(bar, np.linspace(0, math.tau, PEAK_SAMPLES))
-    return loop, loop.bodies(bar, omega)
-
-
-def _rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
-    turning = bodies["follower"].turning
-    return {"omega_b": _most(turning.omega, "rad/s"), "alpha_b": _most(turning.alpha, "rad/s^2")}
-
-
-def _most(values: Array, unit: str) -> Scalar:
-    return Scalar(float(np.abs(values).max()), unit)

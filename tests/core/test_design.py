@@ -9,12 +9,13 @@ from pydantic import Field
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.table import Table
 from mechwright.designs.design import load
 from mechwright.designs.text import template
 from mechwright.designs.units import Degrees, Millimetres
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.plugins.host import Host, Registered
-from mechwright_cam.shop.table import settings_of
+from mechwright_cam.shop.table import CamTable, settings_of
 
 
 class DiscParams(Parameters):
@@ -42,7 +43,12 @@ class Disc(Family[DiscParams]):
 
 @pytest.fixture
 def host() -> Host:
-    return Host(families={"disc": Registered(Disc(), "here", "disc")})
+    return Host(
+        {
+            Family: {"disc": Registered(Disc(), "here", "disc")},
+            Table: {"cam": Registered(CamTable(), "here", "cam")},
+        }
+    )
 
 
 def write(folder: Path, text: str) -> Path:
@@ -65,7 +71,7 @@ def test_units_are_converted_and_defaults_filled(tmp_path: Path, host: Host) -> 
 
 
 def test_the_template_is_a_design_file_with_the_defaults(tmp_path: Path, host: Host) -> None:
-    text = template(Disc(), "disc")
+    text = template(Disc(), "disc", [CamTable()])
     design = load(write(tmp_path, text), host)
     assert design.params == DiscParams()
     assert "Diameter of the disc. (mm, 1 to 500)" in text

@@ -11,6 +11,8 @@ import pytest
 from disc_family import Disc, DiscParams
 from pydantic import Field
 
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
@@ -19,6 +21,7 @@ from mechwright.designs.units import Millimetres, Unit
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.testing import FamilyContract
+from mechwright_cam.controls.contract import Control
 
 EXAMPLE: dict[str, object] = {}
 
@@ -434,7 +437,7 @@ def test_solids_need_the_exporter(monkeypatch):
     monkeypatch.setattr(kit, "host", lambda: empty)
     with pytest.raises(pytest.skip.Exception, match="'step' is not installed"):
         run(Disc, "test_solids")
-    monkeypatch.setattr(kit, "host", lambda: Host(exporters={"step": Registered(step, "x", "y")}))
+    monkeypatch.setattr(kit, "host", lambda: Host({Exporter: {"step": Registered(step, "x", "y")}}))
     step.data = b"ISO-10303-21;\n"
     run(Disc, "test_solids")
     step.data = b""
@@ -452,8 +455,8 @@ def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
 
     for found, reason in (
         (Host(), "family disc is not installed"),
-        (Host(families={"disc": Registered(Other(), "x", "y")}), "family disc is not installed"),
-        (Host(families={"disc": Registered(Disc(), "x", "y")}), "no post is installed"),
+        (Host({Family: {"disc": Registered(Other(), "x", "y")}}), "family disc is not installed"),
+        (Host({Family: {"disc": Registered(Disc(), "x", "y")}}), "no control is installed"),
     ):
         monkeypatch.setattr(kit, "host", lambda found=found: found)
         with pytest.raises(pytest.skip.Exception, match=reason):
@@ -474,7 +477,10 @@ def test_programs_are_judged_by_their_proof(monkeypatch, tmp_path, proofs, words
     from mechwright.testing import family as kit
 
     found = Host(
-        families={"disc": Registered(Disc(), "x", "y")}, posts={"mill": Registered(object(), "x", "y")}
+        {
+            Family: {"disc": Registered(Disc(), "x", "y")},
+            Control: {"mill": Registered(object(), "x", "y")},
+        }
     )
     asked = []
     monkeypatch.setattr(kit, "host", lambda: found)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from mechwright_cam.controls.reading.corners import EXACT, Corners
+from mechwright_cam.controls.corners import EXACT, Corners
 
 PECK_CLEARANCE = 0.254
 """How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""

@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.corners import Corners
 from mechwright_cam.controls.dialect import FEEDS, RETURN, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
-from mechwright_cam.controls.reading.corners import Corners
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.writing.text import comment_lines, number

@@ -51,6 +51,8 @@ class ProgramFiles(Page):
     def files(self, build: Build) -> dict[str, str]:
         """Program text by file."""
         machining = _machining(build)
+        if not machining.made:
+            return {}
         suffix = machining.control.suffix
         files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
         table, text = machining.table
