@@ -10,7 +10,7 @@ from mechwright_cam.controls.work_offsets import FANUC_OFFSETS, G54_TO_G59
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import Tool
 
 OFFSETS_NUMBER = 7999
 """O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""
@@ -76,12 +76,7 @@ class Fanuc(GcodeControl):
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same, and the D offsets: geometry (L12) as planned, wear (L13) 0."""
-        offsets = [
-            self.offsets.d_offset(tool, settings.post, settings.compensation, settings.wear_limit)
-            for tool in tools
-            if tool.kind is ToolKind.END_MILL
-        ]
-        return self._offsets_file(tools, offsets)
+        return self._offsets_file(tools, self.offsets.of_tools(tools, settings))
 
     def table_words(self, table: str) -> str:
         """What to do with the file of offsets."""

@@ -29,7 +29,7 @@ class GcodeControl(Sections):
             The program has no moves, or a section that does not start with a Rapid to x and y; the offsets
             that it should set have not been measured.
         """
-        check_program(program, self.title, self.highest_tool, self.offsets.d is not None)
+        check_program(program, self)
         out = Writer(program, self.decimals, self.dialect.point_needed)
         self.frame(out)
         self.head(out)
@@ -49,7 +49,7 @@ class GcodeControl(Sections):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
-        return tuple(unmet(settings, self.title, self.work_offsets, self.offsets.d is not None))
+        return tuple(unmet(settings, self))
 
     def read(
         self,
@@ -74,8 +74,7 @@ class GcodeControl(Sections):
         self.comment(out, f"origin {program.work_offset}, Z0 on top of the stock, units mm and mm/min")
         for tool in program.tools:
             self.comment(out, self.tool_note(tool))
-        for tool in program.compensated:
-            offset = self.offsets.d_offset(tool, program.posting, program.compensation, program.wear_limit)
+        for offset in self.offsets.of_program(program):
             self.comment(out, self.d_note(offset))
 
     def safe_start(self, out: Writer) -> None:

@@ -12,7 +12,7 @@ from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import Tool
 
 _MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
 _PLANE_UNITS = {170, 180, 190, 200, 210}
@@ -67,15 +67,9 @@ class LinuxCnc(GcodeControl):
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
-        rows = {}
-        for tool in _each(tools):
-            rows[tool.number] = _row(tool, tool.number, tool.diameter)
-        for tool in _each(tools):
-            if tool.kind is ToolKind.END_MILL:
-                offset = self.offsets.d_offset(
-                    tool, settings.post, settings.compensation, settings.wear_limit
-                )
-                rows[offset.number] = _row(tool, offset.number, offset.planned, f" D of T{tool.number}")
+        rows = {tool.number: _row(tool, tool.number, tool.diameter) for tool in tools}
+        for d in self.offsets.of_tools(_each(tools), settings):
+            rows[d.number] = _row(d.tool, d.number, d.planned, f" D of T{d.tool.number}")
         return "tool.tbl", "".join(rows[number] for number in sorted(rows))
 
 

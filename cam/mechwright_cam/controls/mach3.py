@@ -11,7 +11,7 @@ from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import Tool
 
 
 class Mach3(GcodeControl):
@@ -45,12 +45,8 @@ class Mach3(GcodeControl):
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
         rows = {tool.number: (tool, "", tool.diameter) for tool in tools}
-        for tool in tools:
-            if tool.kind is ToolKind.END_MILL:
-                offset = self.offsets.d_offset(
-                    tool, settings.post, settings.compensation, settings.wear_limit
-                )
-                rows[offset.number] = tool, f", D of T{tool.number}", offset.planned
+        for d in self.offsets.of_tools(tools, settings):
+            rows[d.number] = d.tool, f", D of T{d.tool.number}", d.planned
         return _table(rows)
 
 

@@ -10,11 +10,14 @@ geometry, wear
     Two columns of one offset, which the control adds up: the tool as planned, and what it has become.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from mechwright_cam.program.moves import Program
 from mechwright_cam.shop.posting import Compensation, Posting
-from mechwright_cam.shop.tool import Tool
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 Quantity = Literal["radius", "diameter"]
 
@@ -55,6 +58,16 @@ class OffsetTables:
     d: Literal["radius", "diameter", "setting"] | None = "diameter"
     d_setting: str = ""
     wear: bool = False
+
+    def of_program(self, program: Program) -> list[DOffset]:
+        """The D offsets that a program uses."""
+        planned = program.posting, program.compensation, program.wear_limit
+        return [self.d_offset(tool, *planned) for tool in program.compensated]
+
+    def of_tools(self, tools: Sequence[Tool], cam: CamSettings) -> list[DOffset]:
+        """Those that tools need which may finish walls with cutter compensation."""
+        planned = cam.post, cam.compensation, cam.wear_limit
+        return [self.d_offset(tool, *planned) for tool in tools if tool.kind is ToolKind.END_MILL]
 
     def d_offset(self, tool: Tool, posting: Posting, compensation: Compensation, wear: float) -> DOffset:
         """The D offset of a tool, when its radius may be off by ``wear`` mm; ValueError if there is none.

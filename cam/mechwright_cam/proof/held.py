@@ -39,7 +39,7 @@ def obstacles(scene: Scene) -> list[Obstacle]:
         # Without a stop it can only have been there from the start.
         since = int(stops[0]) if stops.size else -1
         if not stops.size:
-            name += ", which no M0 sets later"
+            name += f", which no {scene.control.m(0)} sets later"
         found.append(
             Obstacle(name, shapely.Point(job.clamp.centre), job.clamp.diameter / 2, job.clamp.top, since)
         )

@@ -90,7 +90,7 @@ def assert_one_d(control: Control, job: Job, program: Program) -> None:
         assert offset.quantity in cell[1]
         if table:
             value = re.escape(number(offset.planned))
-            rows = [row for row in table.splitlines() if re.search(rf"(?<!\d){offset.number}(?!\d)", row)]
+            rows = [row for row in table.splitlines() if re.search(rf"(?<!\d)0*{offset.number}(?!\d)", row)]
             assert [row for row in rows if re.search(rf"(?<![\d.-]){value}(\.0*)?(?![\d.])", row)], (
                 f"{offset.planned:g} for D{offset.number} is not in the file of offsets"
             )

@@ -164,7 +164,7 @@ class ControlContract:
             assert re.fullmatch(r"[A-Za-z0-9_-]+(\.[A-Za-z0-9_-]+)*", name), f"unsafe file name {name!r}"
             assert text.endswith("\n")
             for tool in tools:
-                assert re.search(rf"(?<!\d){tool.number}(?!\d)", text), f"tool {tool.number} is missing"
+                assert re.search(rf"(?<!\d)0*{tool.number}(?!\d)", text), f"tool {tool.number} is missing"
 
     def test_reads_back_what_it_writes(self) -> None:
         """Every cut is read where the program has it, with its tool, feed, spindle, coolant and offset."""

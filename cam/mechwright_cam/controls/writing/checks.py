@@ -1,54 +1,30 @@
 """What a control cannot do: of what a design file asks for, and of what a program uses."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.work_offsets import WorkOffsets
+from mechwright_cam.controls.writing.spelling import Spelling
 from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
 
 
-def unmet(
-    settings: CamSettings, title: str, work_offsets: Sequence[WorkOffsets], compensates: bool
-) -> Iterator[Finding]:
-    """What of a design file's wishes a control lacks: the work offset, cutter compensation.
-
-    Parameters
-    ----------
-    settings
-        The table ``[cam]``.
-    title
-        Name of the control.
-    work_offsets
-        Those it has.
-    compensates
-        Whether it has G41 and G42.
-    """
-    if not any(row.has(settings.work_offset) for row in work_offsets):
+def unmet(settings: CamSettings, control: Spelling) -> Iterator[Finding]:
+    """What of a design file's wishes a control lacks: the work offset, cutter compensation."""
+    title, rows = control.title, control.work_offsets
+    if not any(row.has(settings.work_offset) for row in rows):
         message = f"{title} has no work offset {settings.work_offset}"
-        remedy = f"use one of: {', '.join(row.name for row in work_offsets)}"
+        remedy = f"use one of: {', '.join(row.name for row in rows)}"
         yield Finding("cam.work-offset", Severity.ERROR, "cam.work_offset", message, remedy=remedy)
-    if settings.compensation != "computer" and not compensates:
+    if settings.compensation != "computer" and control.offsets.d is None:
         message = f"{title} has no cutter compensation (G41, G42)"
         remedy = 'use compensation = "computer"'
         yield Finding("cam.compensation", Severity.ERROR, "cam.compensation", message, remedy=remedy)
 
 
-def check_program(program: Program, title: str, highest_tool: int, compensates: bool) -> None:
-    """Raise ProgramError for a program that the control cannot run, or that does nothing.
-
-    Parameters
-    ----------
-    program
-        What is to be written.
-    title
-        Name of the control.
-    highest_tool
-        The largest T number that it takes.
-    compensates
-        Whether it has G41 and G42.
-    """
+def check_program(program: Program, control: Spelling) -> None:
+    """Raise ProgramError for a program that the control cannot run, or that does nothing."""
+    title, compensates = control.title, control.offsets.d is not None
     if not any(operation.moves for section in program.sections for operation in section.operations):
         raise ProgramError(f"program {program.name} has no moves; nothing is written")
     for section in program.sections:
@@ -58,10 +34,10 @@ def check_program(program: Program, title: str, highest_tool: int, compensates: 
                 f"{title} has no cutter compensation (G41, G42), and program {program.name} uses "
                 'it; use cam.compensation = "computer"'
             )
-        if max(tool.number, tool.d_number if tool in program.compensated else 0) > highest_tool:
+        if max(tool.number, tool.d_number if tool in program.compensated else 0) > control.highest_tool:
             raise ProgramError(
                 f"tool {tool.name} has number {max(tool.number, tool.d_number)}; {title} takes up "
-                f"to T{highest_tool}; give it a lower one in the tool library"
+                f"to T{control.highest_tool}; give it a lower one in the tool library"
             )
         first = next((move for operation in section.operations for move in operation.moves), None)
         if not (isinstance(first, Rapid) and None not in (first.x, first.y)):

@@ -3,18 +3,9 @@
 from collections.abc import Sequence
 
 from mechwright_cam.controls.offsets import DOffset, OffsetTables
-from mechwright_cam.program.moves import Program
 
 OVERSIZE = 0.5
 """Share of the wear allowed by which D is made larger for a careful first cut: the part stays too large."""
-
-
-def d_offsets(program: Program, tables: OffsetTables) -> tuple[DOffset, ...]:
-    """The D offsets that a program uses."""
-    return tuple(
-        tables.d_offset(tool, program.posting, program.compensation, program.wear_limit)
-        for tool in program.compensated
-    )
 
 
 def value(offset: DOffset) -> str:

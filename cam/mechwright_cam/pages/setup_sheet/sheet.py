@@ -10,7 +10,7 @@ from markupsafe import Markup
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.setup_sheet import facts
-from mechwright_cam.pages.setup_sheet.compensation import d_offsets, value
+from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
 from mechwright_cam.pages.svg import signed
@@ -91,7 +91,7 @@ def _sheet(
     tools = facts.tool_rows(job, program, traced, proof)
     spots = facts.spot_rows(proof)
     marks = [(spot["x"] or 0.0, spot["y"] or 0.0) for spot in spots]
-    offsets = {offset.tool.number: offset for offset in d_offsets(program, control.offsets)}
+    offsets = {offset.tool.number: offset for offset in control.offsets.of_program(program)}
     deepest = min((row.bottom for row in tools), default=0.0)
     return {
         "job": job,
