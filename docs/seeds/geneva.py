@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from mechwright.mechanics.laws import LAWS, Law
-from mechwright_geneva import printed, undercut
+import geneva_printed as printed
+import geneva_undercut as undercut
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.motion import straight_peaks

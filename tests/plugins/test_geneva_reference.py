@@ -10,7 +10,8 @@ import pytest
 import shapely
 
 from mechwright.mechanics.laws import LAWS
-from mechwright_geneva import printed, undercut
+import geneva_printed as printed
+import geneva_undercut as undercut
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, alpha, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure

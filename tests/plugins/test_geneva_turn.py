@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import geneva_printed as printed
 import numpy as np
 import pytest
 import shapely
@@ -95,7 +96,6 @@ def test_the_proof_sees_a_roller_that_is_too_large():
 
 def test_the_proof_sees_the_printed_wall():
     """A groove along the source's printed wall stands in the roller's way by millimetres."""
-    from mechwright_geneva import printed
     from mechwright_geneva.kinematics import LEFT, RIGHT
 
     params = GenevaParams(law="3-4-5", groove_clearance=0)

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mechwright.mechanics.laws import LAWS, Polynomial
-from mechwright_geneva import undercut
+import geneva_undercut as undercut
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
 from mechwright_geneva.mechanism import mechanism_of

@@ -1,6 +1,6 @@
 """The source's formulas as they are printed, kept only to document what is wrong with them.
 
-Nothing of the program uses this module; ``docs/seeds/geneva.md`` and the tests compare with it.
+``docs/seeds/geneva.md`` and the tests compare with them.
 
 * Figure 6 gives a loop point that comes from the 3-4-5 law, though the text names the cycloid, and from a
   wall in which θw' is taken as dθw/du: the factor 1/(2 θd0) of the chain rule is missing in equation (3).
