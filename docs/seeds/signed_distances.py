@@ -10,9 +10,9 @@ slide through B); Q is the relative centre of crank and follower, where the coup
 * (6), (7) of the four-bar, (10), (11) of the slider-crank: x and y of the pole in the coupler;
 * (8), (9) and (12), (13): X and Y on the ground.
 
-These forms are 0/0 where P is at infinity, where P = A, and where P B and Q P are parallel; the pole itself is
-finite there. The program computes it with :func:`mechwright.mechanics.planar.acceleration_pole`; these are to
-compare.
+These forms are 0/0 where P is at infinity, where P = A, and where P B and Q P are parallel; the pole itself
+is finite there. The program computes it with :func:`mechwright.mechanics.planar.acceleration_pole`; these are
+to compare.
 """
 
 from dataclasses import dataclass

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from step_read import parts_from_step
 
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Instance, Part
@@ -19,7 +20,6 @@ from mechwright_cad.interference.meshes import meetings
 from mechwright_cad.interference.nearest import Nearest, nearest_to_origin
 from mechwright_cad.interference.path import Path, relative, space_path
 from mechwright_cad.interference.prisms import prisms_of
-from mechwright_cad.interference.readback import parts_from_step
 from mechwright_cad.interference.surface import SKIN, SURE, Surface
 
 N = 181

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from rs274 import needs_rs274, run_rs274
+from step_read import parts_from_step, read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.contracts.finding import Severity
@@ -16,9 +17,7 @@ from mechwright.design.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters import StepExporter
-from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cad.interference import faithful_motion, interference
-from mechwright_cad.interference.readback import parts_from_step
 from mechwright_cam import pipeline
 from mechwright_cam.controls.reading import interpret
 from mechwright_cam.pipeline import Machined

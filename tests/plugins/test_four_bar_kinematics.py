@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from signed_distances import of_four_bar
 from flint import acb, arb, ctx
 from four_bar_reference import expected, random_bars
+from signed_distances import of_four_bar
 
 from mechwright.mechanics.planar import (
     acceleration_pole,

@@ -5,13 +5,13 @@ import math
 import re
 from pathlib import Path
 
+import geneva_printed as printed
+import geneva_undercut as undercut
 import numpy as np
 import pytest
 import shapely
 
 from mechwright.mechanics.laws import LAWS
-import geneva_printed as printed
-import geneva_undercut as undercut
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, alpha, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
