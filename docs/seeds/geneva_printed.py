@@ -10,11 +10,12 @@
 import math
 
 import numpy as np
+from geneva_undercut import alpha
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.mechanics.laws import Law
-from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, alpha, stroke
+from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, stroke
 
 
 def wall(frame: Frame, law: Law, u: ArrayLike, radius: float, side: int) -> Points:

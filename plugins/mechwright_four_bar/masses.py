@@ -1,7 +1,6 @@
 """Masses of the links from their real parts, forces in the joints, and the balance of the shaking force."""
 
 import cmath
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -127,8 +126,3 @@ def force_balance(bar: FourBar, masses: dict[str, Mass]) -> Balance:
         -coupler.mass * bar.crank * (1 - share) - crank.mass * crank.centre,
         -coupler.mass * bar.follower * share - follower.mass * follower.centre,
     )
-
-
-def degrees_of(moment: complex) -> float:
-    """Direction of a counterweight in its link's frame, deg, 0 to 360."""
-    return math.degrees(cmath.phase(moment)) % 360

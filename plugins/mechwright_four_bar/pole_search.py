@@ -8,7 +8,6 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.mechanics.multistart import distinct, least_squares
-from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
@@ -128,11 +127,3 @@ def _features(bar: FourBar, phi: Array) -> Array:
     return np.concatenate(
         (np.log(bar.lengths), [np.cos(bar.ground_angle), np.sin(bar.ground_angle)], np.cos(phi), np.sin(phi))
     )
-
-
-def poles_of(bar: FourBar, phi: Array) -> Plane:
-    """Acceleration poles (n,) of the coupler in double precision, mm from A0."""
-    from mechwright.mechanics.planar import acceleration_pole
-    from mechwright_four_bar.loop import close
-
-    return acceleration_pole(close(bar, phi).bodies(bar, 1.0)["coupler"]).fixed

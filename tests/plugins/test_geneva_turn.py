@@ -7,6 +7,7 @@ import geneva_printed as printed
 import numpy as np
 import pytest
 import shapely
+from geneva_turn import prove
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -17,7 +18,6 @@ from mechwright_geneva.family import Geneva
 from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.proof import prove
 from mechwright_geneva.relief import lock_loop
 
 DESIGNS = {
