@@ -153,65 +153,101 @@ def stack(
         There is no way; the message names the pairs that no layers keep apart.
     """
     choices = [plate.layers or tuple(range(1, max(2, len(plates)))) for plate in plates]
-    allowed = {plate.name: set(choice) for plate, choice in zip(plates, choices, strict=True)}
-    # What lies below all plates of a spindle in every layering, as the ground does, need not be measured.
-    reached = {
-        spindle.name: [
-            plate
-            for plate in plates
-            if plate.name not in spindle.plates
-            and max(allowed[plate.name]) >= min(min(allowed[name]) for name in spindle.plates)
-        ]
-        for spindle in spindles
-    }
     close = _Closeness(plates, spindles, poses, clearance)
-    apart = {frozenset(pair) for pair in neighbours}
+    conflicts = _conflicts(plates, spindles, choices, close, {frozenset(pair) for pair in neighbours})
+    layer = _flattest(plates, spindles, choices, conflicts, together)
+    if layer is None:
+        raise GeometryError(_reason(plates, spindles, conflicts))
+    return _heights(plates, spindles, layer, gap)
+
+
+@dataclass(frozen=True)
+class _Conflicts:
+    """What may not stand together.
+
+    Parameters
+    ----------
+    clashes
+        Pairs of plates that share no layer.
+    blocked
+        Spindle to the plates that it may not pass through.
+    covered
+        Spindle with a head to the plates that may not stand above it.
+    """
+
+    clashes: set[frozenset[str]]
+    blocked: dict[str, set[str]]
+    covered: dict[str, set[str]]
+
+    def allow(self, layer: Mapping[str, int], ends: Mapping[str, tuple[int, int]]) -> bool:
+        """Whether spindles that end in these layers meet none of their plates in between, nor above."""
+        through = (ends[s][0] <= layer[p] <= ends[s][1] for s, found in self.blocked.items() for p in found)
+        above = (layer[p] > ends[s][1] for s, found in self.covered.items() for p in found)
+        return not any(through) and not any(above)
+
+
+def _conflicts(
+    plates: Sequence[Plate],
+    spindles: Sequence[Spindle],
+    choices: Sequence[tuple[int, ...]],
+    close: "_Closeness",
+    neighbours: set[frozenset[str]],
+) -> _Conflicts:
+    """Measure what can come to share a height in some dealing of plates to layers."""
+    allowed = {plate.name: set(choice) for plate, choice in zip(plates, choices, strict=True)}
     clashes = {
         frozenset((a.name, b.name))
         for number, a in enumerate(plates)
         for b in plates[:number]
         if allowed[a.name] & allowed[b.name]
-        and frozenset((a.name, b.name)) not in apart
+        and frozenset((a.name, b.name)) not in neighbours
         and close.plates(a, b)
     }
-    blocked = {
-        spindle.name: {
-            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.radius)
-        }
-        for spindle in spindles
-    }
-    covered = {
-        spindle.name: {
-            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.head)
-        }
-        for spindle in spindles
-        if spindle.head > 0
-    }
+    blocked, covered = {}, {}
+    for spindle in spindles:
+        # What lies below all its plates in every layering, as the ground does, need not be measured.
+        lowest = min(min(allowed[name]) for name in spindle.plates)
+        reached = [
+            plate
+            for plate in plates
+            if plate.name not in spindle.plates and max(allowed[plate.name]) >= lowest
+        ]
+        blocked[spindle.name] = {p.name for p in reached if close.spindle(spindle, p, spindle.radius)}
+        if spindle.head > 0:
+            covered[spindle.name] = {p.name for p in reached if close.spindle(spindle, p, spindle.head)}
+    return _Conflicts(clashes, blocked, covered)
+
+
+def _flattest(
+    plates: Sequence[Plate],
+    spindles: Sequence[Spindle],
+    choices: Sequence[tuple[int, ...]],
+    conflicts: _Conflicts,
+    together: Sequence[tuple[str, ...]],
+) -> dict[str, int] | None:
+    """Plate to its layer in the flattest way that works, of several the one with the shortest spindles."""
     best: tuple[tuple[float, ...], dict[str, int]] | None = None
     place = {plate.name: number for number, plate in enumerate(plates)}
-    meeting = [(place[one], place[two]) for one, two in map(sorted, clashes)]
+    clashing = [(place[one], place[two]) for one, two in map(sorted, conflicts.clashes)]
     for chosen in product(*choices):
-        if best is not None and max(chosen) > best[0][0]:
-            continue
-        if set(chosen) != set(range(max(chosen) + 1)):
-            continue  # an empty layer only makes spindles longer
-        if any(chosen[one] == chosen[two] for one, two in meeting):
+        if (best is not None and max(chosen) > best[0][0]) or not _is_dealt(chosen, clashing):
             continue
         layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
-        if any(len({layer[name] for name in group}) > 1 for group in together):
-            continue
         ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
         cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
         if best is not None and cost >= best[0]:
             continue
-        if any(ends[s][0] <= layer[p] <= ends[s][1] for s, found in blocked.items() for p in found):
-            continue
-        if any(layer[p] > ends[s][1] for s, found in covered.items() for p in found):
-            continue
-        best = (cost, layer)
-    if best is None:
-        raise GeometryError(_reason(plates, spindles, clashes, blocked))
-    return _heights(plates, spindles, best[1], gap)
+        if all(len({layer[name] for name in group}) == 1 for group in together) and conflicts.allow(
+            layer, ends
+        ):
+            best = (cost, layer)
+    return None if best is None else best[1]
+
+
+def _is_dealt(chosen: tuple[int, ...], clashing: Sequence[tuple[int, int]]) -> bool:
+    """Whether no layer is empty, which only makes spindles longer, and no two plates that clash share one."""
+    full = set(chosen) == set(range(max(chosen) + 1))
+    return full and all(chosen[one] != chosen[two] for one, two in clashing)
 
 
 def _heights(
@@ -234,21 +270,18 @@ def _heights(
     return Stack(layer, tuple(layers), spans)
 
 
-def _reason(
-    plates: Sequence[Plate],
-    spindles: Sequence[Spindle],
-    clashes: set[frozenset[str]],
-    blocked: Mapping[str, set[str]],
-) -> str:
+def _reason(plates: Sequence[Plate], spindles: Sequence[Spindle], conflicts: _Conflicts) -> str:
     """What stands in the way; not what is joined, which meets by design, nor the ground plate below all."""
     below = {plate.name for plate in plates if plate.layers == (0,)}
     joined = {frozenset(pair) for spindle in spindles for pair in combinations(spindle.plates, 2)}
     said = [
         " and ".join(sorted(pair)) + " meet in plan"
-        for pair in sorted(clashes - joined, key=sorted)
+        for pair in sorted(conflicts.clashes - joined, key=sorted)
         if not pair & below
     ]
-    said += [f"the {name} hits {plate}" for name in blocked for plate in sorted(blocked[name] - below)]
+    said += [
+        f"the {name} hits {plate}" for name, hit in conflicts.blocked.items() for plate in sorted(hit - below)
+    ]
     more = f" and {len(said) - _SAID} more" if len(said) > _SAID else ""
     return f"no order of layers keeps the plates apart over a turn: {', '.join(said[:_SAID])}{more}"
 
