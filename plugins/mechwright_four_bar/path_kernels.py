@@ -16,8 +16,8 @@ import math
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.mechanics.compiled import compiled
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.compiled import compiled
 
 SHAPE, LINEAR = 3, 6
 """Real unknowns of the shape, and of X, s and q."""

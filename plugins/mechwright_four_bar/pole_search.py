@@ -16,10 +16,10 @@ RESIDUAL = 1e-10
 """Certain distance, mm, from its place of every pole of a solution. What misses it is so near to a toggle
 that lengths rounded to a double move the pole that far."""
 
-STEPS = 100
+POLE_STEPS = 100
 """Steps of a start: one in a thousand of those that arrive takes more."""
 
-ARRIVED = 1e-28
+POLE_ARRIVED = 1e-28
 """Sum of squares at which a start is done: a hundredth of what RESIDUAL asks for, squared."""
 
 NEAR = 1e-14
@@ -85,7 +85,7 @@ def search(problem: PoleProblem, count: int, seed: int, progress: Callable[[floa
         def alive(part: float, number: int = number) -> None:
             progress((number + part) / 2)
 
-        unknowns, costs = least_squares(one.residual, one.starts(count, rng), STEPS, ARRIVED, alive)
+        unknowns, costs = least_squares(one.residual, one.starts(count, rng), POLE_STEPS, POLE_ARRIVED, alive)
         if costs.size:
             nearest = min(nearest, float(np.sqrt(costs.min() / problem.targets.size)) * size)
         arrived = unknowns[costs <= NEAR][np.argsort(costs[costs <= NEAR], kind="stable")]

@@ -25,7 +25,7 @@ from mechwright.geometry import Outline
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-COARSE = 0.05
+PLAN_CHORD = 0.05
 """Chord error, mm, of the outlines that are compared; it is added to the clearance."""
 
 _SAID = 6
@@ -299,9 +299,10 @@ class _Closeness:
         missing = ({plate.body for plate in plates} | {spindle.body for spindle in spindles}) - set(poses)
         if missing:
             raise GeometryError(f"the motion has no poses of {', '.join(sorted(missing))}")
-        self.limit = clearance + 2 * COARSE
+        self.limit = clearance + 2 * PLAN_CHORD
         self.placed = {
-            plate.name: _placed(plate.outline.outer.flatten(COARSE), poses[plate.body]) for plate in plates
+            plate.name: _placed(plate.outline.outer.flatten(PLAN_CHORD), poses[plate.body])
+            for plate in plates
         }
         self.poses = poses
         self.steps = {name: _step(points) for name, points in self.placed.items()}
