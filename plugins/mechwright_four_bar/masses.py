@@ -7,7 +7,14 @@ from functools import lru_cache
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.linkage import Mass, cylinder_mass, plate_mass, together
+from mechwright.mechanics.linkage import (
+    BUSHING_MATERIAL,
+    PIN_MATERIAL,
+    Mass,
+    cylinder_mass,
+    plate_mass,
+    together,
+)
 from mechwright.mechanics.planar import BodyMotion
 from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
 from mechwright_four_bar.dimensions import FourBar
@@ -22,9 +29,6 @@ from mechwright_four_bar.plates import (
     stack_of,
     turning_bore,
 )
-
-PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
-"""Those of the shared turned parts."""
 
 MILLI = 1e-3
 """Forces are computed in mN, from kg, mm and s."""

@@ -10,6 +10,7 @@ from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
@@ -28,8 +29,6 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     KinematicsError
         ``check`` finds an error; the message is that of the first one.
     """
-    from mechwright_four_bar.checks import findings
-
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     for finding in errors(findings(params)):
