@@ -1,5 +1,7 @@
 """Channels of what moves in the plane: every rate is the derivative of the channel before it."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,7 @@ def falls_short(channels, names):
     values = [channels[name].values for name in names]
     return [
         np.abs(np.gradient(one, TIME)[1:-1] - two[1:-1]).max() / np.abs(two).max()
-        for one, two in zip(values, values[1:], strict=False)
+        for one, two in pairwise(values)
     ]
 
 
