@@ -9,7 +9,12 @@ from mechwright.testing.imports import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 
-ON_DEMAND = ("mechwright.testing", "mechwright.mechanics.algebra", "mechwright.mechanics.laws.table")
+ON_DEMAND = (
+    "mechwright.testing",
+    "mechwright.mechanics.algebra",
+    "mechwright.mechanics.compiled",
+    "mechwright.mechanics.laws.table",
+)
 """What only those import who use it, with what it needs."""
 
 
