@@ -6,7 +6,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
+from mechwright.geometry.keyway import (
+    KEYS,
+    LEAST_WIDTH,
+    SMALLEST_EDGE,
+    Opening,
+    key_for_bore,
+    key_of_width,
+)
 from mechwright_elliptic_gears.gear import opening_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -15,12 +22,6 @@ LEAST_RIM = 1.0
 
 FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
-
-LEAST_WIDTH = 0.3
-"""Smallest hole, keyway or relief, mm: there are no end mills for smaller ones."""
-
-SMALLEST_EDGE = 0.01
-"""Straight length, mm, that must stay between reliefs, and between relief and bore."""
 
 _PITCH_SAMPLES = 4096
 """Points of the pitch curve for the rim: a millionth of its size apart from the exact distance."""

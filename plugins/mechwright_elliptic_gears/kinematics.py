@@ -20,41 +20,13 @@ In a train gear 2 drives gear 3 as above. Gear 4 is fixed to gear 3 and drives g
 * (18) to (20) gear 4 has the speed of gear 3, (21) to (23) gear 5 that of (5) to (7) with θ4 as the input.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
+from mechwright.mechanics.planar import Turning as Turning  # for all that knows these gears
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 """Points, directions or vectors as x + i y."""
-
-
-@dataclass(frozen=True, slots=True)
-class Turning:
-    """Angle (n,) rad, and its first three time derivatives in rad/s, rad/s², rad/s³."""
-
-    theta: Array
-    omega: Array
-    alpha: Array
-    jerk: Array
-
-    @classmethod
-    def of(
-        cls, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike = 0.0, jerk: ArrayLike = 0.0
-    ) -> "Turning":
-        """Broadcast the four to one shape."""
-        arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
-        return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
-
-    def __add__(self, other: "Turning") -> "Turning":
-        return Turning(
-            self.theta + other.theta,
-            self.omega + other.omega,
-            self.alpha + other.alpha,
-            self.jerk + other.jerk,
-        )
 
 
 def ratio(cos: Array, eccentricity: Array | float) -> Array:
@@ -122,7 +94,9 @@ def train(
 
 def coupler(gear: Turning, mate: Turning) -> Turning:
     """Motion of the coupler J-K: equations (8) to (11); its angle is not reduced to one turn."""
-    return gear + mate
+    return Turning(
+        gear.theta + mate.theta, gear.omega + mate.omega, gear.alpha + mate.alpha, gear.jerk + mate.jerk
+    )
 
 
 def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[Array, Array]:

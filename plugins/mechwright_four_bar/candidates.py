@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from mechwright.contracts.finding import errors
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.synthesis import Candidate
+from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
@@ -63,8 +64,6 @@ def buildable(
     found: Iterable[Found], most: int, progress: Callable[[float], None]
 ) -> tuple[list[Candidate[FourBarParams]], str]:
     """The first ``most`` linkages whose design has no error, and why the first other one was left out."""
-    from mechwright_four_bar.checks import findings
-
     candidates: list[Candidate[FourBarParams]] = []
     reason = ""
     for one in found:

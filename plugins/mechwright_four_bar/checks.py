@@ -13,6 +13,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, unt
 from mechwright.errors import GeometryError
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.peaks import peaks_of, speed_of
 from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
 
 LEAST_ROOM = 1e-6
@@ -226,8 +227,6 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
-    from mechwright_four_bar.peaks import peaks_of, speed_of
-
     peaks = peaks_of(params, bar_of(params), speed_of(params))
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
     joint, pressure = max(

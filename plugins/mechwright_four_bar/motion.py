@@ -1,6 +1,7 @@
 """The motion of a design: channels, poses and figures over one turn of the crank."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,7 +9,9 @@ from mechwright.contracts.finding import Stage, errors
 from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
 from mechwright.errors import DesignError, KinematicsError
 from mechwright.mechanics.linkage import Mass
-from mechwright.mechanics.planar import PointMotion, acceleration_pole
+from mechwright.mechanics.planar import acceleration_pole
+from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
@@ -29,8 +32,6 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
-    from mechwright_four_bar.checks import findings
-
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     found = findings(params)
@@ -45,26 +46,16 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         "time": Channel(phi / omega, "s"),
         "omega_a": Channel(np.full(samples, omega), "rad/s"),
     }
-    for name, letter in (("coupler", "c"), ("follower", "b")):
-        turning = bodies[name].turning
-        channels |= {
-            "sigma" if letter == "c" else "psi": Channel(turning.theta, "rad"),
-            f"omega_{letter}": Channel(turning.omega, "rad/s"),
-            f"alpha_{letter}": Channel(turning.alpha, "rad/s^2"),
-            f"jerk_{letter}": Channel(turning.jerk, "rad/s^3"),
-        }
+    for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
+        channels |= turning_channels(bodies[name].turning, angle, suffix)
     cosine = (loop.coupler.direction * np.conj(loop.follower.direction)).real
     channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
     pivot = pivot_of(params)
-    if params.coupler_point is not None:
-        channels |= _point_channels("P", bodies["coupler"].point(params.coupler_point), pivot)
-    pole = acceleration_pole(bodies["coupler"])
-    channels |= {
-        "xG": Channel((pole.fixed + pivot).real, "mm"),
-        "yG": Channel((pole.fixed + pivot).imag, "mm"),
-        "xG_coupler": Channel(pole.moving.real, "mm"),
-        "yG_coupler": Channel(pole.moving.imag, "mm"),
-    }
+    point = params.coupler_point
+    if point is not None:
+        moving = bodies["coupler"].point(point)
+        channels |= point_channels("P", replace(moving, position=moving.position + pivot))
+    channels |= pole_channels(acceleration_pole(bodies["coupler"]), pivot)
     figures = _figures(bar)
     if not errors(found):
         masses = masses_of(params)
@@ -77,23 +68,8 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         figures |= _mass_figures(bar, masses)
     else:
         figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
-    point = params.coupler_point
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
     return Motion("phi", channels, frames_of(params, bodies), figures, traces)
-
-
-def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:
-    """Place, velocity, acceleration and jerk of a point, by coordinates."""
-    found = {}
-    for prefix, value, unit in (
-        ("", point.position + pivot, "mm"),
-        ("v", point.velocity, "mm/s"),
-        ("a", point.acceleration, "mm/s^2"),
-        ("j", point.jerk, "mm/s^3"),
-    ):
-        found[f"{prefix}x{name}"] = Channel(value.real, unit)
-        found[f"{prefix}y{name}"] = Channel(value.imag, unit)
-    return found
 
 
 def _figures(bar: FourBar) -> dict[str, Scalar]:

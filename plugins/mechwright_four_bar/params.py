@@ -2,17 +2,11 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.materials import MaterialName
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.units import Degrees, Millimetres, RevPerMin, Unit
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 """A coordinate."""

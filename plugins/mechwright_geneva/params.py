@@ -2,18 +2,12 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from mechwright.contracts.fits import HoleClass
-from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.materials import MaterialName
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.units import Millimetres, RevPerMin, Unit
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 LawName = Literal[
     "cycloidal",

@@ -16,6 +16,8 @@ from mechwright.contracts.part import Colour, Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
 from mechwright.mechanics.linkage import (
+    BUSHING_MATERIAL,
+    PIN_MATERIAL,
     Boss,
     Mass,
     Plate,
@@ -37,8 +39,6 @@ from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_slider_crank.figures import Limits, limits
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
-
-PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
 
 TURN_SAMPLES = 361
 """Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""

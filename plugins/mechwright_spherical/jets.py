@@ -49,13 +49,6 @@ class Turning:
         return Turning(ratio * self.angle, ratio * self.rate, ratio * self.acceleration, ratio * self.jerk)
 
 
-def fixed(v: Array, like: Array, order: int) -> Jet:
-    """The jet of a vector (3,) that stands still, shaped as ``like`` (3, ...)."""
-    still = np.broadcast_to(column(v, like), like.shape)
-    zero = np.zeros(like.shape)
-    return (still, *(zero,) * order)
-
-
 def circle(axis: Array, start: Array, turning: Turning, order: int) -> Jet:
     """The jet of a point that turns about an axis; ``axis`` and ``start`` (3,) or (3, designs, 1).
 

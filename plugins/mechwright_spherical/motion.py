@@ -12,6 +12,7 @@ from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Jet, Turning, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
+from mechwright_spherical.mobility import mobility
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.shells import shells_of
 from mechwright_spherical.stand import base_pose
@@ -138,8 +139,6 @@ def _arcs(linkage: Linkage) -> dict[str, Scalar]:
 
 
 def _mobility(four_bar: FourBar | None) -> dict[str, Scalar]:
-    from mechwright_spherical.mobility import mobility
-
     assert four_bar is not None  # noqa: S101 - the caller looked
     t = mobility(*four_bar.arcs).t
     return {f"T{place}": Scalar(float(value), "rad") for place, value in enumerate(t, start=1)}

@@ -2,18 +2,12 @@
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.materials import MaterialName
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 Coordinate = Annotated[float, Field(ge=-1000, le=1000), Unit("")]
 Pin = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=3)]

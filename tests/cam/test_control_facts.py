@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from by_control import BY_NAME
+from mechwright_cam.pipeline import machine
 
 import mechwright
 import mechwright_cam
@@ -16,7 +17,6 @@ from mechwright_cam.controls.grbl import Grbl
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.pages.setup_sheet import setup_html, summary_html
-from mechwright_cam.pipeline import machine
 from mechwright_cam.proof import prove
 from mechwright_cam.testing import plate_job
 

@@ -14,6 +14,7 @@ from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
+from step_read import read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.build import Build
@@ -22,7 +23,6 @@ from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import StepExporter
-from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cam.commands.verify import proof_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, Machining, machine

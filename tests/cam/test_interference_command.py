@@ -81,8 +81,8 @@ def test_samples_are_added_until_the_motion_is_smooth_between_them():
             return Motion("t", {"t": Channel(t, "rad")}, {"a": Poses.planar(50 * np.sin(9 * t), 0.0, 9 * t)})
 
     motion = faithful_motion(Jerky(), None, [])
-    assert asked[0] == module.SAMPLES
-    assert motion.samples == asked[-1] > module.SAMPLES
+    assert asked[0] == module.FEWEST_SAMPLES
+    assert motion.samples == asked[-1] > module.FEWEST_SAMPLES
     # Half-way between two samples the cubic is as near as is promised.
     from mechwright_cad.interference.path import space_path
 
@@ -113,6 +113,6 @@ def test_the_page_lists_every_finding_and_the_limits():
     assert set(re.findall(r"\| `(interference\.[a-z]+)`", text)) == set(
         re.findall(r'"(interference\.[a-z]+)"', source)
     )
-    assert f"| plates | up to {slabs.TOUCH:.3f} mm | deeper than {slabs.SURE:.3f} mm |" in text
-    assert f"| solids | up to {surface.SKIN:.3f} mm | deeper than {surface.SURE:.3f} mm |" in text
+    assert f"| plates | up to {slabs.TOUCH:.3f} mm | deeper than {slabs.SURE_IN_PLAN:.3f} mm |" in text
+    assert f"| solids | up to {surface.SKIN:.3f} mm | deeper than {surface.SURE_IN_SPACE:.3f} mm |" in text
     assert f"{module.FAITHFUL:g} mm, at most {module.MOST_SAMPLES} a turn" in text

@@ -16,6 +16,7 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from plate_shapes import turning, wavy
 from shop import rounded_box
+from step_read import read_step_solids
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
@@ -25,7 +26,6 @@ from mechwright.geometry import Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright_cad.exporters import DxfExporter, StepExporter, StlExporter
 from mechwright_cad.exporters.mesh import part_mesh
-from mechwright_cad.exporters.step_read import read_step_solids
 from mechwright_cad.solids.solid import part_shape, part_solid
 from mechwright_cam.pages import picture
 

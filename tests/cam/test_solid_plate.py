@@ -19,11 +19,11 @@ from plate_shapes import (
     wavy_part,
     wavy_plate,
 )
+from step_read import top_face
 
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline, Line, Loop, Outline, circle
-from mechwright_cad.exporters.step_read import top_face
 from mechwright_cad.solids import solid as solids
 from mechwright_cad.solids.solid_check import check_plate, check_solid, top_area
 from mechwright_cad.solids.wires import extruded

@@ -10,10 +10,10 @@ import cadquery as cq
 import pytest
 import shapely
 from plate_shapes import PLATES, Part, turning, wavy_part
+from step_read import read_step_outline, read_step_solids
 
 from mechwright.errors import OutputError
 from mechwright_cad.exporters import StepExporter, StlExporter
-from mechwright_cad.exporters.step_read import read_step_outline, read_step_solids
 
 WRITE = """
 import hashlib, json

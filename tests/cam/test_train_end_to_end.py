@@ -8,6 +8,7 @@ import pytest
 import shapely
 from by_control import interpret
 from rs274 import needs_rs274, run_rs274
+from step_read import parts_from_step, read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.contracts.finding import Severity
@@ -17,9 +18,7 @@ from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters import StepExporter
-from mechwright_cad.exporters.step_read import read_step_outline
 from mechwright_cad.interference import faithful_motion, interference
-from mechwright_cad.interference.readback import parts_from_step
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, machine
 from mechwright_cam.planning.prepare import plates, prepare

@@ -12,6 +12,7 @@ ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 ON_DEMAND = (
     "mechwright.testing",
     "mechwright.mechanics.algebra",
+    "mechwright.mechanics.compiled",
     "mechwright.mechanics.laws.table",
     "mechwright.geometry.prepared",
 )

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from four_bar_reference import poles_of
 from typer.testing import CliRunner
 
 from mechwright.cli.app import app
@@ -16,7 +17,6 @@ from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import host
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.plates import bar_of
-from mechwright_four_bar.pole_search import poles_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REQUIREMENTS = sorted(

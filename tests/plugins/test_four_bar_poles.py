@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from four_bar_reference import SYNTHESIS
+from four_bar_reference import SYNTHESIS, poles_of
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import Severity
@@ -15,7 +15,7 @@ from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.plates import bar_of
 from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import RESIDUAL, poles_of, search
+from mechwright_four_bar.pole_search import RESIDUAL, search
 from mechwright_four_bar.requirements import PolesRequirement
 
 STARTS = 5000

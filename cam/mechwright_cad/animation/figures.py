@@ -11,6 +11,9 @@ from mechwright_cad.interference.path import STILL, space_path
 MICRON = 3
 """Decimals of lengths, mm."""
 
+DRAWN = 2
+"""Decimals of what is only drawn, mm."""
+
 ANGLE = 5
 """Decimals of angles, rad, and of quaternions: a micrometre at 100 mm."""
 

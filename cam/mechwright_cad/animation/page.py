@@ -10,7 +10,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
-from mechwright_cad.animation.scene import SAMPLES, scene
+from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
 
 MOTION = "motion.html"
 """The file."""
@@ -70,4 +70,4 @@ def page_of(
 ) -> str:
     """The page of a design whose own check has found no error; ``parts`` if they are known already."""
     parts = family.parts(params) if parts is None else parts
-    return motion_html(name, family.title, parts, family.solve(params, SAMPLES), solids=solids)
+    return motion_html(name, family.title, parts, family.solve(params, PAGE_SAMPLES), solids=solids)

@@ -6,18 +6,15 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_cad.animation.figures import hexadecimal
+from mechwright_cad.animation.figures import DRAWN, hexadecimal
 from mechwright_cad.interference.bodies import Body, label_of
 from mechwright_cad.interference.slabs import Slab, slabs_of
 
-CHORD = 0.02
+LINE_CHORD = 0.02
 """Chord error of what is drawn, mm: a tenth of a line's width on the screen."""
 
 MARGIN = 0.04
 """Free border around the motion, as a share of its greater side."""
-
-DECIMALS = 2
-"""Of coordinates, mm."""
 
 
 def layers_of(body: Body, *, solids: bool) -> list[dict[str, Any]]:
@@ -28,7 +25,7 @@ def layers_of(body: Body, *, solids: bool) -> list[dict[str, Any]]:
             "body": body.instance.body,
             "name": label_of(body),
             "colour": hexadecimal(body.part.colour_of(body.instance)),
-            "top": round(place + max(slab.bottom * turn[2, 2], slab.top * turn[2, 2]), DECIMALS),
+            "top": round(place + max(slab.bottom * turn[2, 2], slab.top * turn[2, 2]), DRAWN),
             "path": path_of(slab.polygon),
         }
         for slab in _slabs(body, solids)
@@ -52,7 +49,7 @@ def _shadow(body: Body) -> list[Slab]:
     points, triangles = mesh_of_body(body)
     corners = points[triangles][:, :, :2]
     flat = shapely.polygons(corners)
-    shape = shapely.union_all(flat[shapely.area(flat) > 0], grid_size=10.0**-DECIMALS / 2)
+    shape = shapely.union_all(flat[shapely.area(flat) > 0], grid_size=10.0**-DRAWN / 2)
     bottom, top = float(points[:, 2].min()), float(points[:, 2].max())
     return [Slab(piece, bottom, top) for piece in shapely.get_parts(shape)]
 
@@ -63,10 +60,10 @@ def path_of(polygon: shapely.Polygon) -> str:
     >>> path_of(shapely.box(0, 0, 2, 1.5))
     'M2 0L2 1.5L0 1.5L0 0Z'
     """
-    slim = shapely.simplify(polygon, CHORD)
+    slim = shapely.simplify(polygon, LINE_CHORD)
     loops = []
     for ring in (slim.exterior, *slim.interiors):
-        points = np.round(shapely.get_coordinates(ring)[:-1], DECIMALS) + 0.0
+        points = np.round(shapely.get_coordinates(ring)[:-1], DRAWN) + 0.0
         loops.append("M" + "L".join(f"{x:g} {y:g}" for x, y in points.tolist()) + "Z")
     return "".join(loops)
 
@@ -76,7 +73,7 @@ def window(bodies: Sequence[Body], *, solids: bool, paths: Sequence[Any] = ()) -
     found = [np.asarray(path)[:, :2] for path in paths]
     for body in bodies:
         for slab in _slabs(body, solids):
-            hull = shapely.get_coordinates(shapely.convex_hull(slab.polygon).simplify(CHORD))
+            hull = shapely.get_coordinates(shapely.convex_hull(slab.polygon).simplify(LINE_CHORD))
             moved = body.poses.transform(np.column_stack((hull, np.zeros(len(hull)))))
             found.append(moved[..., :2].reshape(-1, 2))
     if not found:
@@ -84,4 +81,4 @@ def window(bodies: Sequence[Body], *, solids: bool, paths: Sequence[Any] = ()) -
     every = np.concatenate(found)
     low, high = every.min(axis=0), every.max(axis=0)
     border = MARGIN * float((high - low).max())
-    return [round(value, DECIMALS) for value in (*(low - border), *(high - low + 2 * border))]
+    return [round(value, DRAWN) for value in (*(low - border), *(high - low + 2 * border))]

@@ -12,7 +12,7 @@ from mechwright_cad.animation.figures import MICRON, poses_of, rounded, signific
 from mechwright_cad.interference.bodies import bodies_of, label_of
 from mechwright_cad.interference.path import flat
 
-SAMPLES = 361
+PAGE_SAMPLES = 361
 """Samples of the motion that the page holds: every degree of a turn, and straight on between two of them."""
 
 CLOSED = 1e-6
@@ -27,7 +27,7 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     parts
         With their instances.
     motion
-        With ``SAMPLES`` samples, or any other number of them.
+        With ``PAGE_SAMPLES`` samples, or any other number of them.
     solids
         Whether to draw parts that are no plates, which takes the CAD kernel.
 

@@ -9,17 +9,14 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright_cad.animation.figures import ANGLE, hexadecimal, rounded
+from mechwright_cad.animation.figures import ANGLE, DRAWN, hexadecimal, rounded
 from mechwright_cad.interference.bodies import Body, label_of
 from mechwright_cad.interference.path import STILL
 from mechwright_cad.interference.slabs import slabs_of
 
-CHORD = 0.15
+SURFACE_CHORD = 0.15
 """Distance of triangles from the surface, mm: less than a line's width on the screen, some hundred triangles
 for a link."""
-
-DECIMALS = 2
-"""Of corners, mm."""
 
 
 def mesh_of_body(body: Body) -> tuple[Array, NDArray[np.int64]]:
@@ -27,7 +24,7 @@ def mesh_of_body(body: Body) -> tuple[Array, NDArray[np.int64]]:
     if body.is_plate:
         layers = []
         for slab in slabs_of(body.part, body.instance):
-            slim = shapely.simplify(slab.polygon, CHORD)
+            slim = shapely.simplify(slab.polygon, SURFACE_CHORD)
             rings = [shapely.get_coordinates(ring)[:-1] for ring in (slim.exterior, *slim.interiors)]
             plan = manifold3d.CrossSection(rings, manifold3d.FillRule.EvenOdd)
             prism = manifold3d.Manifold.extrude(plan, slab.top - slab.bottom)
@@ -37,7 +34,7 @@ def mesh_of_body(body: Body) -> tuple[Array, NDArray[np.int64]]:
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
-    made = mesh_of(part_solid(body.part), ruled=False, tolerance=CHORD)
+    made = mesh_of(part_solid(body.part), ruled=False, tolerance=SURFACE_CHORD)
     return made.points + np.array((0.0, 0.0, body.instance.z)), made.triangles
 
 
@@ -58,7 +55,7 @@ def meshes_of(
                 "body": body.instance.body,
                 "name": label_of(body),
                 "colour": hexadecimal(body.part.colour_of(body.instance)),
-                "points": rounded(points.ravel(), DECIMALS),
+                "points": rounded(points.ravel(), DRAWN),
                 "triangles": triangles.ravel().tolist(),
             }
         )
@@ -87,4 +84,4 @@ def ball(pieces: Sequence[Array]) -> dict[str, Any]:
     every = np.concatenate(pieces)
     centre = (every.min(axis=0) + every.max(axis=0)) / 2
     radius = float(np.linalg.norm(every - centre, axis=1).max())
-    return {"centre": rounded(centre, DECIMALS), "radius": round(radius, DECIMALS) or 1}
+    return {"centre": rounded(centre, DRAWN), "radius": round(radius, DRAWN) or 1}

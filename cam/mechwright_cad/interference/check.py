@@ -19,7 +19,7 @@ from mechwright_cad.interference.path import Path, flat, plane_path, relative, s
 from mechwright_cad.interference.report import Collision, Gap, Instant, Report
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
 
-SAMPLES = 181
+FEWEST_SAMPLES = 181
 """Samples that the check starts with, every 2 degrees of a turn; more where the motion bends faster."""
 
 MOST_SAMPLES = 2881
@@ -32,7 +32,7 @@ FAITHFUL = 2e-4
 _USUAL = 100.0
 """Reach of parts that are no plates, mm."""
 
-_LOOKS = 33
+_LOOKS_IN_PLAN = 33
 """Instants at which the depth of a collision of plates is measured before it is refined."""
 
 _LOOKS_IN_SPACE = 9
@@ -136,7 +136,7 @@ def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | 
 
 def _deepest(a: Slab, b: Slab, path: Path, hits: Array) -> tuple[float, float, Array]:
     """Time, depth and place (2,) of the deepest overlap: on a grid over the hits, then refined."""
-    return deepest(lambda time: plates.depth(a, b, path, time), hits, path, _LOOKS)
+    return deepest(lambda time: plates.depth(a, b, path, time), hits, path, _LOOKS_IN_PLAN)
 
 
 def deepest(
@@ -174,7 +174,7 @@ def _instant(motion: Motion, time: float) -> Instant:
 
 def faithful_motion(family: Family[Any], params: Parameters, parts: Sequence[Part]) -> Motion:
     """The motion of a design with as many samples as a cubic between them needs."""
-    samples = SAMPLES
+    samples = FEWEST_SAMPLES
     motion = family.solve(params, samples)
     reach = _reach(parts)
     while samples < MOST_SAMPLES and _error(motion, reach) > FAITHFUL:

@@ -5,6 +5,7 @@ without clearance and the errors of chords are no collision. Two circles are com
 moves as one ball, and everything else edge by edge (see :mod:`mechwright_cad.interference.sweep`).
 """
 
+from collections.abc import Iterator, Sequence
 from itertools import product
 
 import numpy as np
@@ -20,9 +21,11 @@ from mechwright_cad.interference.tree import Tree, ring_edges
 _HALVINGS = 24
 """Most halvings of an interval for two circles: from any speed down to the floor."""
 
-
 _LOOKS = 61
 """Instants at which two slabs are looked at that collide from the start."""
+
+_NEVER = Found(np.empty(0), None, np.inf)
+"""Two slabs that never come near each other."""
 
 
 def meetings(fixed: Slab, moving: Slab, path: Path) -> Found:
@@ -31,36 +34,52 @@ def meetings(fixed: Slab, moving: Slab, path: Path) -> Found:
     Heights are not looked at. ``path`` is that of the moving slab's body.
     """
     if _far(fixed, moving, path):
-        return Found(np.empty(0), None, np.inf)
+        return _NEVER
     if fixed.disc is not None and moving.disc is None:
         return meetings(moving, fixed, _inverse(path))
     if shapely.intersects(fixed.core_shape, placed(moving.polygon, path, 0.0)):
-        # Whatever follows, they collide: some instants are enough to look for the deepest.
-        times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
-        there = [placed(moving.polygon, path, float(time)) for time in times]
-        return Found(times[shapely.intersects(fixed.core_shape, there)], None, 0.0)
+        return _from_the_start(fixed, moving, path)
     if path.still:
         return Found(np.empty(0), 0.0, 0.0)
-    results = []
-    round_fixed = [ring.circle for ring in fixed.core if ring.circle is not None]
-    round_moving = [ring for ring in moving.rings if ring.circle is not None]
-    results += [_circles(a, b.circle, path) for a, b in product(round_fixed, round_moving) if b.circle]
-    edgy_fixed = [ring for ring in fixed.core if ring.circle is None]
-    edgy_moving = [ring for ring in moving.rings if ring.circle is None]
-    if moving.disc is not None and edgy_fixed:
-        ball = Tree.of(moving.disc.centre[None, None], moving.disc.radius)
-        results.append(sweep(_edges(edgy_fixed), ball, path))
-    elif edgy_fixed and round_moving:
-        results.append(sweep(_edges(edgy_fixed), _edges(round_moving), path))
-    if edgy_moving:
-        results.append(sweep(_edges(list(fixed.core)), _edges(edgy_moving), path))
-    if fixed.points.size and moving.core:
-        # A point loses more than TOUCH with the skin, so it is taken as it is against the other one's core.
-        results.append(sweep(_edges(list(moving.core)), Tree.of(fixed.points), _inverse(path)))
+    results = [*_between_circles(fixed, moving, path), *_between_edges(fixed, moving, path)]
     if not results:  # nothing is left of the fixed slab without its skin
-        return Found(np.empty(0), None, np.inf)
+        return _NEVER
     best = min(results, key=lambda found: found.gap)
     return Found(np.unique(np.concatenate([found.hits for found in results])), best.closest, best.gap)
+
+
+def _from_the_start(fixed: Slab, moving: Slab, path: Path) -> Found:
+    """Two slabs that collide at once: whatever follows, some instants are enough to look for the deepest."""
+    times = np.zeros(1) if path.still else np.linspace(0.0, path.samples - 1.0, _LOOKS)
+    there = [placed(moving.polygon, path, float(time)) for time in times]
+    return Found(times[shapely.intersects(fixed.core_shape, there)], None, 0.0)
+
+
+def _between_circles(fixed: Slab, moving: Slab, path: Path) -> list[Found]:
+    """Every round loop of one slab against every one of the other."""
+    here, there = ([ring.circle for ring in rings if ring.circle] for rings in (fixed.core, moving.rings))
+    return [_circles(one, two, path) for one, two in product(here, there)]
+
+
+def _between_edges(fixed: Slab, moving: Slab, path: Path) -> Iterator[Found]:
+    """What is not round against all of the other slab; a pin is one ball."""
+    edgy_fixed, _ = _by_shape(fixed.core)
+    edgy_moving, round_moving = _by_shape(moving.rings)
+    if moving.disc is not None and edgy_fixed:
+        ball = Tree.of(moving.disc.centre[None, None], moving.disc.radius)
+        yield sweep(_edges(edgy_fixed), ball, path)
+    elif edgy_fixed and round_moving:
+        yield sweep(_edges(edgy_fixed), _edges(round_moving), path)
+    if edgy_moving:
+        yield sweep(_edges(fixed.core), _edges(edgy_moving), path)
+    if fixed.points.size and moving.core:
+        # A point loses more than TOUCH with the skin, so it is taken as it is against the other one's core.
+        yield sweep(_edges(moving.core), Tree.of(fixed.points), _inverse(path))
+
+
+def _by_shape(rings: Sequence[Ring]) -> tuple[list[Ring], list[Ring]]:
+    """Loops that are no circles, and those that are."""
+    return [ring for ring in rings if ring.circle is None], [ring for ring in rings if ring.circle]
 
 
 def placed(polygon: shapely.Polygon, path: Path, time: float) -> shapely.Polygon:
@@ -78,7 +97,7 @@ def _far(fixed: Slab, moving: Slab, path: Path) -> bool:
     return gap > float(steps.max())
 
 
-def _edges(rings: list[Ring]) -> Tree:
+def _edges(rings: Sequence[Ring]) -> Tree:
     return Tree.of(np.concatenate([ring_edges(ring.points) for ring in rings]))
 
 

@@ -16,15 +16,15 @@ from mechwright.contracts.sections import plan_view
 from mechwright.errors import GeometryError
 from mechwright.tolerances import TOLERANCES
 
-CHORD = 0.0015
+LOOP_CHORD = 0.0015
 """Chord error of the loops that are swept against each other, mm: three times fewer edges than with that of
 drawings. Overlaps are measured on the finer polygons."""
 
 TOUCH = 0.005
-"""Overlap that passes as contact, mm: what two fitted outlines (``outline`` each) and their chords (``CHORD``
-each) can put on a fit without clearance, where nothing overlaps in truth."""
+"""Overlap that passes as contact, mm: what two fitted outlines (``outline`` each) and their chords
+(``LOOP_CHORD`` each) can put on a fit without clearance, where nothing overlaps in truth."""
 
-SURE = 2 * TOUCH
+SURE_IN_PLAN = 2 * TOUCH
 """Every overlap deeper than this is found, mm: fits and chords may hide as much as they may feign."""
 
 _ROUND = 1e-6
@@ -62,7 +62,7 @@ class Ring:
     @classmethod
     def of(cls, points: Array, hole: bool) -> "Ring":
         """Look at a closed polygon (n, 2) with fine chords, the first not repeated, and thin it out."""
-        slim = shapely.simplify(shapely.Polygon(points), CHORD - TOLERANCES.flatten)
+        slim = shapely.simplify(shapely.Polygon(points), LOOP_CHORD - TOLERANCES.flatten)
         few = shapely.get_coordinates(slim.exterior)[:-1]
         if len(points) < _LEAST_ROUND:
             return cls(few, hole)
@@ -71,7 +71,7 @@ class Ring:
         radius = float(reach.mean())
         edge = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
         sagitta = float(edge.max()) ** 2 / (8 * radius)
-        if np.ptp(reach) < _ROUND and sagitta < CHORD:
+        if np.ptp(reach) < _ROUND and sagitta < LOOP_CHORD:
             return cls(few, hole, Circle(middle, radius))
         return cls(few, hole)
 
@@ -110,7 +110,7 @@ class Slab:
 
     @cached_property
     def rings(self) -> tuple[Ring, ...]:
-        """The loops, within ``CHORD``."""
+        """The loops, within ``LOOP_CHORD``."""
         loops = [self.polygon.exterior, *self.polygon.interiors]
         return tuple(
             Ring.of(shapely.get_coordinates(loop)[:-1], place > 0) for place, loop in enumerate(loops)
@@ -143,7 +143,7 @@ class Slab:
         """A circle about the slab."""
         x0, y0, x1, y1 = self.polygon.bounds
         middle = np.array(((x0 + x1) / 2, (y0 + y1) / 2))
-        return Circle(middle, float(np.hypot(*(self.rings[0].points - middle).T).max()) + CHORD)
+        return Circle(middle, float(np.hypot(*(self.rings[0].points - middle).T).max()) + LOOP_CHORD)
 
     def face_down(self) -> "Slab":
         """The slab turned over about x."""

@@ -20,17 +20,17 @@ from mechwright_cad.interference.nearest import Nearest
 from mechwright_cad.interference.slabs import Slab, slabs_of
 from mechwright_cad.interference.tree import Tree, by_place_and_direction
 
-CHORD = 0.005
+FACET_CHORD = 0.005
 """Largest distance of a triangle from its surface, mm: a shaft of 10 mm has 70 facets."""
 
-SKIN = 2 * (CHORD + TOLERANCES.outline)
+SKIN = 2 * (FACET_CHORD + TOLERANCES.outline)
 """Overlap that passes as contact, mm: what triangles and fitted outlines put on a fit without clearance."""
 
 _TIP = 1.8
 """Furthest that a corner gives way with the skin, in skins: as far as that of a cube (√3). A sharper one
 would lose its point, and with it the collisions of the point."""
 
-SURE = (1 + _TIP) * SKIN
+SURE_IN_SPACE = (1 + _TIP) * SKIN
 """Every overlap deeper than this is found, mm: triangles may hide as much as they may feign, and a point
 loses more than a face."""
 
@@ -113,7 +113,7 @@ def surface_of(part: Part, instance: Instance) -> Surface:
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
-    mesh = mesh_of(part_solid(part), ruled=False, tolerance=CHORD)
+    mesh = mesh_of(part_solid(part), ruled=False, tolerance=FACET_CHORD)
     return Surface(mesh.points + np.array((0.0, 0.0, instance.z)), mesh.triangles)
 
 
@@ -125,7 +125,7 @@ def _of_slabs(slabs: tuple[Slab, ...]) -> Surface:
 
 
 def _prism(slab: Slab) -> manifold3d.Manifold:
-    slim = shapely.simplify(slab.polygon, CHORD - TOLERANCES.flatten)
+    slim = shapely.simplify(slab.polygon, FACET_CHORD - TOLERANCES.flatten)
     rings = [shapely.get_coordinates(ring)[:-1] for ring in (slim.exterior, *slim.interiors)]
     plan = manifold3d.CrossSection(rings, manifold3d.FillRule.EvenOdd)
     prism = manifold3d.Manifold.extrude(plan, slab.top - slab.bottom)

@@ -13,7 +13,7 @@ from mechwright.geometry import Loop, Outline, circle
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.solids.wires import extruded
 
-TOUCH = TOLERANCES.outline
+ON_RIM = TOLERANCES.outline
 """An edge this near to a wall is at its foot, mm."""
 PLACES = 64
 """Places of an edge that are looked at."""
@@ -32,7 +32,7 @@ def round_floored(solid: cq.Solid, feature: Feature, part: Part) -> cq.Solid:
     if not (isinstance(feature, Pocket) and feature.floor_radius > 0):
         return solid
     at = walls(part, feature)
-    edges = [edge for edge in solid.faces("<Z").Edges() if shapely.dwithin(at, _chords(edge), TOUCH)]
+    edges = [edge for edge in solid.faces("<Z").Edges() if shapely.dwithin(at, _chords(edge), ON_RIM)]
     if not edges:
         return solid
     for share in NOT_QUITE:

@@ -27,10 +27,10 @@ AREA = 1e-6
 QUADRATURE = 1e-9
 """Accuracy asked of the kernel's quadrature, relative; without it splines of many spans are 1e-5 off."""
 
-SAMPLES = 9
+EDGE_SAMPLES = 9
 """Points on each edge that are held against the segment: more than the degree of most segments."""
 
-COARSE = (0.02, 0.5)
+COARSE_FACETS = (0.02, 0.5)
 """Tolerance in mm and rad of the triangles that are only counted."""
 
 SURPLUS = 4
@@ -175,10 +175,10 @@ def _check_edges(top: cq.Face, segments: list[Segment]) -> None:
         raise GeometryError(
             f"the solid's top has {len(edges)} edges; its outline has {len(segments)} segments"
         )
-    t = np.linspace(0, 1, SAMPLES)
+    t = np.linspace(0, 1, EDGE_SAMPLES)
     found = np.array([_edge_points(edge) for edge in edges])
     wanted = np.array([segment.at(t) for segment in segments])
-    middle = SAMPLES // 2
+    middle = EDGE_SAMPLES // 2
     near = np.linalg.norm(found[:, None, middle] - wanted[None, :, middle], axis=2).argmin(axis=1)
     forth = np.linalg.norm(found - wanted[near], axis=2).max(axis=1)
     back = np.linalg.norm(found[:, ::-1] - wanted[near], axis=2).max(axis=1)
@@ -196,14 +196,14 @@ def _check_edges(top: cq.Face, segments: list[Segment]) -> None:
 def _edge_points(edge: cq.Edge) -> Array:
     curve = BRepAdaptor_Curve(edge.wrapped)
     first, last = curve.FirstParameter(), curve.LastParameter()
-    points = [curve.Value(u) for u in np.linspace(first, last, SAMPLES).tolist()]
+    points = [curve.Value(u) for u in np.linspace(first, last, EDGE_SAMPLES).tolist()]
     return np.array([(point.X(), point.Y()) for point in points])
 
 
 def _check_triangles(faces: list[cq.Face], corners: int) -> None:
     # The caps' triangles follow from the walls' chords, so only the walls are divided: half of the time.
     walls = cq.Compound.makeCompound([face for face in faces if face.geomType() != "PLANE"])
-    triangulate(walls.wrapped, *COARSE, ruled=True)
+    triangulate(walls.wrapped, *COARSE_FACETS, ruled=True)
     count = triangle_count(walls)
     forget(walls.wrapped)
     limit = SURPLUS * (corners + len(faces))

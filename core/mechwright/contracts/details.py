@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
+from mechwright.geometry.parallel import MITRE, Parallel
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 
@@ -125,8 +126,6 @@ def band_of(chamfer: Chamfer, depth: float, tolerance: float) -> "shapely.Geomet
     """
     import shapely
 
-    from mechwright.geometry.parallel import MITRE
-
     region = shapely.Polygon(chamfer.loop.flatten(tolerance))
     width = max(chamfer.width - depth, 0.0)
     sign = -1 if chamfer.side == "outside" else 1
@@ -147,8 +146,6 @@ def chamfer_lines(chamfer: Chamfer) -> tuple[Loop, ...]:
     64.0
     """
     import shapely
-
-    from mechwright.geometry.parallel import Parallel
 
     outside = chamfer.side == "outside"
     left = (chamfer.loop.area > 0) == outside

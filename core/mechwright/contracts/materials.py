@@ -8,6 +8,9 @@ usual tables, for acetal a rough estimate. What a cutter's maker says of it coun
 """
 
 from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
 
 from mechwright.errors import DesignError
 
@@ -84,3 +87,11 @@ def material(name: str) -> Material:
         return MATERIALS[name]
     except KeyError:
         raise DesignError(f"material {name!r} is not known; one of: {', '.join(sorted(MATERIALS))}") from None
+
+
+MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
+]
+"""A field of a design's table that names a material."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from mechwright.contracts.details import Chamfer, band_of
 from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.geometry import circle
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
@@ -58,8 +59,6 @@ def plan_view(
 
     match feature:
         case Bore():
-            from mechwright.geometry import circle
-
             radius = feature.diameter / 2
             return shapely.Polygon(circle(feature.centre, radius).flatten(tolerance)[:-1])
         case Profile():
@@ -208,7 +207,6 @@ def volume(part: Part) -> float:
 
 def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> float:
     """Volume of a recess's fillet, mm³: Gauss' quadrature of its sections over the angle."""
-    import numpy as np
     import shapely
 
     if not (isinstance(feature, Pocket) and feature.floor_radius > 0):

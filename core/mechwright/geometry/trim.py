@@ -15,7 +15,7 @@ from mechwright.tolerances import TOLERANCES
 if TYPE_CHECKING:
     import shapely
 
-SAMPLES = 65
+SPAN_SAMPLES = 65
 """Points of each smooth piece between which a crossing is looked for: shorter stretches are not seen."""
 HALVINGS = 40
 """Bisections of a crossing: to rounding."""
@@ -94,7 +94,7 @@ def stretches(loop: Loop, region: "shapely.Geometry") -> list[Segment]:
     found: list[Segment] = []
     for segment in loop.segments:
         breaks = segment.breaks()
-        t = np.unique(np.concatenate([np.linspace(a, b, SAMPLES) for a, b in pairwise(breaks)]))
+        t = np.unique(np.concatenate([np.linspace(a, b, SPAN_SAMPLES) for a, b in pairwise(breaks)]))
         within = inside(segment.at(t))
         if within.all():
             found.append(segment)

@@ -15,8 +15,10 @@ break
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -94,6 +96,37 @@ class Law(ABC):
         u = np.linspace(0, 1, _TURNS)
         s = self.at(u).s
         return bool(np.abs(s + s[::-1] - 1).max() <= _MIRRORED)
+
+
+class UnbrokenLaw(Law):
+    """A law without breaks, given as s and its derivatives up to the fourth; see :meth:`_turning`."""
+
+    _orders: Sequence[Any]
+    """s and its first four derivatives, functions of u."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """None: the jerk goes on smoothly throughout."""
+        return ()
+
+    def at(self, u: ArrayLike) -> Rates:
+        """The rates at u (...)."""
+        u = np.asarray(u, dtype=float)
+        return Rates(*(order(u) for order in self._orders[:4]))
+
+    @abstractmethod
+    def _turning(self, order: int) -> Array:
+        """Values of a derivative at the ends of the law's pieces and where it turns."""
+
+    @cached_property
+    def peaks(self) -> Peaks:
+        """Largest velocity, acceleration and jerk, from the roots of the next derivative."""
+        return Peaks(*(largest(self._turning(order)) for order in (1, 2, 3)))
+
+    @cached_property
+    def least_velocity(self) -> float:
+        """The least ds/du."""
+        return float(self._turning(1).min())
 
 
 def largest(values: Array) -> float:

@@ -1,20 +1,19 @@
 """Polynomial laws."""
 
 from collections.abc import Sequence
-from functools import cache, cached_property
+from functools import cache
 
 import numpy as np
 from numpy.polynomial import Polynomial as Poly
-from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
-from mechwright.mechanics.laws.law import Law, Peaks, Rates, largest
+from mechwright.mechanics.laws.law import UnbrokenLaw
 
 _REAL = 1e-7
 """Imaginary part below which a root of a polynomial is a real one; double roots come out 1e-8 apart."""
 
 
-class Polynomial(Law):
+class Polynomial(UnbrokenLaw):
     """s = c0 + c1 u + c2 u² + ….
 
     Parameters
@@ -31,19 +30,8 @@ class Polynomial(Law):
     def __init__(self, coefficients: Sequence[float], name: str = "polynomial") -> None:
         self.name = name
         self.coefficients = tuple(float(c) for c in coefficients)
-        self._orders = [Poly(self.coefficients)]
-        for _ in range(4):
-            self._orders.append(self._orders[-1].deriv())
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """None: a polynomial is smooth throughout."""
-        return ()
-
-    def at(self, u: ArrayLike) -> Rates:
-        """The rates at u (...)."""
-        u = np.asarray(u, dtype=float)
-        return Rates(*(order(u) for order in self._orders[:4]))
+        s = Poly(self.coefficients)
+        self._orders = [s, *(s.deriv(order) for order in range(1, 5))]
 
     def _turning(self, order: int) -> Array:
         """Values of a derivative at the ends and where it turns."""
@@ -52,16 +40,6 @@ class Polynomial(Law):
         inner = inner[(inner > 0) & (inner < 1)]
         values: Array = self._orders[order](np.concatenate(([0.0, 1.0], inner)))
         return values
-
-    @cached_property
-    def peaks(self) -> Peaks:
-        """Largest velocity, acceleration and jerk, from the roots of the next derivative."""
-        return Peaks(*(largest(self._turning(order)) for order in (1, 2, 3)))
-
-    @cached_property
-    def least_velocity(self) -> float:
-        """The least ds/du."""
-        return float(self._turning(1).min())
 
 
 @cache

@@ -6,14 +6,12 @@ imports scipy.
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly, make_interp_spline
 
 from mechwright.arrays import Array
-from mechwright.mechanics.laws.law import Law, Peaks, Rates, largest
+from mechwright.mechanics.laws.law import UnbrokenLaw
 
 DEGREE = 5
 """Of the spline: the lowest odd one with a continuous jerk."""
@@ -23,7 +21,7 @@ JUMP = 0.5
 a rounded table shows by chance."""
 
 
-class Table(Law):
+class Table(UnbrokenLaw):
     """The spline through rows of (u, s).
 
     Parameters
@@ -42,33 +40,13 @@ class Table(Law):
         bends = [sign * max(0.0, sign * float(free(end, 2))) for end, sign in ((0.0, 1), (1.0, -1))]
         conditions = tuple([(1, 0.0), (2, bend if abs(bend) > JUMP else 0.0)] for bend in bends)
         spline = make_interp_spline(u, s, DEGREE, bc_type=conditions)
-        self._pieces = [PPoly.from_spline(spline)]
+        self._orders = [PPoly.from_spline(spline)]
         for _ in range(4):
-            self._pieces.append(self._pieces[-1].derivative())
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """None: the jerk goes on smoothly from row to row."""
-        return ()
-
-    def at(self, u: ArrayLike) -> Rates:
-        """The rates at u (...)."""
-        u = np.asarray(u, dtype=float)
-        return Rates(*(piece(u) for piece in self._pieces[:4]))
+            self._orders.append(self._orders[-1].derivative())
 
     def _turning(self, order: int) -> Array:
         """Values of a derivative at the rows and where it turns."""
-        roots = self._pieces[order + 1].roots(extrapolate=False)
+        roots = self._orders[order + 1].roots(extrapolate=False)
         roots = roots[np.isfinite(roots) & (roots > 0) & (roots < 1)]
-        values: Array = self._pieces[order](np.concatenate((np.unique(self._pieces[0].x), roots)))
+        values: Array = self._orders[order](np.concatenate((np.unique(self._orders[0].x), roots)))
         return values
-
-    @cached_property
-    def peaks(self) -> Peaks:
-        """Largest velocity, acceleration and jerk, from the roots of the next derivative."""
-        return Peaks(*(largest(self._turning(order)) for order in (1, 2, 3)))
-
-    @cached_property
-    def least_velocity(self) -> float:
-        """The least ds/du."""
-        return float(self._turning(1).min())

@@ -12,12 +12,15 @@ layer
     A slice of the height that plates share, counted from the ground plate, which is layer 0.
 """
 
+from mechwright.mechanics.linkage.closeness import Plate, Spindle
 from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, plate_mass, together
 from mechwright.mechanics.linkage.outlines import Boss, bent_link, disc, hull_link, rectangle, web_link
-from mechwright.mechanics.linkage.stacking import Layer, Plate, Spindle, Stack, stack
-from mechwright.mechanics.linkage.turned import bushing_part, pin_part
+from mechwright.mechanics.linkage.stacking import Layer, Stack, stack
+from mechwright.mechanics.linkage.turned import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
 
 __all__ = [
+    "BUSHING_MATERIAL",
+    "PIN_MATERIAL",
     "Boss",
     "Layer",
     "Mass",

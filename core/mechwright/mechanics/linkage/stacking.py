@@ -4,88 +4,18 @@ Plates of one layer share a height, so no two of them may come closer than a cle
 turns. A spindle takes up every layer from its lowest plate to its highest, so no other plate there may come
 close to it. All ways to deal plates to layers are tried, the flattest first, and among those the one whose
 spindles are shortest.
-
-Distances are taken at samples of the motion, from outlines without their openings; between two samples a
-plate moves by no more than its step, so half a step is added to the clearance: what is called clear is clear
-at every instant.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
-from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mechwright.arrays import Array
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-COARSE = 0.05
-"""Chord error, mm, of the outlines that are compared; it is added to the clearance."""
+from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
 
 _SAID = 6
 """Conflicts that a message names; a list of all helps nobody."""
-
-_BEND = 1.1
-"""A path between two samples is at most so much longer than its chord; an arc of 80 degrees still is."""
-
-
-@dataclass(frozen=True)
-class Plate:
-    """A plate to be dealt to a layer.
-
-    Parameters
-    ----------
-    name
-        Its own.
-    body
-        The body of the motion that it belongs to.
-    outline
-        In the body's coordinates, mm.
-    thickness
-        mm.
-    layers
-        The layers it may stand in; empty for any but 0, which is the ground plate's.
-    """
-
-    name: str
-    body: str
-    outline: Outline
-    thickness: float
-    layers: tuple[int, ...] = ()
-
-
-@dataclass(frozen=True)
-class Spindle:
-    """A pin or shaft through plates.
-
-    Parameters
-    ----------
-    name
-        Its own.
-    body
-        The body that it is fixed in.
-    centre
-        Its axis in the body's coordinates, x + i y, mm.
-    radius
-        The largest along its length, mm, heads left out.
-    plates
-        Names of the plates that it joins.
-    head
-        Radius, mm, of a head on top of the highest plate, or 0; no plate above may come close to it.
-    """
-
-    name: str
-    body: str
-    centre: complex
-    radius: float
-    plates: tuple[str, ...]
-    head: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -153,65 +83,101 @@ def stack(
         There is no way; the message names the pairs that no layers keep apart.
     """
     choices = [plate.layers or tuple(range(1, max(2, len(plates)))) for plate in plates]
+    close = Closeness(plates, spindles, poses, clearance)
+    conflicts = _conflicts(plates, spindles, choices, close, {frozenset(pair) for pair in neighbours})
+    layer = _flattest(plates, spindles, choices, conflicts, together)
+    if layer is None:
+        raise GeometryError(_reason(plates, spindles, conflicts))
+    return _heights(plates, spindles, layer, gap)
+
+
+@dataclass(frozen=True)
+class _Conflicts:
+    """What may not stand together.
+
+    Parameters
+    ----------
+    clashes
+        Pairs of plates that share no layer.
+    blocked
+        Spindle to the plates that it may not pass through.
+    covered
+        Spindle with a head to the plates that may not stand above it.
+    """
+
+    clashes: set[frozenset[str]]
+    blocked: dict[str, set[str]]
+    covered: dict[str, set[str]]
+
+    def allow(self, layer: Mapping[str, int], ends: Mapping[str, tuple[int, int]]) -> bool:
+        """Whether spindles that end in these layers meet none of their plates in between, nor above."""
+        through = (ends[s][0] <= layer[p] <= ends[s][1] for s, found in self.blocked.items() for p in found)
+        above = (layer[p] > ends[s][1] for s, found in self.covered.items() for p in found)
+        return not any(through) and not any(above)
+
+
+def _conflicts(
+    plates: Sequence[Plate],
+    spindles: Sequence[Spindle],
+    choices: Sequence[tuple[int, ...]],
+    close: Closeness,
+    neighbours: set[frozenset[str]],
+) -> _Conflicts:
+    """Measure what can come to share a height in some dealing of plates to layers."""
     allowed = {plate.name: set(choice) for plate, choice in zip(plates, choices, strict=True)}
-    # What lies below all plates of a spindle in every layering, as the ground does, need not be measured.
-    reached = {
-        spindle.name: [
-            plate
-            for plate in plates
-            if plate.name not in spindle.plates
-            and max(allowed[plate.name]) >= min(min(allowed[name]) for name in spindle.plates)
-        ]
-        for spindle in spindles
-    }
-    close = _Closeness(plates, spindles, poses, clearance)
-    apart = {frozenset(pair) for pair in neighbours}
     clashes = {
         frozenset((a.name, b.name))
         for number, a in enumerate(plates)
         for b in plates[:number]
         if allowed[a.name] & allowed[b.name]
-        and frozenset((a.name, b.name)) not in apart
+        and frozenset((a.name, b.name)) not in neighbours
         and close.plates(a, b)
     }
-    blocked = {
-        spindle.name: {
-            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.radius)
-        }
-        for spindle in spindles
-    }
-    covered = {
-        spindle.name: {
-            plate.name for plate in reached[spindle.name] if close.spindle(spindle, plate, spindle.head)
-        }
-        for spindle in spindles
-        if spindle.head > 0
-    }
+    blocked, covered = {}, {}
+    for spindle in spindles:
+        # What lies below all its plates in every layering, as the ground does, need not be measured.
+        lowest = min(min(allowed[name]) for name in spindle.plates)
+        reached = [
+            plate
+            for plate in plates
+            if plate.name not in spindle.plates and max(allowed[plate.name]) >= lowest
+        ]
+        blocked[spindle.name] = {p.name for p in reached if close.spindle(spindle, p, spindle.radius)}
+        if spindle.head > 0:
+            covered[spindle.name] = {p.name for p in reached if close.spindle(spindle, p, spindle.head)}
+    return _Conflicts(clashes, blocked, covered)
+
+
+def _flattest(
+    plates: Sequence[Plate],
+    spindles: Sequence[Spindle],
+    choices: Sequence[tuple[int, ...]],
+    conflicts: _Conflicts,
+    together: Sequence[tuple[str, ...]],
+) -> dict[str, int] | None:
+    """Plate to its layer in the flattest way that works, of several the one with the shortest spindles."""
     best: tuple[tuple[float, ...], dict[str, int]] | None = None
     place = {plate.name: number for number, plate in enumerate(plates)}
-    meeting = [(place[one], place[two]) for one, two in map(sorted, clashes)]
+    clashing = [(place[one], place[two]) for one, two in map(sorted, conflicts.clashes)]
     for chosen in product(*choices):
-        if best is not None and max(chosen) > best[0][0]:
-            continue
-        if set(chosen) != set(range(max(chosen) + 1)):
-            continue  # an empty layer only makes spindles longer
-        if any(chosen[one] == chosen[two] for one, two in meeting):
+        if (best is not None and max(chosen) > best[0][0]) or not _is_dealt(chosen, clashing):
             continue
         layer = {plate.name: number for plate, number in zip(plates, chosen, strict=True)}
-        if any(len({layer[name] for name in group}) > 1 for group in together):
-            continue
         ends = {s.name: (min(layer[p] for p in s.plates), max(layer[p] for p in s.plates)) for s in spindles}
         cost = (max(chosen), sum(high - low for low, high in ends.values()), *chosen)
         if best is not None and cost >= best[0]:
             continue
-        if any(ends[s][0] <= layer[p] <= ends[s][1] for s, found in blocked.items() for p in found):
-            continue
-        if any(layer[p] > ends[s][1] for s, found in covered.items() for p in found):
-            continue
-        best = (cost, layer)
-    if best is None:
-        raise GeometryError(_reason(plates, spindles, clashes, blocked))
-    return _heights(plates, spindles, best[1], gap)
+        if all(len({layer[name] for name in group}) == 1 for group in together) and conflicts.allow(
+            layer, ends
+        ):
+            best = (cost, layer)
+    return None if best is None else best[1]
+
+
+def _is_dealt(chosen: tuple[int, ...], clashing: Sequence[tuple[int, int]]) -> bool:
+    """Whether no layer is empty, which only makes spindles longer, and no two plates that clash share one."""
+    full = set(chosen) == set(range(max(chosen) + 1))
+    return full and all(chosen[one] != chosen[two] for one, two in clashing)
 
 
 def _heights(
@@ -234,96 +200,17 @@ def _heights(
     return Stack(layer, tuple(layers), spans)
 
 
-def _reason(
-    plates: Sequence[Plate],
-    spindles: Sequence[Spindle],
-    clashes: set[frozenset[str]],
-    blocked: Mapping[str, set[str]],
-) -> str:
+def _reason(plates: Sequence[Plate], spindles: Sequence[Spindle], conflicts: _Conflicts) -> str:
     """What stands in the way; not what is joined, which meets by design, nor the ground plate below all."""
     below = {plate.name for plate in plates if plate.layers == (0,)}
     joined = {frozenset(pair) for spindle in spindles for pair in combinations(spindle.plates, 2)}
     said = [
         " and ".join(sorted(pair)) + " meet in plan"
-        for pair in sorted(clashes - joined, key=sorted)
+        for pair in sorted(conflicts.clashes - joined, key=sorted)
         if not pair & below
     ]
-    said += [f"the {name} hits {plate}" for name in blocked for plate in sorted(blocked[name] - below)]
+    said += [
+        f"the {name} hits {plate}" for name, hit in conflicts.blocked.items() for plate in sorted(hit - below)
+    ]
     more = f" and {len(said) - _SAID} more" if len(said) > _SAID else ""
     return f"no order of layers keeps the plates apart over a turn: {', '.join(said[:_SAID])}{more}"
-
-
-class _Closeness:
-    """Distances of plates and spindles over a turn; each plate is flattened once."""
-
-    def __init__(
-        self,
-        plates: Sequence[Plate],
-        spindles: Sequence[Spindle],
-        poses: Mapping[str, Poses],
-        clearance: float,
-    ) -> None:
-        missing = ({plate.body for plate in plates} | {spindle.body for spindle in spindles}) - set(poses)
-        if missing:
-            raise GeometryError(f"the motion has no poses of {', '.join(sorted(missing))}")
-        self.limit = clearance + 2 * COARSE
-        self.placed = {
-            plate.name: _placed(plate.outline.outer.flatten(COARSE), poses[plate.body]) for plate in plates
-        }
-        self.poses = poses
-        self.steps = {name: _step(points) for name, points in self.placed.items()}
-        self.areas: dict[str, NDArray[np.object_]] = {}
-        self.axes: dict[str, tuple[NDArray[np.object_], Array]] = {}
-        self.room: dict[tuple[str, str], float] = {}
-
-    def plates(self, one: Plate, two: Plate) -> bool:
-        """Whether two plates come too close in plan."""
-        import shapely
-
-        if one.body == two.body:
-            distance = shapely.distance(self._area(one.name)[:1], self._area(two.name)[:1])
-            return bool(distance.min() < self.limit)
-        moved = self.steps[one.name] + self.steps[two.name]
-        distance = shapely.distance(self._area(one.name), self._area(two.name))
-        return bool((distance < self.limit + moved / 2).any())
-
-    def spindle(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
-        """Whether a plate comes too close to a spindle of this radius."""
-        import shapely
-
-        if spindle.name not in self.axes:
-            centre = np.array([[spindle.centre.real, spindle.centre.imag]])
-            axis = _placed(centre, self.poses[spindle.body])
-            self.axes[spindle.name] = shapely.points(axis[:, 0]), _step(axis)
-        points, step = self.axes[spindle.name]
-        if (spindle.name, plate.name) not in self.room:
-            if spindle.body == plate.body:
-                room = shapely.distance(self._area(plate.name)[:1], points[:1])
-            else:
-                room = shapely.distance(self._area(plate.name), points) - (self.steps[plate.name] + step) / 2
-            self.room[spindle.name, plate.name] = float(room.min())
-        return self.room[spindle.name, plate.name] - radius < self.limit
-
-    def _area(self, name: str) -> "NDArray[np.object_]":
-        import shapely
-
-        if name not in self.areas:
-            areas = shapely.polygons(self.placed[name])
-            shapely.prepare(areas)
-            self.areas[name] = areas
-        return self.areas[name]
-
-
-def _placed(points: Array, poses: Poses) -> Array:
-    """Points (k, 2) of a body in every pose, (n, k, 2)."""
-    turned = np.einsum("nij,kj->nki", poses.rotation[:, :2, :2], points)
-    return np.asarray(turned + poses.position[:, None, :2], dtype=np.float64)
-
-
-def _step(placed: Array) -> Array:
-    """The farthest that any of the points (n, k, 2) moves to a neighbouring sample, (n,), mm."""
-    if len(placed) < 2:
-        return np.zeros(len(placed))
-    moved = _BEND * np.hypot(*np.moveaxis(np.diff(placed, axis=0), 2, 0)).max(axis=1)
-    step: Array = np.maximum(np.append(moved, 0.0), np.append(0.0, moved))
-    return step

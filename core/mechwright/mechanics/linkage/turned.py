@@ -9,6 +9,9 @@ from mechwright.contracts.part import Colour, Instance, Part
 if TYPE_CHECKING:
     import cadquery as cq
 
+PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
+"""Of what is bought or turned."""
+
 STEEL: Colour = (0.62, 0.64, 0.67)
 BRONZE: Colour = (0.76, 0.58, 0.30)
 
@@ -20,7 +23,7 @@ def pin_part(
     instances: Sequence[Instance],
     head_diameter: float = 0.0,
     head_height: float = 0.0,
-    material: str = "steel",
+    material: str = PIN_MATERIAL,
 ) -> Part:
     """A pin that stands on z = 0, with a flat head on top of ``length``, mm, if it has one."""
     build = partial(_pin, diameter, length, head_diameter, head_height)
@@ -33,7 +36,7 @@ def bushing_part(
     diameter: float,
     length: float,
     instances: Sequence[Instance],
-    material: str = "brass",
+    material: str = BUSHING_MATERIAL,
 ) -> Part:
     """A plain bushing that stands on z = 0."""
     build = partial(_ring, bore, diameter, length)

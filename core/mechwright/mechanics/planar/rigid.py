@@ -76,6 +76,11 @@ class PointMotion:
         arrays = (np.asarray(values, dtype=complex) for values in (position, velocity, acceleration, jerk))
         return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
 
+    @property
+    def speed(self) -> Array:
+        """Magnitude of the velocity (...), mm/s."""
+        return np.abs(self.velocity)
+
 
 @dataclass(frozen=True, slots=True)
 class BodyMotion:

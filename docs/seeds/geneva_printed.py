@@ -1,6 +1,6 @@
 """The source's formulas as they are printed, kept only to document what is wrong with them.
 
-Nothing of the program uses this module; ``docs/seeds/geneva.md`` and the tests compare with it.
+``docs/seeds/geneva.md`` and the tests compare with them.
 
 * Figure 6 gives a loop point that comes from the 3-4-5 law, though the text names the cycloid, and from a
   wall in which θw' is taken as dθw/du: the factor 1/(2 θd0) of the chain rule is missing in equation (3).
@@ -10,11 +10,12 @@ Nothing of the program uses this module; ``docs/seeds/geneva.md`` and the tests 
 import math
 
 import numpy as np
+from geneva_undercut import alpha
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.mechanics.laws import Law
-from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, alpha, stroke
+from mechwright_geneva.kinematics import LEFT, Frame, Points, Stroke, stroke
 
 
 def wall(frame: Frame, law: Law, u: ArrayLike, radius: float, side: int) -> Points:

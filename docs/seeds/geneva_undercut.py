@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
-from mechwright_geneva.kinematics import LEFT, Frame, Stroke, alpha
+from mechwright_geneva.kinematics import LEFT, Frame, Stroke
 
 
 def singularity(run: Stroke, radius: ArrayLike, side: int) -> Array:
@@ -38,3 +38,10 @@ def critical_at_middle(frame: Frame, p: ArrayLike) -> Array:
     n, p = frame.axes / frame.crank, np.asarray(p, dtype=float)
     value: Array = ((1 + p) - n * p) ** 2 / np.abs((1 + p) ** 2 - n * p**2)
     return value
+
+
+def alpha(run: Stroke) -> Array:
+    """α of equation (3), rad in (-π, π]: from the line crank centre - roller to the left contact."""
+    a, b, p = run.frame.axes, run.frame.crank, run.first
+    angle: Array = np.arctan2(a * p * np.sin(run.phi), (1 + p) * b - a * p * np.cos(run.phi))
+    return angle
