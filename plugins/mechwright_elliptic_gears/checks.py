@@ -11,6 +11,7 @@ from functools import lru_cache
 from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
 from mechwright.contracts.materials import material
 from mechwright.errors import GeometryError
+from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
     fillet_mill,
@@ -62,6 +63,7 @@ def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
         opening_findings,
         train_findings,
         _drive,
+        _backlash,
         _mesh,
         _figures,
     )
@@ -186,7 +188,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
     if width >= LEAST_TIP:
         return
     without = params.model_copy(update={"backlash": 0.0})
-    blame = "backlash" if params.backlash and _tip_width(without) >= LEAST_TIP else "addendum"
+    blame = "backlash" if backlash_of(params) and _tip_width(without) >= LEAST_TIP else "addendum"
     what = "pointed" if width <= 0 else f"{width:.3f} modules wide at the tip"
     yield Finding(
         "gear.tip",
@@ -196,7 +198,9 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
         width,
         LEAST_TIP,
         "",
-        f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
+        "make module or semi_major larger: as made, these teeth need all their backlash"
+        if blame == "backlash" and params.backlash is None
+        else f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
     )
 
 
@@ -223,6 +227,25 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
             f"make eccentricity at most {math.floor(most * 1e3) / 1e3:g}, or let a coupler between the free "
             "foci carry the steep part",
         )
+
+
+def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
+    least = least_backlash(params)
+    if backlash_of(params) >= least:
+        return
+    better = params.model_copy(update={"backlash": least})
+    yield Finding(
+        "gear.backlash",
+        Severity.WARNING,
+        "backlash",
+        f"gears as made may jam: walls and axes within tolerance take up to {least:g} mm of the backlash",
+        backlash_of(params),
+        least,
+        "mm",
+        f"make backlash at least {least:g}, or leave it out"
+        if _tip_width(better) >= LEAST_TIP
+        else f"make module or semi_major larger: with a backlash of {least:g} the teeth are too thin",
+    )
 
 
 def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
@@ -262,7 +285,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
         f"error {proof.error * 1e6:.1f} µrad peak to peak"
         + (
             f" over that of the backlash, {proof.mesh.transmission_error * 1e6:.0f} µrad in all"
-            if params.backlash
+            if backlash_of(params)
             else ""
         ),
         proof.error * 1e6,

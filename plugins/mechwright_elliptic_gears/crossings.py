@@ -62,19 +62,18 @@ def turns_to_edges(
         Edges nearer than this, mm along the circle, are surely found; some up to twice as far. Edges are
         shorter than that.
     """
-    radius = np.hypot(*queries.T)
-    inner, outer = np.hypot(*starts.T), np.hypot(*ends.T)
+    starts, ends, edge_group = _monotone(starts, ends, edge_group)
+    inner, outer, radius = (np.hypot(*points.T) for points in (starts, ends, queries))
     query, edge = _candidates(queries, query_group, starts, ends, edge_group, ring, sight)
     ax, ay = starts[edge].T
     qx, qy = queries[query].T
     dx, dy = (ends - starts)[edge].T
-    # |a + t d| = r; the root between 0 and 1 by two Newton steps from the secant.
     from_inner, to_outer, r = inner[edge], outer[edge], radius[query]
-    dd, ad, rest = dx * dx + dy * dy, ax * dx + ay * dy, from_inner * from_inner - r * r
-    t = (r - from_inner) / (to_outer - from_inner)
-    for _ in range(2):
-        rate = ad + t * dd
-        t -= (rest + t * (ad + rate)) / (2 * np.where(rate == 0, np.inf, rate))
+    # |a + t d| = r has one root on an edge that only rises or only falls. Rising, a·d is not below 0 and r is
+    # not below |a|, falling it is the other way round: this form then has no difference of near numbers.
+    dd, ad, rest = dx * dx + dy * dy, ax * dx + ay * dy, (from_inner - r) * (from_inner + r)
+    root = np.abs(ad) + np.sqrt(np.maximum(ad * ad - dd * rest, 0.0))
+    t = np.minimum(np.abs(rest) / np.where(root == 0, np.inf, root), 1.0)
     mx, my = ax + t * dx, ay + t * dy
     turn = np.arctan2(qx * my - qy * mx, qx * mx + qy * my)
     # A short arc's normal distance to an edge: its length times the radial share of the edge's direction.
@@ -114,6 +113,17 @@ class _Groups:
         if self.first.size:
             result[self.number] = np.minimum.reduceat(values, self.first)
         return result
+
+
+def _monotone(starts: Array, ends: Array, group: Ints) -> tuple[Array, Array, Ints]:
+    """Cut edges that come nearest to the axis between their ends there, so that a circle cuts each once."""
+    along = ends - starts
+    at, square = -(starts * along).sum(axis=1), (along * along).sum(axis=1)
+    two = np.flatnonzero((at > 0) & (at < square))
+    foot = starts[two] + (at[two] / square[two])[:, None] * along[two]
+    first = ends.copy()
+    first[two] = foot
+    return np.concatenate((starts, foot)), np.concatenate((first, ends[two])), np.append(group, group[two])
 
 
 def _candidates(

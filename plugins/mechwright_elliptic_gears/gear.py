@@ -6,6 +6,7 @@ from functools import lru_cache
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
 from mechwright.geometry.keyway import Opening, key_of_width
+from mechwright_elliptic_gears.assembly import backlash_of
 from mechwright_elliptic_gears.contour import gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -39,7 +40,7 @@ def rack_of(params: EllipticGearParams) -> Rack:
         params.addendum * module,
         params.dedendum * module,
         params.tip_radius * module,
-        params.backlash,
+        backlash_of(params),
     )
 
 

@@ -14,7 +14,8 @@ transmission error
     Peak to peak of the play of one flank over the turn, rad: how far the driven gear strays from the exact
     motion while that flank drives.
 depth
-    How deep one outline stands in the other in position, mm, along the flank's normal; 0 where they do not.
+    How deep one outline stands in the other in position, mm: the greatest distance of a corner of one from
+    the other's nearest edge; 0 where none stands in it.
 """
 
 import math
@@ -26,6 +27,7 @@ from mechwright.arrays import Array
 from mechwright_elliptic_gears.crossings import turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.kinematics import Turning, driven
+from mechwright_elliptic_gears.penetration import depths
 from mechwright_elliptic_gears.zone import Near, Rim, half_span, level, turned
 
 POSITIONS_PER_TOOTH = 4
@@ -41,14 +43,11 @@ _CHUNK = 32
 _REACH = 0.1
 """Pitches by which a gear's envelope is widened: what lies within it is looked at."""
 
-_DEEPEST = 0.25
-"""Pitches: half the thickness of a tooth. A point cannot stand deeper in material than that."""
-
 _SIGHT = 0.5
 """Pitches: half the least arc on both sides of a point in which it looks for edges."""
 
 _AREAS = 64
-"""Most positions, spread over those that overlap, whose overlap area is measured."""
+"""Most positions whose overlap area is measured: those with the greatest depths."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class Mesh:
     ahead, behind
         Play (n,), rad.
     depth
-        Depth (n,), mm; at most a quarter of a pitch.
+        Depth (n,), mm.
     gap
         Least normal distance (n,), mm, of the outlines in position; 0 where they overlap.
     overlap
@@ -135,18 +134,19 @@ def mesh(
     for i in range(0, positions, _CHUNK):
         now = slice(i, i + _CHUNK)
         near = _near(rims, ellipse, scale, theta2[now], theta4[now], u2[now], u4[now])
-        parts.append(_contact(*near, theta2[now].size, pitch))
+        parts.append(_contact(*near, theta2[now].size, pitch, allowance))
     ahead, behind, depth, gap = (np.concatenate(column) for column in zip(*parts, strict=True))
     overlap = 0.0
-    deep = np.flatnonzero(depth > allowance)
-    if deep.size:
-        some = deep[:: math.ceil(deep.size / _AREAS)]
+    deepest = np.argsort(-depth, kind="stable")[:_AREAS]
+    some = deepest[depth[deepest] > allowance]
+    if some.size:
         overlap = _overlap(gear2, gear4, theta2[some], theta4[some], 2 * ellipse.semi_major)
     return Mesh(theta2, ahead, behind, depth, gap, overlap)
 
 
 def _cut_edges(points: Array, longest: float) -> Array:
-    """Corners (n, 2) with every edge at most so long."""
+    """Corners (n, 2) with every edge at most so long, and none of no length."""
+    points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
     edge = np.roll(points, -1, axis=0) - points
     counts = np.maximum(1, np.ceil(np.hypot(*edge.T) / longest)).astype(np.int64)
     at = np.repeat(np.arange(len(points)), counts)
@@ -173,13 +173,15 @@ def _near(
     return near2, Near.of(placed, position, level(seen, ellipse) < scale)
 
 
-def _contact(gear2: Near, gear4: Near, count: int, pitch: float) -> tuple[Array, Array, Array, Array]:
+def _contact(
+    gear2: Near, gear4: Near, count: int, pitch: float, allowance: float
+) -> tuple[Array, Array, Array, Array]:
     """Play ahead and behind, depth and gap (count,) of some positions."""
     edge = np.hypot(*(gear4.ends - gear4.starts).T)
     ring = float(edge.mean()) if edge.size else math.inf
     ahead, behind = np.full(count, np.inf), np.full(count, np.inf)
     depth, gap = np.zeros(count), np.full(count, np.inf)
-    groups, turns, distances = [], [], []
+    groups, turns, distances, blind = [], [], [], []
     for own, other, moving in ((gear2, gear4, False), (gear4, gear2, True)):
         group = own.position
         free = turns_to_edges(
@@ -195,17 +197,31 @@ def _contact(gear2: Near, gear4: Near, count: int, pitch: float) -> tuple[Array,
         over, under = free.leaving_ahead, free.entering_behind
         nearer = np.minimum(over, under)
         inside = (over <= free.entering_ahead) & (under <= free.leaving_behind)
-        inside &= nearer * np.hypot(*own.points.T) < _DEEPEST * pitch
+        way = nearer * np.hypot(*own.points.T)
+        inside &= np.isfinite(way)
+        blind.append(~np.isfinite(np.minimum(way, free.distance)))
+        # The way to the outline along the circle is no depth where the circle hardly cuts it.
+        deep = np.flatnonzero(inside & (way > allowance))
+        distance = np.where(inside, np.minimum(free.distance, way), free.distance)
+        distance[deep] = depths(own.points[deep], group[deep], other.starts, other.ends, other.edge_position)
+        inside[deep] = distance[deep] > 0
         retreats = inside & ((under <= over) if moving else (over <= under))
         advances = inside & ~retreats
         forward = np.where(retreats, -nearer, np.where(advances, np.inf, forward))
         backward = np.where(advances, -nearer, np.where(retreats, np.inf, backward))
         np.minimum.at(ahead, group, forward)
         np.minimum.at(behind, group, backward)
-        np.maximum.at(depth, group[inside], free.distance[inside])
+        np.maximum.at(depth, group[inside], distance[inside])
         groups.append(group)
         turns.append(np.minimum(forward, backward))
-        distances.append(np.where(inside, 0.0, free.distance))
+        distances.append(np.where(inside, 0.0, np.abs(distance)))
+    # Of a tooth that reaches below the other's roots, the end sees no edge to be freed over.
+    for own, other, unseen in ((gear2, gear4, blind[0]), (gear4, gear2, blind[1])):
+        points = np.flatnonzero(unseen & (depth > allowance)[own.position])
+        group = own.position[points]
+        np.maximum.at(
+            depth, group, depths(own.points[points], group, other.starts, other.ends, other.edge_position)
+        )
     # The gap is where the least turn is: elsewhere the arcs are too long to be measured along a normal.
     group, turn = np.concatenate(groups), np.concatenate(turns)
     closest = turn <= np.minimum(ahead, behind)[group]

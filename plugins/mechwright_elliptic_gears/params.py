@@ -79,11 +79,12 @@ class EllipticGearParams(Parameters):
     tip_radius: Ratio = Field(
         0.38, ge=0, le=0.6, description="Radius at the tip of the generating rack, in modules."
     )
-    backlash: Millimetres = Field(
-        0.0,
-        ge=0,
-        le=2,
-        description="Circumferential play of the pair on the pitch curve; each flank gives a quarter of it.",
+    backlash: Annotated[float, Field(ge=0, le=2), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Circumferential play of the pair on the pitch curve, a quarter per flank; left out, the least "
+            "with which gears as made turn: 0.067 at e = 0.4, of a train 0.107."
+        ),
     )
     thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.")
     material: MaterialName = Field("aluminium", description="Workpiece material.")

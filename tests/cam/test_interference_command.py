@@ -54,7 +54,7 @@ def test_a_collision_stops_every_command_and_names_the_bodies(command, design, t
     assert not folder.exists()
 
 
-def test_the_elliptic_pair_without_backlash_is_clear(design):
+def test_the_elliptic_pair_is_clear(design):
     done = CliRunner().invoke(app, ["check", str(design)])
     assert done.exit_code == 0, done.output
     assert (

@@ -19,7 +19,7 @@ from mechwright_elliptic_gears.family import EllipticGears
 
 FAMILY = EllipticGears()
 Params = EllipticGears.Params
-REFERENCE = {"eccentricity": 0.4, "teeth": 39, "module": 2.0, "bore": 10.0}
+REFERENCE = {"eccentricity": 0.4, "teeth": 39, "module": 2.0, "bore": 10.0, "backlash": 0.0}
 KEYED = {"bore": 20.0, "keyway_width": 6.0, "keyway_relief": 3.0}
 
 

@@ -10,11 +10,12 @@ from mechwright_elliptic_gears.crossings import turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import Turning, driven
-from mechwright_elliptic_gears.mesh import mesh, swing
+from mechwright_elliptic_gears.mesh import EDGES_PER_PITCH, mesh, swing
 from mechwright_elliptic_gears.params import EllipticGearParams as Params
+from mechwright_elliptic_gears.penetration import depths
 from mechwright_elliptic_gears.proof import contact_levers, prove, prove_outlines
 
-REFERENCE = Params(eccentricity=0.4, teeth=39, module=2.0, bore=0.0)
+REFERENCE = Params(eccentricity=0.4, teeth=39, module=2.0, bore=0.0, backlash=0.0)
 
 
 def closed(radius):
@@ -28,14 +29,14 @@ def closed(radius):
     "params",
     [
         REFERENCE,
-        Params(),
-        Params(teeth=40, module=2.0),
-        Params(teeth=41, tooth_offset=0.5),
-        Params(teeth=40, tooth_offset=0.75),
-        Params(eccentricity=0.6, teeth=25),
-        Params(eccentricity=0.8, teeth=39),
-        Params(eccentricity=0.0, teeth=18),
-        Params(eccentricity=0.2, teeth=19),
+        Params(backlash=0.0),
+        Params(teeth=40, module=2.0, backlash=0.0),
+        Params(teeth=41, tooth_offset=0.5, backlash=0.0),
+        Params(teeth=40, tooth_offset=0.75, backlash=0.0),
+        Params(eccentricity=0.6, teeth=25, backlash=0.0),
+        Params(eccentricity=0.8, teeth=39, backlash=0.0),
+        Params(eccentricity=0.0, teeth=18, backlash=0.0),
+        Params(eccentricity=0.2, teeth=19, backlash=0.0),
     ],
     ids=lambda params: f"e{params.eccentricity}-z{params.teeth}",
 )
@@ -61,7 +62,7 @@ def test_transmission_error_falls_with_the_fit_of_the_polygon():
 @pytest.mark.parametrize("teeth", [39, 40])
 def test_the_wrong_phase_collides(teeth):
     offset = 0.25 if teeth % 2 else 0.0
-    proof = prove(Params(teeth=teeth, module=2.0, tooth_offset=offset))
+    proof = prove(Params(teeth=teeth, module=2.0, tooth_offset=offset, backlash=0.0))
     assert proof.collides
     assert proof.mesh.overlap == pytest.approx(25, abs=1.5)
 
@@ -138,3 +139,79 @@ def test_turns_to_the_edges_of_a_wedge():
     np.testing.assert_allclose(free.distance, [0.2, 0.2, 0.2])
     elsewhere = turns_to_edges(queries, zero + 1, corners, ends, np.zeros(4, dtype=np.int64), 0.1, 4.0)
     assert np.isinf(elsewhere.distance).all()
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"eccentricity": 0.25},
+        {"eccentricity": 0.24, "module": 1.25, "teeth": 54},
+        {"eccentricity": 0.31, "module": 1.4, "teeth": 36, "backlash": 0.06},
+        {"eccentricity": 0.18, "module": 1.0, "teeth": 56, "backlash": 0.1},
+        {"teeth": 101, "module": 3.0},
+    ],
+    ids=str,
+)
+def test_a_tip_that_grazes_does_not_collide(table):
+    proof = prove(Params(**{"backlash": 0.0} | table))
+    assert proof.mesh.depth.max() < proof.allowance
+    assert proof.mesh.overlap == 0
+    assert proof.error < 25e-6
+
+
+@pytest.mark.parametrize(
+    ("table", "widen"),
+    [
+        ({"eccentricity": 0.25}, 0.0),
+        ({"eccentricity": 0.25}, 0.004),
+        ({"eccentricity": 0.56, "teeth": 53, "module": 1.17, "addendum": 1.23}, 0.0),
+        ({"eccentricity": 0.08, "teeth": 39, "module": 2.7, "tooth_offset": 0.3}, 0.0),
+        ({"eccentricity": 0.2, "teeth": 21, "backlash": 0.1}, 0.01),
+    ],
+    ids=str,
+)
+def test_depth_and_area_are_those_of_polygons(table, widen):
+    params, count = Params(**{"backlash": 0.0} | table), 6
+    ellipse, pitch = teeth_of(params).ellipse, teeth_of(params).rack.pitch
+    polygon = shapely.Polygon(outline_of(params).outer.flatten(1e-4)).buffer(widen, quad_segs=16)
+    points = shapely.get_coordinates(shapely.orient_polygons(polygon).exterior)[:-1]
+    found = mesh(points, points, ellipse, params.teeth, positions=count, allowance=2e-4)
+    theta4 = driven(Turning.of(found.theta2, 1.0), params.eccentricity).theta
+    polygon, areas = shapely.Polygon(points).segmentize(pitch / EDGES_PER_PITCH), [0.0]
+    for i in range(count):
+        one = shapely.affinity.rotate(polygon, found.theta2[i], origin=(0, 0), use_radians=True)
+        two = shapely.affinity.rotate(polygon, theta4[i], origin=(0, 0), use_radians=True)
+        two = shapely.affinity.translate(two, 2 * ellipse.semi_major)
+        deepest = 0.0
+        for mine, its in ((one, two), (two, one)):
+            corners = shapely.get_coordinates(mine)
+            inside = shapely.points(corners[shapely.contains_xy(its, *corners.T)])
+            near = its.exterior.intersection(shapely.box(*one.intersection(two).buffer(2 * pitch).bounds))
+            deepest = max(deepest, float(np.max(shapely.distance(near, inside), initial=0.0)))
+        if max(deepest, found.depth[i]) > 2e-4:
+            assert found.depth[i] == pytest.approx(deepest, abs=1e-6)
+            areas.append(one.intersection(two).area)
+            assert areas[-1] > 0
+    assert found.overlap == pytest.approx(max(areas), rel=1e-6)
+
+
+def test_a_circle_cuts_an_edge_twice_that_comes_nearest_between_its_ends():
+    starts, ends = np.array([[2.0, -1.0]]), np.array([[2.0, 1.0]])
+    zero = np.zeros(1, dtype=np.int64)
+    free = turns_to_edges(np.array([[2.1, 0.0]]), zero, starts, ends, zero, 0.1, 4.0)
+    turn = math.acos(2 / 2.1)
+    assert free.leaving_behind == pytest.approx([turn])  # running inwards, before the nearest point
+    assert free.entering_ahead == pytest.approx([turn])
+    assert np.isinf(free.leaving_ahead).all()
+
+
+def test_the_side_of_a_corner_is_that_of_the_steeper_edge():
+    # A sharp corner of material at the origin, 30 degrees wide, between +x and 30 degrees above it.
+    far = np.array([[4.0, 0.0], [4 * math.cos(math.pi / 6), 2.0]])
+    corners = np.vstack(([0.0, 0.0], far))
+    angles = np.radians([-100, -170, 170, 130, 15])
+    points = 0.1 * np.column_stack((np.cos(angles), np.sin(angles)))
+    zero = np.zeros(5, dtype=np.int64)
+    found = depths(points, zero, corners, np.roll(corners, -1, axis=0), zero[:3])
+    np.testing.assert_allclose(found, [-0.1, -0.1, -0.1, -0.1, 0.1 * math.sin(math.radians(15))], atol=1e-12)
+    assert np.isneginf(depths(points, zero + 1, corners, np.roll(corners, -1, axis=0), zero[:3])).all()

@@ -30,7 +30,7 @@ from mechwright_elliptic_gears.window import near_constant
 DATA = Path(__file__).parents[1] / "data"
 FACTS = json.loads((DATA / "elliptic-gears.json").read_text(encoding="utf-8"))["facts"]
 GEAR = json.loads((DATA / "elliptic-gear-z39-m2.json").read_text(encoding="utf-8"))
-REFERENCE = EllipticGearParams(eccentricity=0.4, teeth=39, module=2.0, bore=0.0)
+REFERENCE = EllipticGearParams(eccentricity=0.4, teeth=39, module=2.0, bore=0.0, backlash=0.0)
 TEETH = teeth_of(REFERENCE)
 CENTRE = np.array([TEETH.ellipse.focal_distance, 0.0])
 
@@ -56,6 +56,7 @@ def xy(number):
 
 def design(inputs):
     return EllipticGearParams(
+        backlash=0.0,
         stages=2,
         phase=math.degrees(angle(inputs["gamma"])),
         eccentricity=inputs["e"],

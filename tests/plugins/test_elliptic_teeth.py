@@ -36,7 +36,7 @@ def test_the_frame_is_that_of_the_curve(e, u):
 
 
 def test_a_circle_has_involute_teeth():
-    teeth = teeth_of(Params(eccentricity=0.0, teeth=25, module=2.0))
+    teeth = teeth_of(Params(eccentricity=0.0, teeth=25, module=2.0, backlash=0.0))
     pitch_radius, alpha = 25.0, math.radians(20)
     base = pitch_radius * math.cos(alpha)
 
@@ -52,7 +52,7 @@ def test_a_circle_has_involute_teeth():
         at = np.arccos(base / radius)
         expected = 3.0 / pitch_radius + side * (np.tan(at) - at - involute(alpha))
         np.testing.assert_allclose(polar, expected, rtol=0, atol=1e-13)
-    loop = outline_of(Params(eccentricity=0.0, teeth=25, module=2.0)).outer
+    loop = outline_of(Params(eccentricity=0.0, teeth=25, module=2.0, backlash=0.0)).outer
     for segment in loop.segments:
         radius = np.hypot(*segment.at(u).T)
         if segment.tag == "tip":
@@ -62,15 +62,17 @@ def test_a_circle_has_involute_teeth():
 
 
 def test_a_hardly_elliptic_gear_is_hardly_another():
-    circle, near = (outline_of(Params(eccentricity=e, teeth=25, module=2.0)) for e in (0.0, 1e-7))
+    circle, near = (
+        outline_of(Params(eccentricity=e, teeth=25, module=2.0, backlash=0.0)) for e in (0.0, 1e-7)
+    )
     for one, other in zip(circle.outer.segments, near.outer.segments, strict=True):
         # The axis lies a e beside the centre.
         np.testing.assert_allclose(one.at([0, 0.5, 1]), other.at([0, 0.5, 1]), rtol=0, atol=4e-6)
 
 
 CASES = [
-    Params(eccentricity=0.4, teeth=39, module=2.0),
-    Params(eccentricity=0.0, teeth=25, module=2.0),
+    Params(eccentricity=0.4, teeth=39, module=2.0, backlash=0.0),
+    Params(eccentricity=0.0, teeth=25, module=2.0, backlash=0.0),
     Params(eccentricity=0.6, teeth=26, module=3.0, backlash=0.15),
     Params(eccentricity=0.8, teeth=41, module=1.5, addendum=0.9, tip_radius=0.2),
     Params(eccentricity=0.3, teeth=24, module=2.0, pressure_angle=25.0, tip_radius=0.0),

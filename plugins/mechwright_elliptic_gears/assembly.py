@@ -1,0 +1,50 @@
+"""The least backlash with which gears as made go together and turn.
+
+What a wall keeps takes play away, and so does an axis that stands off its place. With D the greatest
+thickness left on two flanks that meet, c the greatest error of the centre distance, α the pressure angle and
+e the eccentricity, a pair whose driven gear finds its own angle turns at every position with a backlash of
+
+    2 (D + c sin α / √(1 - e²)) / cos α
+
+because the common tangent of the pitch curves tilts by arcsin e at the worst, and both flanks share what
+there is. Where keys and a coupler fix the angles of the gears, each flank needs its own, whichever way an
+axis is off:
+
+    2 (D + c) / cos α
+"""
+
+import math
+
+from mechwright.tolerances import TOLERANCES
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+LEFT = 2 * TOLERANCES.leftover
+"""mm, on two flanks that meet: what the proof of a program lets pass on each."""
+
+OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
+"""mm. A hole that keeps the leftover limit on one side and is cut too deep by the gouge limit on the other
+has its middle off by half of both. Two gears on two holes of a base have four such holes."""
+
+STEP = 1e-3
+"""mm: backlashes are whole micrometres, upwards."""
+
+
+def least_backlash(params: EllipticGearParams) -> float:
+    """Backlash, mm, of the pair or train.
+
+    Examples
+    --------
+    >>> least_backlash(EllipticGearParams()), least_backlash(EllipticGearParams(stages=2))
+    (0.067, 0.107)
+    """
+    alpha = math.radians(params.pressure_angle)
+    share = 1.0
+    if params.stages == 1:
+        share = math.sin(alpha) / math.sqrt(1 - params.eccentricity**2)
+    least = 2 * (LEFT + OFF_CENTRE * share) / math.cos(alpha)
+    return round(math.ceil(least / STEP) * STEP, 6)
+
+
+def backlash_of(params: EllipticGearParams) -> float:
+    """The design's backlash, mm."""
+    return least_backlash(params) if params.backlash is None else params.backlash
