@@ -15,10 +15,20 @@ if TYPE_CHECKING:
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
-    from mechwright.contracts.finding import Finding, Severity, Stage
+    from mechwright.contracts.finding import (
+        Finding,
+        Severity,
+        Stage,
+        at_stage,
+        errors,
+        of_stage,
+        refuse,
+        until_error,
+    )
+    from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
     from mechwright.contracts.parameters import Parameters
-    from mechwright.contracts.part import Bore, Feature, Instance, OpenProfile, Part, Pocket, Profile
+    from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
     from mechwright.contracts.table import Table
@@ -35,6 +45,7 @@ if TYPE_CHECKING:
         ToolError,
     )
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
+    from mechwright.geometry.segments import Point
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.tolerances import TOLERANCES
@@ -46,10 +57,11 @@ _HOMES = {
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
-    "mechwright.contracts.finding": "Finding Severity Stage",
+    "mechwright.contracts.finding": "Finding Severity Stage at_stage errors of_stage refuse until_error",
+    "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
     "mechwright.contracts.parameters": "Parameters",
-    "mechwright.contracts.part": "Bore Feature Instance OpenProfile Part Pocket Profile",
+    "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
     "mechwright.contracts.table": "Table",
@@ -59,6 +71,7 @@ _HOMES = {
         "ProofError ToolError"
     ),
     "mechwright.geometry": "Arc BSpline Line Loop Outline Segment circle",
+    "mechwright.geometry.segments": "Point",
     "mechwright.plugins.host": "Host host",
     "mechwright.plugins.hookspecs": "hookimpl",
     "mechwright.tolerances": "TOLERANCES",
@@ -125,6 +138,15 @@ __all__ = [
     "Host",
     "host",
     "TOLERANCES",
+    "at_stage",
+    "errors",
+    "of_stage",
+    "refuse",
+    "until_error",
+    "MaterialName",
+    "material",
+    "Colour",
+    "Point",
 ]
 
 

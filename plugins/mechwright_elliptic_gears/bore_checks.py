@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright import Finding, Severity, errors
 from mechwright.geometry.keyway import (
     KEYS,
     LEAST_WIDTH,

@@ -8,9 +8,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
-from mechwright.contracts.materials import material
-from mechwright.errors import GeometryError
+from mechwright import Finding, GeometryError, Severity, Stage, material, of_stage, until_error
 from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (

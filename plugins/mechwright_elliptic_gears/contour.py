@@ -4,11 +4,8 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.geometry import BSpline, Loop
+from mechwright import TOLERANCES, Array, BSpline, Loop, Segment
 from mechwright.geometry.fit import fit_nets
-from mechwright.geometry.segments import Segment
-from mechwright.tolerances import TOLERANCES
 from mechwright_elliptic_gears.teeth import SIDES, Teeth
 
 FIT = 0.0001

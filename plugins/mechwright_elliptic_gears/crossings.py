@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
+from mechwright import Array
 
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]

@@ -21,7 +21,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 
 _SERIES_SAMPLES = 256
 """Terms fall like exp(-2 k arcosh(1/e)); at e = 0.9 the 43rd is below 1e-17, so 128 leave no aliasing."""

@@ -3,18 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, refuse
-from mechwright.contracts.parameters import Parameters
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright.contracts.motion import Motion
-    from mechwright.contracts.part import Part
-    from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis
 
 
 class EllipticGears(Family[EllipticGearParams]):

@@ -3,8 +3,7 @@
 import math
 from functools import lru_cache
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
+from mechwright import GeometryError, Outline
 from mechwright.geometry.keyway import Opening, key_of_width
 from mechwright_elliptic_gears.assembly import backlash_of
 from mechwright_elliptic_gears.contour import gear_loop

@@ -22,7 +22,7 @@ In a train gear 2 drives gear 3 as above. Gear 4 is fixed to gear 3 and drives g
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import Turning as Turning  # for all that knows these gears
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright_elliptic_gears.crossings import turns_to_edges
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.kinematics import Turning, driven

@@ -5,9 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.motion import Channel, Motion, Poses, Trace
-from mechwright.errors import DesignError
+from mechwright import Array, Channel, DesignError, Motion, Poses, Trace
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_elliptic_gears.figures import figures

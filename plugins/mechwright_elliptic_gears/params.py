@@ -5,9 +5,8 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright import MaterialName, Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright import TOLERANCES, Array
 from mechwright_elliptic_gears.crossings import Ints
 
 

@@ -11,7 +11,7 @@ A middle point (c = 1/2) runs along a hippopede whatever the phase angle, about 
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import PointMotion
 from mechwright_elliptic_gears.kinematics import Complex, Turning, mate_pointer, ratio
 

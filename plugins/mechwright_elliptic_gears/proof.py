@@ -6,8 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright import TOLERANCES, Array
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import Turning, pitch_radii

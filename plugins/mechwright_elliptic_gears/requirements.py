@@ -5,8 +5,8 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright import Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 RADIANS_PER_SECOND = 60 / math.tau
 """One rad/s in rev/min."""

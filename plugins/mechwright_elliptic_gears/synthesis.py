@@ -7,10 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis, errors
 from mechwright_elliptic_gears.checks import findings
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill

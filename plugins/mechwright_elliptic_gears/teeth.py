@@ -17,8 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.errors import GeometryError
+from mechwright import Array, GeometryError
 from mechwright_elliptic_gears.ellipse import Ellipse, Frame
 from mechwright_elliptic_gears.rack import Rack
 

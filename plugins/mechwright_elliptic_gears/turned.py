@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.part import Colour, Instance, Part
+from mechwright import Colour, Instance, Part
 from mechwright.geometry.keyway import Opening
 from mechwright_elliptic_gears.layout import (
     AXIAL_PLAY,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright import Finding, Severity
 from mechwright_elliptic_gears.gear import offset_miss, rack_of, teeth_of
 from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright_elliptic_gears.crossings import Flags, Ints, count_up
 from mechwright_elliptic_gears.ellipse import Ellipse
 

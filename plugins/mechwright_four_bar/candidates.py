@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate
+from mechwright import Candidate, Scalar, errors
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from flint import acb, arb, ctx
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 
-from mechwright.contracts.finding import Finding, Severity, Stage, of_stage, until_error
-from mechwright.errors import GeometryError
+from mechwright import Finding, GeometryError, Severity, Stage, of_stage, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, speed_of

@@ -3,16 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, refuse
-from mechwright.contracts.parameters import Parameters
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright.contracts.motion import Motion
-    from mechwright.contracts.part import Part
-    from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis
 
 
 class FourBars(Family[FourBarParams]):

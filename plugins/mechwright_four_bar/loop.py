@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import BodyMotion, Plane, PointMotion, Turning
 from mechwright_four_bar.dimensions import FourBar
 

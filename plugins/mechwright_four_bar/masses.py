@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,

@@ -5,9 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright.contracts.finding import Stage, errors
-from mechwright.contracts.motion import Channel, Motion, Scalar, Trace
-from mechwright.errors import DesignError, KinematicsError
+from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace, errors
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels

@@ -4,9 +4,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, RevPerMin, Unit
+from mechwright import MaterialName, Parameters
+from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
 
 Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 """A coordinate."""

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.compiled import compiled
 from mechwright.mechanics.planar import Plane
 

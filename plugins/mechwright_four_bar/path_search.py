@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close

@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Progress, Synthesis
+from mechwright import Finding, Progress, Scalar, Severity, Synthesis
 from mechwright.mechanics.multistart import distinct
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.motion import Scalar
+from mechwright import Array, Scalar
 from mechwright.mechanics.planar import BodyMotion
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import Loop, close

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 

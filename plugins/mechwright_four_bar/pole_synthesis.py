@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.contracts.finding import Finding, Severity
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Progress, Synthesis
+from mechwright import Finding, Progress, Scalar, Severity, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams

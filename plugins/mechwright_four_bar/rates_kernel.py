@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.compiled import compiled
 from mechwright_four_bar.dimensions import FourBar
 

@@ -5,8 +5,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Unit
+from mechwright import Parameters
+from mechwright.units import Degrees, Millimetres, Unit
 
 Coordinate = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]

@@ -3,8 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.errors import GeometryError
+from mechwright import Finding, GeometryError, Severity, errors
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism

@@ -18,8 +18,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
-from mechwright.contracts.materials import material
+from mechwright import Array, material
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
 

@@ -35,7 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.laws import Law
 
 Points = NDArray[np.complex128]

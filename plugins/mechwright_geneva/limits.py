@@ -22,7 +22,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, Points, Stroke, regime, stroke
 

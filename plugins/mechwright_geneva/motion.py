@@ -4,10 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Stage, refuse
-from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
-from mechwright.errors import DesignError
+from mechwright import Array, Channel, DesignError, Motion, Poses, Scalar, Stage, refuse
 from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.feasible import feasibility

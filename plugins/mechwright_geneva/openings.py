@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright import Finding, Severity
 from mechwright.geometry.keyway import (
     KEYS,
     LEAST_WIDTH,

@@ -4,10 +4,9 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from mechwright import MaterialName, Parameters
 from mechwright.contracts.fits import HoleClass
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Millimetres, RevPerMin, Unit
+from mechwright.units import Millimetres, RevPerMin, Unit
 
 LawName = Literal[
     "cycloidal",

@@ -9,11 +9,9 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Pocket, Point, Profile, circle
 from mechwright.contracts.fits import Fit, hole_fit
-from mechwright.contracts.part import Bore, Colour, Feature, Instance, Part, Pocket, Profile
-from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
-from mechwright.geometry.segments import Point
 from mechwright_geneva.crank import crank_loop
 from mechwright_geneva.fixings import driver_dowels, driver_room, hub_dowels, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism, mechanism_of

@@ -4,9 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Millimetres, RevPerMin, Seconds, Unit
+from mechwright import MaterialName, Parameters
+from mechwright.units import Millimetres, RevPerMin, Seconds, Unit
 
 SmoothLaw = Literal["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"]
 

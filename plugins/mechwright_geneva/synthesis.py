@@ -11,10 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis, errors
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength

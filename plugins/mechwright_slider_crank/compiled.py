@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.compiled import compiled, inlined
 from mechwright_slider_crank.kinematics import SliderCrank, slide
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import Plane
 from mechwright.mechanics.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces

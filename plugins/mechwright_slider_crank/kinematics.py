@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
-from mechwright.errors import KinematicsError
+from mechwright import Array, KinematicsError
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
 
 

@@ -17,7 +17,7 @@ from typing import Literal
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
-from mechwright.errors import GeometryError
+from mechwright import GeometryError
 from mechwright.mechanics.algebra import PlaneCurve, eliminate, rational
 
 Plane = Literal["fixed", "coupler"]

@@ -5,9 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
+from mechwright import MaterialName, Parameters
+from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
 
 LONGEST = 2000.0

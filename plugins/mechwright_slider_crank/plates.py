@@ -10,11 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.motion import Poses
-from mechwright.contracts.part import Colour, Instance, Part
-from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
+from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,

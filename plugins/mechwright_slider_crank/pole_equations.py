@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.planar import Plane
 
 CRANKS = (3e-3, 30.0)

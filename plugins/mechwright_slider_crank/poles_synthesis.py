@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import acb, arb, ctx
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright.mechanics.planar import Plane
 from mechwright_slider_crank.figures import least_transmission_angle

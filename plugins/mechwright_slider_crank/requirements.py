@@ -4,8 +4,8 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Ratio, Unit
+from mechwright import Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, Unit
 from mechwright_slider_crank.params import LONGEST
 
 Length = Annotated[float, Field(ge=0.5, le=LONGEST), Unit("mm")]

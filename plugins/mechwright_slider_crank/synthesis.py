@@ -8,9 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+from mechwright import Candidate, Finding, Progress, Scalar, Severity, Synthesis, errors
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams

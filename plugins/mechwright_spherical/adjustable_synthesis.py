@@ -9,11 +9,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
-from mechwright.errors import GeometryError, KinematicsError, MechwrightError
+from mechwright import (
+    Array,
+    Candidate,
+    Finding,
+    GeometryError,
+    KinematicsError,
+    MechwrightError,
+    Progress,
+    Scalar,
+    Severity,
+    Synthesis,
+    errors,
+)
 from mechwright_spherical import checks, structural
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
 from mechwright_spherical.linkage import linkage_of

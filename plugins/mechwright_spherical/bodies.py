@@ -23,8 +23,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.motion import Poses
+from mechwright import Array, Poses
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train
 from mechwright_spherical.linkage import Linkage, Phase

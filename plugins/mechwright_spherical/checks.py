@@ -10,8 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, until_error
+from mechwright import Array, Finding, Severity, until_error
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of

@@ -3,16 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, refuse
-from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.synthesis import Progress, Synthesis
+from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright.contracts.motion import Motion
-    from mechwright.contracts.part import Part
+    from mechwright import Motion, Part
 
 
 class Spherical(Family[SphericalParams]):

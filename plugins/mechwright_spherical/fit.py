@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from mechwright.arrays import Array
+from mechwright import Array
 
 SLOPE = 1e-6
 """Step of central differences, rad: their error is 1e-10, and Newton's steps converge all the same."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright_spherical.chain import EDGE
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State

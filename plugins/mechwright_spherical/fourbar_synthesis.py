@@ -11,11 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
-from mechwright.errors import GeometryError
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis, errors
 from mechwright_spherical import checks
 from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fourbar import FourBar

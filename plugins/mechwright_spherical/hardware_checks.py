@@ -6,8 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
+from mechwright import Array, Finding, Severity, Stage, of_stage
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright_spherical.vectors import column, cross, dot
 
 Jet = tuple[Array, ...]

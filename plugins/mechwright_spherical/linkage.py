@@ -6,8 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.errors import DesignError, GeometryError
+from mechwright import Array, DesignError, GeometryError
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Turning

@@ -6,7 +6,7 @@ from functools import lru_cache
 import cadquery as cq
 import numpy as np
 
-from mechwright.arrays import Array
+from mechwright import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of

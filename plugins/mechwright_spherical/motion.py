@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
-from mechwright.errors import DesignError, KinematicsError
+from mechwright import Channel, DesignError, KinematicsError, Motion, Poses, Scalar, Trace
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar

@@ -4,9 +4,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.materials import MaterialName
-from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright import MaterialName, Parameters
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 
 Coordinate = Annotated[float, Field(ge=-1000, le=1000), Unit("")]

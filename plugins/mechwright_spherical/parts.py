@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.part import Colour, Instance, Part
+from mechwright import Colour, Instance, Part
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.linkage import Linkage, linkage_of

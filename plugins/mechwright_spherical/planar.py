@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.arrays import Array
+from mechwright import Array
 
 Complex = NDArray[np.complex128]
 

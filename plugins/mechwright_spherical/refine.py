@@ -12,8 +12,7 @@ from enum import Enum
 
 import numpy as np
 
-from mechwright.arrays import Array
-from mechwright.errors import KinematicsError
+from mechwright import Array, KinematicsError
 from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fivebar import AdjustableFiveBar, chord, mean
 from mechwright_spherical.jets import Turning

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.arrays import Array
-from mechwright.errors import KinematicsError
+from mechwright import Array, KinematicsError
 from mechwright_spherical.fivebar import chord, projected
 from mechwright_spherical.projection import project
 

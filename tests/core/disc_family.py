@@ -12,9 +12,9 @@ from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.synthesis import Candidate, Synthesis
-from mechwright.designs.units import Millimetres, Ratio, RevPerMin
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.units import Millimetres, Ratio, RevPerMin
 
 
 class DiscParams(Parameters):

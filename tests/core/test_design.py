@@ -12,9 +12,9 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.design import load
 from mechwright.designs.text import template
-from mechwright.designs.units import Degrees, Millimetres
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
 from mechwright.plugins.host import Host, Registered
+from mechwright.units import Degrees, Millimetres
 from mechwright_cam.shop.table import CamTable, settings_of
 
 

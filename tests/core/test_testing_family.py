@@ -17,10 +17,10 @@ from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Instance, Profile
-from mechwright.designs.units import Millimetres, Unit
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.testing import FamilyContract
+from mechwright.units import Millimetres, Unit
 from mechwright_cam.controls.contract import Control
 
 EXAMPLE: dict[str, object] = {}

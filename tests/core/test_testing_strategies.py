@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from pydantic import ConfigDict, Field, ValidationError
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Millimetres, Ratio
 from mechwright.testing import assert_derivative, assert_monotone, assert_points_close, parameters, tables
 from mechwright.testing.strategies import rules
 from mechwright.testing.variations import variations
+from mechwright.units import Millimetres, Ratio
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings

@@ -9,16 +9,7 @@ from hypothesis import strategies as st
 from pydantic import Field, ValidationError
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import (
-    Degrees,
-    Millimetres,
-    MillimetresPerMin,
-    Newtons,
-    Ratio,
-    RevPerMin,
-    convert,
-    kind,
-)
+from mechwright.units import Degrees, Millimetres, MillimetresPerMin, Newtons, Ratio, RevPerMin, convert, kind
 
 patient = settings(deadline=None)  # imports and a busy machine are no faults
 UNITS = {

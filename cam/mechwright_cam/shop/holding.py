@@ -5,7 +5,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres
+from mechwright.units import Degrees, Millimetres
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
 from mechwright_cam.shop.posting import WorkOffset
 

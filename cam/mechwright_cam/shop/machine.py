@@ -8,8 +8,8 @@ from pydantic import Field, model_validator
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.tables import read_table, unknown
-from mechwright.designs.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
 from mechwright.errors import DesignError
+from mechwright.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
 
 MACHINES = Path(__file__).with_name("machines.toml")
 """The machines that come with the program, by name."""

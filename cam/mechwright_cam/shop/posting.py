@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Millimetres
+from mechwright.units import Millimetres
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
 
 LEAST_CLEARANCE = 0.5

@@ -5,8 +5,8 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.designs.units import Degrees, Millimetres, Ratio
 from mechwright.tolerances import TOLERANCES
+from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
 from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
 from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, WorkOffset

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mechwright.contracts.motion import Motion
-from mechwright.designs.units import convert
+from mechwright.units import convert
 from mechwright.errors import DesignError
 
 SAMPLES = 3601

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
 class Parameters(BaseModel):
     """A table of a design file: frozen, and no key that it does not know.
 
-    Every field has a default or is required, a unit (see :mod:`mechwright.designs.units`), bounds, and one
+    Every field has a default or is required, a unit (see :mod:`mechwright.units`), bounds, and one
     line of text as its description. The contract tests of :mod:`mechwright.testing` hold a family to that.
     """
 

@@ -12,9 +12,9 @@ from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.designs.units import kind
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
+from mechwright.units import kind
 
 _CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*(\.[a-z0-9]+(-[a-z0-9]+)*)+")
 # Where a field may be left out, pydantic puts its bounds into the schema under its own names.
@@ -40,7 +40,7 @@ def schema_faults(params: type[Parameters]) -> list[str]:
                 if "unit" in number:
                     found += unit_faults(number["unit"], path)
                 elif number["type"] == "number":
-                    found.append(f"{path} has no unit; use a type of mechwright.designs.units")
+                    found.append(f"{path} has no unit; use a type of mechwright.units")
     return found
 
 

@@ -5,8 +5,7 @@ import pytest
 from mechwright_cam.pipeline import machine
 from mechwright_larch.control import Larch
 
-from mechwright.errors import ProgramError
-from mechwright.plugins.host import host
+from mechwright import ProgramError, host
 from mechwright_cam.controls.fanuc import Fanuc
 from mechwright_cam.pages.setup_sheet import setup_html, summary_html
 from mechwright_cam.proof import prove

@@ -1,6 +1,6 @@
 """What this plugin registers."""
 
-from mechwright.plugins.hookspecs import hookimpl
+from mechwright import hookimpl
 from mechwright_cam.controls.contract import Control
 from mechwright_larch.control import Larch
 

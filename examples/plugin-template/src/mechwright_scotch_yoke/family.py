@@ -5,13 +5,8 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding
-from mechwright.contracts.motion import Motion
-from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Part
-from mechwright.contracts.synthesis import Progress, Synthesis
-from mechwright.designs.units import MetresPerMin, Millimetres, Newtons, RevPerMin
+from mechwright import Family, Finding, Motion, Parameters, Part, Progress, Synthesis
+from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
 

@@ -2,9 +2,7 @@
 
 import math
 
-from mechwright.contracts.finding import Finding, Severity, errors
-from mechwright.contracts.motion import Scalar
-from mechwright.contracts.synthesis import Candidate, Synthesis
+from mechwright import Candidate, Finding, Scalar, Severity, Synthesis, errors
 from mechwright_scotch_yoke import checks
 from mechwright_scotch_yoke.family import ScotchYokeParams, StrokeRequirement
 
