@@ -21,6 +21,7 @@ from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.pages.setup_sheet.walls import walls_view
 from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged
 from mechwright_cam.planning.setups import carried, lay_out_setups
@@ -36,7 +37,6 @@ from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool
 
 SUMMARY = "setup.html"
 """The page of the whole job."""
@@ -64,8 +64,10 @@ def plates(parts: Sequence[Part]) -> list[Part]:
     return [part for part in parts if part.outline is not None]
 
 
-def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[Job]]:
-    """Choose cutters and lay the parts into their stock.
+def prepare(
+    design: Design, parts: Sequence[Part], assignments: Assignments | None = None
+) -> tuple[list[Finding], list[Job]]:
+    """Choose cutters and lay the parts into their stock; who cuts what is kept in ``assignments``.
 
     Returns
     -------
@@ -75,6 +77,7 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
         One for each part, and one more where the underside is milled as well; fewer if a finding is an
         error.
     """
+    assignments = assignments or Assignments()
     library = _library(design)
     cut_parts = arranged(design, parts, library)
     _check_part_names(design, (*parts, *cut_parts))
@@ -82,7 +85,8 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     jobs: list[Job] = []
     for part in cut_parts:
         cam = design.cam_of(part.name)
-        laid, found = lay_out_setups(part, cam, library.cutting(cam.cutting))
+        tools = library.cutting(cam.cutting).measured(cam.measured.lengths)
+        laid, found = lay_out_setups(part, cam, tools, assignments)
         found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
@@ -92,7 +96,7 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     if len(tops) == len(cut_parts):
         copies: dict[str, list[shapely.Polygon]] = {}
         for job in tops:
-            for name, outline in _cut_parts(job):
+            for name, outline in _cut_parts(job, assignments):
                 copies.setdefault(name, []).append(outline)
         # The copies of a part in a nest may be left different by their neighbours: the family sees all.
         for number in range(max(map(len, copies.values()), default=0)):
@@ -118,9 +122,9 @@ def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
     ]
 
 
-def _cut_parts(job: Job) -> list[tuple[str, shapely.Polygon]]:
+def _cut_parts(job: Job, assignments: Assignments) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
-    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job)]
+    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
     if isinstance(job.part, Nest):
         return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
     return [(job.part.name, cut[0])]
@@ -189,10 +193,11 @@ def second_setup(first: Machined, job: Job, post: Post) -> Job:
     return replace(job, gone=carried(cut, first.job, job))
 
 
-def machine(job: Job, post: Post, place: int = 0) -> Machined:
+def machine(job: Job, post: Post, place: int = 0, assignments: Assignments | None = None) -> Machined:
     """Plan a program, post it, and prove the posted text.
 
-    Programs of one design that have numbers are told apart by their ``place``.
+    Who cuts what is taken from ``assignments``, if it has been decided. Programs of one design that have
+    numbers are told apart by their ``place``.
 
     Raises
     ------
@@ -202,21 +207,17 @@ def machine(job: Job, post: Post, place: int = 0) -> Machined:
         The program would not cut the right part.
     """
     cam = job.settings
-    job = replace(job, tools=tuple(_measured(tool, cam) for tool in job.tools))
+    measured = Library(job.tools).measured(cam.measured.lengths).tools
+    if measured != job.tools:
+        job = replace(job, tools=measured)
     posting = cam.post.model_copy(update={"program_number": cam.post.program_number + place})
-    program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
+    program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
     files = post.files(program)
     named = {name + post.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
     proof = prove(text, job, dialect_of(post))
     proof.require()
     return Machined(job, program, files, proof, text)
-
-
-def _measured(tool: Tool, cam: CamSettings) -> Tool:
-    """The tool with the length that the design file gives it."""
-    length = cam.measured.lengths.get(tool.name, tool.length)
-    return tool if length == tool.length else tool.model_copy(update={"length": length})
 
 
 def dialect_of(post: Post) -> Dialect:
@@ -243,7 +244,8 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     parts = plates(design.family.parts(design.params))
-    findings, jobs = prepare(design, parts)
+    assignments = Assignments()
+    findings, jobs = prepare(design, parts, assignments)
     findings = [*_control(post, design.cam, jobs), *findings]
     if errors(findings) or not jobs:
         return findings
@@ -254,8 +256,10 @@ def write_programs(design: Design, host: Host, output: Output, curves: str) -> l
         )
     made: list[Machined] = []
     for place, job in enumerate(jobs):
-        laid = second_setup(made[-1], job, post) if job.side == "underside" else job
-        made.append(machine(laid, post, place))
+        laid = job
+        if job.side == "underside":  # what the first side leaves changes how it is cut, and not by whom
+            laid = assignments.carry(job, second_setup(made[-1], job, post))
+        made.append(machine(laid, post, place, assignments))
     nests = [job.part for job in jobs if isinstance(job.part, Nest)]
     for part in (*parts, *nests):
         output.add(f"{part.name}{drawing.suffix}", drawing.part(part))
@@ -336,5 +340,5 @@ def verify(
             job = second_setup(machine(jobs[0], post), job, post)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library))
-    tools = tuple(_measured(tool, cam) for tool in library.tools)
+    tools = library.measured(cam.measured.lengths).tools
     return prove(text, replace(job, tools=tools), dialect)

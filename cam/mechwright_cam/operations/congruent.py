@@ -14,8 +14,8 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.adaptive import clear
 from mechwright_cam.operations.cavity import Cavity, Pass
+from mechwright_cam.operations.engagement import clear
 from mechwright_cam.plane.offsets import ROUGH, areas
 from mechwright_cam.plane.path import Path, arc, line, rounded
 from mechwright_cam.shop.tool import Tool
@@ -115,15 +115,13 @@ class Copies:
 
     def clear(
         self,
-        feature: Pocket | Profile | None,
+        feature: Pocket | Profile,
         area: shapely.Geometry,
         tool: Tool,
         engagement: float,
         climb: bool,
     ) -> list[Cavity]:
         """Clear the area around a feature; see :func:`mechwright_cam.operations.adaptive.clear`."""
-        if feature is None:
-            return clear(area, tool, engagement, climb)
         for known, place, mill, cavities in self._known:
             turn = turn_between(known, feature) if mill is tool else None
             if turn is not None and same(turn.shape(place), area):

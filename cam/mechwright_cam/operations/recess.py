@@ -13,10 +13,12 @@ around
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeGuard
 
 import shapely
 
 from mechwright.contracts import sections
+from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Bore, Feature, Pocket, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
@@ -49,6 +51,11 @@ class Recess:
     keep: shapely.Geometry
     around: shapely.Geometry
     open: bool
+
+
+def is_recess(feature: Feature | Detail) -> TypeGuard[Profile | Pocket]:
+    """Whether it is a pocket, or an opening that is not round."""
+    return isinstance(feature, Pocket) or (isinstance(feature, Profile) and feature.side == "inside")
 
 
 def plan_view(feature: Feature) -> shapely.Geometry:
