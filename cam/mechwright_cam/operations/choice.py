@@ -10,6 +10,7 @@ import shapely
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.entry import lead_length
 from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
 from mechwright_cam.plane.path import rounded
 from mechwright_cam.plane.reach import closing, leaves_at_most, leaves_much_more
@@ -22,6 +23,8 @@ REACH_SHARE = 1.5
 """Of the tolerance for stock left on walls, what a larger cutter may leave in their corners besides."""
 FITS = 0.9
 """A mill is worth choosing where what larger ones leave holds a disc of this share of it."""
+HEAVY = 0.1
+"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 ROOMY = 0.7
@@ -161,13 +164,19 @@ def with_sharper(mills: list[Tool], roomy: list[Tool], enters: Callable[[Tool], 
     return [*(mill for mill in mills if mill.nose < sharpest and enters(mill)), *roomy]
 
 
-def roomy_mills(mills: list[Tool], opening: shapely.Geometry) -> list[Tool]:
+def run_out(mills: Sequence[Tool], settings: CamSettings) -> float:
+    """How far beyond an open edge mills go that finish up to it, mm."""
+    more = settings.stock_to_leave + HEAVY
+    return max(mill.diameter + lead_length(mill, settings) + more for mill in mills)
+
+
+def roomy_mills(mills: Sequence[Tool], opening: shapely.Geometry) -> list[Tool]:
     """The mills that leave room for chips in an opening, largest first; the smallest if none does.
 
     A cutter as wide as a slot would cut with its whole width at every depth, and leave nothing to finish.
     """
     width = 2 * max(entry_place(part)[1] for part in polygons(opening))
-    return [mill for mill in mills if mill.diameter <= ROOMY * width] or mills[-1:]
+    return [mill for mill in mills if mill.diameter <= ROOMY * width] or list(mills[-1:])
 
 
 def finest_needed(

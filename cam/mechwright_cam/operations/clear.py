@@ -44,6 +44,13 @@ class Clear(Operation):
         """Any opening that is not round, and any pocket."""
         return self.task(recess_zone(job, feature), feature, job) if is_recess(feature) else None
 
+    def claim_copy(self, feature: Feature | Detail, job: Job, known: Task) -> Task | None:
+        """With the same mills, but where the room for entries under compensation has to be looked for."""
+        assert is_recess(feature)  # noqa: S101 - nothing else is claimed
+        if job.settings.compensation != "computer":
+            return self.claim(feature, job)
+        return self.task(recess_zone(job, feature, like=known.data), feature, job)
+
     def task(self, zone: Zone, feature: Feature | Detail, job: Job) -> Task:
         """The task of a recess, with the hole that an opening is entered through."""
         region, hole = zone.clear, None
@@ -61,7 +68,7 @@ class Clear(Operation):
             return None
         bottom = bottom_of(every, feature.top, feature.depth)
         able = usable_mills(every, -bottom)
-        shapes = recess(every, feature, able[0].diameter, bottom)
+        shapes = recess(every, feature, able)
         if shapely.is_empty(shapes.must):
             return []
         if isinstance(feature, Pocket) and feature.floor_radius > 0:

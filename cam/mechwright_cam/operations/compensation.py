@@ -23,13 +23,14 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.contour_writer import ContourWriter, touching
 from mechwright_cam.operations.entry import Lead, lead_length, leads, offsets_of, starts, ways
 from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.operations.zone import HEAVY, Zone
+from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.contour import contour_beside
 from mechwright_cam.plane.leads import middle_of_longest
 from mechwright_cam.plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings

@@ -85,7 +85,7 @@ def turn_between(one: Pocket | Profile, other: Pocket | Profile) -> Turn | None:
     >>> turn_between(slot, across).point((20, 1))
     (-1.0, 20.0)
     """
-    first, second = _corners(one), _corners(other)
+    first, second = corners_of(one), corners_of(other)
     if (one.top, one.depth) != (other.top, other.depth) or len(first) != len(second):
         return None
     middle, centre = first.mean(), second.mean()
@@ -131,7 +131,8 @@ class Copies:
         return found
 
 
-def _corners(feature: Pocket | Profile) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+def corners_of(feature: Pocket | Profile) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+    """The corners of a drawing (n,), in the complex plane, mm."""
     loops = (feature.boundary, *feature.islands) if isinstance(feature, Pocket) else (feature.loop,)
     points = np.concatenate([loop.flatten() for loop in loops])
     return np.asarray(points[:, 0] + 1j * points[:, 1], dtype=np.complex128)

@@ -96,6 +96,10 @@ class Operation(ABC):
             The feature, the holding or the stock is wrong.
         """
 
+    def claim_copy(self, feature: Feature | Detail, job: Job, known: Task) -> Task | None:
+        """The same for a turned copy of a feature whose task is ``known``: what was decided there holds."""
+        return self.claim(feature, job)
+
     @abstractmethod
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Add the cuts of a task, each waiting for the one before, and give what they leave of the stock."""

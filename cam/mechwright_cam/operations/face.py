@@ -42,7 +42,7 @@ class Face(Operation):
             return None
         bottom = bottom_of(job, feature.top, feature.depth)
         mills = usable_mills(job, -bottom, floor_radius(feature))
-        shapes = recess(job, feature, mills[0].diameter, bottom)
+        shapes = recess(job, feature, mills)
         if not shapes.open or shapely.is_empty(shapes.must) or not shapely.is_empty(shapes.keep):
             return None
         zone = recess_zone(job, feature)

@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
+from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.wedges import into_wedges
-from mechwright_cam.operations.zone import HEAVY, Zone
+from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings

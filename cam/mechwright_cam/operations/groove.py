@@ -69,7 +69,7 @@ class Groove(Operation):
             return None
         bottom = bottom_of(job, feature.top, feature.depth)
         mills = usable_mills(job, -bottom, floor_radius(feature))
-        shapes = recess(job, feature, mills[0].diameter, bottom)
+        shapes = recess(job, feature, mills)
         if shapely.is_empty(shapes.must):
             return None
         mill, fills = floor_mill(job, feature, mills, shapes)

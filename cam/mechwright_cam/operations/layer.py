@@ -11,14 +11,14 @@ import shapely
 from mechwright.cores import together
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.choice import roughers
+from mechwright_cam.operations.choice import HEAVY, roughers
 from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
 from mechwright_cam.operations.compensation import CompensatedFinishing
 from mechwright_cam.operations.finishing import Finishing, finish_depth
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.operations.zone import CUSP, HEAVY, Zone
+from mechwright_cam.operations.zone import CUSP, Zone
 from mechwright_cam.plane.offsets import areas, grow, opened, polygons
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool

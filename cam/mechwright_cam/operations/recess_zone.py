@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import shapely
@@ -14,13 +15,13 @@ from mechwright_cam.operations.choice import (
     last_mills,
     radius_in,
     roomy_mills,
+    run_out,
     usable_mills,
     with_sharper,
 )
 from mechwright_cam.operations.compensation import entering
-from mechwright_cam.operations.entry import lead_length
 from mechwright_cam.operations.recess import Layer, Recess, reached_share, recess, walls_of
-from mechwright_cam.operations.zone import HEAVY, SNUG, Zone
+from mechwright_cam.operations.zone import SNUG, Zone
 from mechwright_cam.plane.offsets import ROUGH, areas, grow
 from mechwright_cam.setup.depths import bottom_of, through
 from mechwright_cam.setup.job import Job
@@ -37,7 +38,9 @@ FILLED = 0.9
 """A mill makes a groove of its own width if it reaches this share of it."""
 
 
-def recess_zone(job: Job, feature: Profile | Pocket, filler: Tool | None = None) -> Zone:
+def recess_zone(
+    job: Job, feature: Profile | Pocket, filler: Tool | None = None, like: Zone | None = None
+) -> Zone:
     """Choose the mills of a recess and look at what they have to clear.
 
     Parameters
@@ -46,6 +49,8 @@ def recess_zone(job: Job, feature: Profile | Pocket, filler: Tool | None = None)
         The feature is a pocket or an inside profile of the job.
     filler
         The mill that is just as wide as the recess and makes all of it, if there is one.
+    like
+        The zone of a turned copy: its mills are those of this one.
 
     Raises
     ------
@@ -54,62 +59,74 @@ def recess_zone(job: Job, feature: Profile | Pocket, filler: Tool | None = None)
     DesignError
         There is nothing of the plate in it.
     """
-    bottom, path = bottom_of(job, feature.top, feature.depth), job.settings.path
-    radius = floor_radius(feature)
-    mills = usable_mills(job, -bottom, radius)
-    shapes = recess(job, feature, mills[0].diameter, bottom)
+    bottom, radius = bottom_of(job, feature.top, feature.depth), floor_radius(feature)
+    known: tuple[Tool, ...] = (filler,) if filler is not None else ()
+    if like is not None:
+        known = like.finishers
+    usable = usable_mills(job, -bottom, radius)
+    shapes = recess(job, feature, usable, run_out(known, job.settings) if known else 0.0)
     if shapely.is_empty(shapes.must):
         raise DesignError(f"part {job.part.name}: {feature.name} takes nothing of the plate; remove it")
-    walls = _walls(job, feature, mills)
-    high, near = walls[0][0] if walls else math.inf, shapes.must if shapes.open else None
-    finishing: list[Tool] = []
-    choose = partial(last_mills, keep=shapes.keep, settings=job.settings, near=near, height=high)
-    if filler is not None:
-        mills = last = [filler]
-    elif radius > 0:
-        last = [floor_mill(job, feature, mills, shapes)[0]]
-        _check_passages(job, feature, last[-1], shapes)
-        mills = roomy_mills(mills, shapes.must)
-    else:
-        reached = {mill.name: reached_share(shapes, radius_in(mill, high) + path.bias) for mill in mills}
-        if max(reached.values()) < LEAST_SHARE:
-            mills = usable_mills(
-                job,
-                -bottom,
-                enters=lambda mill: reached_share(shapes, radius_in(mill, high) + path.bias) >= LEAST_SHARE,
-            )
-            reached = {mill.name: reached_share(shapes, radius_in(mill, high) + path.bias) for mill in mills}
-        if max(reached.values()) < LEAST_SHARE:
-            raise ToolError(
-                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
-                f"smallest that cuts {-bottom:g} mm deep is {mills[-1].name}; list a smaller one"
-            )
-        able, mills = mills, roomy_mills(mills, shapes.must)
-        finishing = with_sharper(able, mills, lambda mill: reached[mill.name] >= SCRATCH)
-        last = choose(finishing)
-    if shapes.open:  # once more, to run out no further than the finishing cutters need
-        run_out = max(mill.diameter + lead_length(mill, job.settings) for mill in last)
-        shapes = recess(job, feature, run_out + job.settings.stock_to_leave + HEAVY, bottom)
-    zone = partial(
-        Zone,
+    walls = _walls(job, feature, usable)
+    high = walls[0][0] if walls else math.inf
+    mills, finishers, able = like.mills if like is not None else known, known, known[:0]
+    if not known:
+        mills, finishers, able = _mills(job, feature, usable, shapes, high)
+        if shapes.open:  # once more, to run out no further than the finishing cutters need
+            shapes = recess(job, feature, usable, run_out(finishers, job.settings))
+    zone = Zone(
         feature.name,
         shapes.keep,
         shapes.around,
         -feature.top,
         bottom,
         "pocket" if isinstance(feature, Pocket) else "inside",
-        tuple(mills),
-        path=path,
+        mills,
+        finishers,
+        path=job.settings.path,
         below=bottom == job.floor,
         must=shapes.must if shapes.open else None,
         floor_radius=radius,
         walls=walls,
     )
-    left = (
-        areas(shapely.intersection(shapes.around, shapely.box(*job.stock))) if shapes.open else shapes.around
-    )
-    tried = [(zone(finishers=tuple(last)), left)]
-    return zone(finishers=entering(job, tried, finishing, tuple(last), choose))
+    if job.settings.compensation == "computer" or not able:
+        return zone
+    left = areas(shapely.intersection(zone.clear, shapely.box(*job.stock))) if shapes.open else zone.clear
+    choose = partial(last_mills, keep=zone.wall, settings=job.settings, near=zone.must, height=high)
+    return replace(zone, finishers=entering(job, [(zone, left)], able, finishers, choose))
+
+
+def _mills(
+    job: Job, feature: Profile | Pocket, usable: list[Tool], shapes: Recess, high: float
+) -> tuple[tuple[Tool, ...], tuple[Tool, ...], tuple[Tool, ...]]:
+    """The mills of a recess, those that finish it, and those among which these were chosen.
+
+    Its wall is ``high`` mm high up to its first step.
+    """
+    bias, bottom = job.settings.path.bias, bottom_of(job, feature.top, feature.depth)
+
+    def reached(mill: Tool) -> float:
+        return reached_share(shapes, radius_in(mill, high) + bias)
+
+    def enters(mill: Tool) -> bool:
+        return reached(mill) >= LEAST_SHARE
+
+    if floor_radius(feature) > 0:
+        last = floor_mill(job, feature, usable, shapes)[0]
+        _check_passages(job, feature, last, shapes)
+        return tuple(roomy_mills(usable, shapes.must)), (last,), ()
+    if not any(map(enters, reversed(usable))):
+        usable = usable_mills(job, -bottom, enters=enters)
+        if not any(map(enters, reversed(usable))):
+            raise ToolError(
+                f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
+                f"smallest that cuts {-bottom:g} mm deep is {usable[-1].name}; list a smaller one"
+            )
+    mills = roomy_mills(usable, shapes.must)
+    finishing = with_sharper(usable, mills, lambda mill: reached(mill) >= SCRATCH)
+    near = shapes.must if shapes.open else None
+    last_ones = last_mills(finishing, shapes.keep, job.settings, near, high)
+    return tuple(mills), tuple(last_ones), tuple(finishing)
 
 
 def floor_radius(feature: Profile | Pocket) -> float:

@@ -17,7 +17,7 @@ from typing import Literal
 import shapely
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.choice import radius_in, roughers
+from mechwright_cam.operations.choice import HEAVY, radius_in, roughers
 from mechwright_cam.operations.recess import Layer
 from mechwright_cam.plane.offsets import CHORD, ROUGH, grow, simplified, sound, thinned
 from mechwright_cam.setup.holding import Tab
@@ -40,9 +40,6 @@ CUSP = TOLERANCES.leftover / 2
 SNUG = TOLERANCES.gouge - TOLERANCES.arc_fit - 3 * TOLERANCES.flatten
 """A groove may be so much narrower on each side than the mill that makes it, mm: what the path and the
 outline leave of the permitted gouge."""
-
-HEAVY = 0.1
-"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 
 
 @dataclass(frozen=True, eq=False)

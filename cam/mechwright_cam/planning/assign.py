@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.table import asked
+from mechwright_cam.operations.twins import Twins
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 
@@ -28,16 +29,22 @@ def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
     """Ask the operations in turn, until one claims, for every feature and detail of a job."""
     tasks: list[Task] = []
     refused: list[MechwrightError] = []
+    twins, claimed = Twins(job), dict[str, Task]()
     for feature in (*job.features, *job.details):
         try:
-            claims = (operation.claim(feature, job) for operation in operations)
-            task = next((claim for claim in claims if claim is not None), None)
+            twin = twins.first(feature)
+            known = claimed.get(twin.name) if twin is not None else None
+            task = known.operation.claim_copy(feature, job, known) if known is not None else None
+            if task is None:
+                claims = (operation.claim(feature, job) for operation in operations)
+                task = next((claim for claim in claims if claim is not None), None)
             if task is None:
                 raise DesignError(
                     f"part {job.part.name}: no operation cuts {feature.name}; draw it as a bore, a pocket, "
                     "an inside profile, or an outside through the plate"
                 )
             tasks.append(task)
+            claimed[feature.name] = task
         except MechwrightError as error:
             refused.append(error)
     return Assigned(tuple(tasks), tuple(refused))

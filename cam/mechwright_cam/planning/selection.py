@@ -17,6 +17,7 @@ from mechwright_cam.operations.rates import runs_too_fast
 from mechwright_cam.operations.recess import recess
 from mechwright_cam.operations.recess_zone import floor_mill
 from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.twins import Twins
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.assign import Assignments, assign
 from mechwright_cam.setup.depths import bottom_of, through
@@ -79,8 +80,10 @@ def _chosen(
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
     mills = usable_mills(every, -every.floor)[:1]
     chosen: list[Tool] = []
+    twins = Twins(every)
     for feature in sorted(every.features, key=_turn):
-        chosen += _wanted(feature, every, chosen, operations)
+        if twins.first(feature) is None:  # a turned copy asks for the same again
+            chosen += _wanted(feature, every, chosen, operations)
     chosen = [*(chosen or mills), *_floor_mills(replace(every, tools=library.tools))]
     mills = list({mill.name: mill for mill in chosen}.values())
     drills = _drills(every)
@@ -178,7 +181,7 @@ def _floor_mills(every: Job) -> list[Tool]:
         if isinstance(feature, Pocket) and feature.floor_radius > 0:
             bottom = bottom_of(every, feature.top, feature.depth)
             mills = usable_mills(every, -bottom, feature.floor_radius)
-            shapes = recess(every, feature, mills[0].diameter, bottom)
+            shapes = recess(every, feature, mills)
             if not shapely.is_empty(shapes.must):
                 found.append(floor_mill(every, feature, mills, shapes)[0])
     return found
