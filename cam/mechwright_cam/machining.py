@@ -10,16 +10,18 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.operations.contract import Operation
 from mechwright_cam.planning import plan
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.prepare import plates, prepare
 from mechwright_cam.planning.setups import carried
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Proof, cut_away, prove
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
-from mechwright_cam.shop.tool import Tool
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,12 @@ class Machining:
 
     @cached_property
     def _prepared(self) -> tuple[list[Finding], list[Job]]:
-        return prepare(self._build.design, self.plates)
+        return prepare(self._build.design, self.plates, self.assignments)
+
+    @cached_property
+    def assignments(self) -> Assignments:
+        """Who cuts what, with the operations that others have registered at hand."""
+        return Assignments(self._build.host.all(Operation))
 
     @property
     def jobs(self) -> list[Job]:
@@ -81,7 +88,7 @@ class Machining:
         every = [self.settings, *(job.settings for job in self.jobs)]
         found = [finding for settings in every for finding in control.check(settings)]
         for job in self.jobs:
-            found += control.check_tools(job.settings, [measured(tool, job.settings) for tool in job.tools])
+            found += control.check_tools(job.settings, job.tools)
         return [*at_stage(Stage.MACHINING, dict.fromkeys(found)), *self._prepared[0]]
 
     @cached_property
@@ -104,8 +111,10 @@ class Machining:
             )
         made: list[Machined] = []
         for place, job in enumerate(self.jobs):
-            laid = second_setup(made[-1], job, self.control) if job.side == "underside" else job
-            made.append(machine(laid, self.control, place))
+            laid = job
+            if job.side == "underside":  # what the first side leaves changes how it is cut, and not by whom
+                laid = self.assignments.carry(job, second_setup(made[-1], job, self.control))
+            made.append(machine(laid, self.control, place, self.assignments))
         return made
 
     @cached_property
@@ -134,10 +143,11 @@ def second_setup(first: Machined, job: Job, control: Control) -> Job:
     return replace(job, gone=carried(cut, first.job, job))
 
 
-def machine(job: Job, control: Control, place: int = 0) -> Machined:
+def machine(job: Job, control: Control, place: int = 0, assignments: Assignments | None = None) -> Machined:
     """Plan a program, post it, and prove the posted text.
 
-    Programs of one design that have numbers are told apart by their ``place``.
+    Who cuts what is taken from ``assignments``, if it has been decided. Programs of one design that have
+    numbers are told apart by their ``place``.
 
     Raises
     ------
@@ -147,22 +157,18 @@ def machine(job: Job, control: Control, place: int = 0) -> Machined:
         The program would not cut the right part.
     """
     cam = job.settings
-    job = replace(job, tools=tuple(measured(tool, cam) for tool in job.tools))
+    tools = Library(job.tools).measured(cam.measured.lengths).tools
+    if tools != job.tools:
+        job = replace(job, tools=tools)
     stated = {
         "program_number": cam.post.program_number + place,
         "tool_change": cam.post.tool_change or control.by_hand,
     }
     posting = cam.post.model_copy(update=stated)
-    program = replace(plan(job), machine=cam.machine, posting=posting, measured=cam.measured)
+    program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
     proof = prove(text, job, control)
     proof.require()
     return Machined(job, program, files, proof, text)
-
-
-def measured(tool: Tool, cam: CamSettings) -> Tool:
-    """The tool with the length that the design file gives it."""
-    length = cam.measured.lengths.get(tool.name, tool.length)
-    return tool if length == tool.length else tool.model_copy(update={"length": length})

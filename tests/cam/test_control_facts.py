@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from by_control import BY_NAME
-from mechwright_cam.pipeline import machine
 
 import mechwright
 import mechwright_cam
@@ -16,6 +15,7 @@ from mechwright_cam.controls.fanuc import Fanuc
 from mechwright_cam.controls.grbl import Grbl
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet import setup_html, summary_html
 from mechwright_cam.proof import prove
 from mechwright_cam.testing import plate_job

@@ -14,9 +14,9 @@ from planning_parts import LIBRARY, job, part, rounded_box
 from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.operations import adaptive
-from mechwright_cam.operations.adaptive import clear
+from mechwright_cam.operations import engagement
 from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
+from mechwright_cam.operations.engagement import clear
 from mechwright_cam.plane.offsets import ROUGH
 from mechwright_cam.planning import plan
 
@@ -106,7 +106,7 @@ def planned(monkeypatch):
 
     def counted(area, *rest):
         areas.append(area)
-        return adaptive.clear(area, *rest)
+        return engagement.clear(area, *rest)
 
     monkeypatch.setattr("mechwright_cam.operations.congruent.clear", counted)
     return areas
@@ -131,13 +131,13 @@ def test_a_slot_that_runs_into_another_feature_has_a_plan_of_its_own(planned):
     assert proof.ok, [check.message for check in proof.failures]
 
 
-def test_another_mill_or_no_feature_means_another_plan(planned):
+def test_another_mill_means_another_plan(planned):
     area, one = shapely.Polygon(rounded_box(13, 12, 4).flatten()), pocket(HOOK)
     copies = Copies()
-    asked = ((one, MILL), (one, LIBRARY.get("mill-4")), (None, MILL), (one, MILL))
+    asked = ((one, MILL), (one, LIBRARY.get("mill-4")), (one, MILL))
     found = [copies.clear(feature, area, mill, ANGLE, True) for feature, mill in asked]
-    assert len(planned) == 3
-    assert [len(cavities) for cavities in found] == [1, 1, 1, 1]
+    assert len(planned) == 2
+    assert [len(cavities) for cavities in found] == [1, 1, 1]
 
 
 def test_shapes_that_all_but_touch_stay_valid_when_they_are_moved():

@@ -14,9 +14,9 @@ from planning_simulation import check_rules
 
 from mechwright.contracts.part import Pocket, Profile
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.operations.adaptive import BENDS, clear, straight_layer
-from mechwright_cam.operations.adaptive import engagements as planned
 from mechwright_cam.operations.clearing import COARSE_FROM
+from mechwright_cam.operations.engagement import BENDS, clear, straight_layer
+from mechwright_cam.operations.engagement import engagements as planned
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import FeedArc
 

@@ -22,12 +22,9 @@ from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.operations.holes import plan_bore
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.reach import closing
-from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.zones import inner_zones
-from mechwright_cam.setup.depths import bores
+from mechwright_cam.planning import Assignments, choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings, PathSettings
 from mechwright_cam.shop.table import settings_of
@@ -37,6 +34,11 @@ ZONES = [(0.0, 0.003), (0.001, 0.004), (0.003, 0.003), (0.0045, 0.0045), (0.0, 0
 """The corners of what is allowed, and what goes without saying."""
 DIGITS = 2e-4
 """What the decimals of a program, chords and samples are off, mm."""
+
+
+def tasks_of(job, name):
+    """The tasks of one operation."""
+    return [task for task in Assignments().of(job).every() if task.operation.name == name]
 
 
 def path(inner: float, outer: float, lines: int = 1) -> dict[str, float]:
@@ -147,8 +149,8 @@ def test_tighter_walls_take_no_coarser_mill():
     for zone in ((0.001, 0.004), (0.0, 0.003)):
         wanted = CamSettings.model_validate({"path": path(*zone)})
         of = make_job(plate(machined=(recess,)), wanted, [LIBRARY.get("mill-6"), LIBRARY.get("mill-4")])
-        (found,) = inner_zones(of)
-        assert found.finisher.name == "mill-4"
+        (found,) = tasks_of(of, "clear")
+        assert found.tools[-1].name == "mill-4"
 
 
 def test_round_ends_are_for_neither_ramped_tabs_nor_compensated_bores():
@@ -158,7 +160,8 @@ def test_round_ends_are_for_neither_ramped_tabs_nor_compensated_bores():
         plan(make_job(plate(), ramped, [bull]))
     bored = CamSettings.model_validate({"compensation": "wear"})
     hole = make_job(plate(bore(14)), bored, [bull, LIBRARY.get("mill-5"), LIBRARY.get("spot-6")])
-    assert plan_bore(hole, bores(hole)[0]).mill.name == "mill-5"
+    (found,) = tasks_of(hole, "bore")
+    assert [mill.name for mill in found.tools] == ["mill-5"]
 
 
 @settings(max_examples=6)

@@ -14,7 +14,7 @@ from mechwright.contracts.finding import errors
 from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright_cam.controls.contract import Control
-from mechwright_cam.machining import Machining, machine, measured, second_setup
+from mechwright_cam.machining import Machining, machine, second_setup
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.prepare import cut_plates, library_of
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
@@ -94,7 +94,7 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
             job = second_setup(machine(jobs[0], own), job, own)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library))
-    return prove(text, replace(job, tools=tuple(measured(tool, cam) for tool in library.tools)), reader)
+    return prove(text, replace(job, tools=library.measured(cam.measured.lengths).tools), reader)
 
 
 def _reader(build: Build, name: str) -> Control:

@@ -10,7 +10,8 @@ import shapely
 from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import polygons
+from mechwright_cam.operations.entry import lead_length
+from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
 from mechwright_cam.plane.path import rounded
 from mechwright_cam.plane.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.setup.job import Job, wear_margin
@@ -20,6 +21,12 @@ from mechwright_cam.shop.tool import Tool
 
 REACH_SHARE = 1.5
 """Of the tolerance for stock left on walls, what a larger cutter may leave in their corners besides."""
+FITS = 0.9
+"""A mill is worth choosing where what larger ones leave holds a disc of this share of it."""
+HEAVY = 0.1
+"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
+HANDY = 6.0
+"""Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
@@ -157,10 +164,52 @@ def with_sharper(mills: list[Tool], roomy: list[Tool], enters: Callable[[Tool], 
     return [*(mill for mill in mills if mill.nose < sharpest and enters(mill)), *roomy]
 
 
-def roomy_mills(mills: list[Tool], opening: shapely.Geometry) -> list[Tool]:
+def run_out(mills: Sequence[Tool], settings: CamSettings) -> float:
+    """How far beyond an open edge mills go that finish up to it, mm."""
+    more = settings.stock_to_leave + HEAVY
+    return max(mill.diameter + lead_length(mill, settings) + more for mill in mills)
+
+
+def roomy_mills(mills: Sequence[Tool], opening: shapely.Geometry) -> list[Tool]:
     """The mills that leave room for chips in an opening, largest first; the smallest if none does.
 
     A cutter as wide as a slot would cut with its whole width at every depth, and leave nothing to finish.
     """
     width = 2 * max(entry_place(part)[1] for part in polygons(opening))
-    return [mill for mill in mills if mill.diameter <= ROOMY * width] or mills[-1:]
+    return [mill for mill in mills if mill.diameter <= ROOMY * width] or list(mills[-1:])
+
+
+def finest_needed(
+    mills: Sequence[Tool],
+    keep: shapely.Geometry,
+    settings: CamSettings,
+    near: shapely.Geometry | None = None,
+    fits: Callable[[Tool], bool] = lambda _: True,
+) -> Tool:
+    """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest.
+
+    No mill below ``corner_mill`` is taken for the sake of sharp corners.
+    """
+    most, more = same_reach(settings.path), settings.path.bias + wear_margin(settings)
+    # What a mill leaves only shrinks with its size.
+    clean = bisect_left(mills, True, key=lambda mill: leaves_at_most(keep, mill.radius + more, most, near))
+    for mill in mills[clean:]:
+        if fits(mill):
+            return mill
+    fitting = [mill for mill in mills if fits(mill)]
+    return finishing_choice(_worthwhile(fitting, keep, settings.corner_mill, near), keep, settings, near)
+
+
+def _worthwhile(
+    mills: Sequence[Tool], keep: shapely.Geometry, least: float, near: shapely.Geometry | None
+) -> Sequence[Tool]:
+    """The mills down to ``least``, mm, and finer ones only as far as they fit into what is left."""
+    coarse = [mill for mill in mills if mill.diameter >= least] or list(mills[:1])
+    for finer in mills[len(coarse) :]:
+        # On a grid, for a closing may touch itself, on which exact overlays fail.
+        left = shapely.difference(closing(keep, coarse[-1].radius), keep, grid_size=ROUGH)
+        if near is not None:
+            left = areas(shapely.intersection(areas(left), areas(near)))
+        if not shapely.is_empty(grow(left, -FITS * finer.radius, ROUGH)):
+            coarse.append(finer)
+    return coarse

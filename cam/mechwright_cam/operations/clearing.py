@@ -9,7 +9,7 @@ the way to the nearest wall point crosses that ring. So with steps up to the rad
 
 import math
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import CUSP, SLACK, Zone
 from mechwright_cam.plane.arcfit import fit_all
 from mechwright_cam.plane.buffers import buffered
@@ -102,8 +103,8 @@ class Roughing:
 
     Parameters
     ----------
-    zone
-        Its ``left`` is what has to go.
+    zone, stock
+        Where, and what of it has to go.
     tool
         An end mill.
     allowance
@@ -121,6 +122,7 @@ class Roughing:
     def __init__(
         self,
         zone: Zone,
+        stock: Stock,
         tool: Tool,
         allowance: float,
         step_over: float,
@@ -129,12 +131,11 @@ class Roughing:
         *,
         ridges: bool = False,
     ) -> None:
-        self.zone, self.tool, self.climb, self.only = zone, tool, climb, only
+        self.zone, self.stock, self.tool, self.climb, self.only = zone, stock, tool, climb, only
         coarse = allowance >= COARSE_FROM
         self.chord = ROUGH if coarse else CHORD
         self.fit = COARSE_FIT if coarse else fit_tolerance(zone.path)
         self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
-        self.before = zone.left, zone.over
         self.radius = zone.radius_of(tool)
         self.foot = self.radius if zone.through else float(cutter(tool).radius_at(CUSP))
         self.step = min(step_over, TIGHT) * tool.diameter
@@ -147,16 +148,16 @@ class Roughing:
         self.free = shapely.difference(self.room, self.blocked)
         self.wide = self.foot if self.smooth else self.radius
         self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
-        self.over = zone.over + min(OVERLAP, self.sliver / 2)
+        self.over = stock.over + min(OVERLAP, self.sliver / 2)
         # On a floor with ridges nothing may be taken for cut that is not.
         self.touch = self.foot if ridges else self.radius
         self.reach = grow(self.free, self.foot if ridges else self.radius + self.over, ROUGH)
-        take = areas(shapely.intersection(zone.left if only is None else only, self.reach))
+        take = areas(shapely.intersection(stock.left if only is None else only, self.reach))
         if zone.channel is not None and not coarse:
             take = shapely.intersection(take, grow(zone.channel, -FRAME, ROUGH))
         self.core = buffered(take, -self.sliver, 2)
-        if not shapely.is_empty(zone.waste):
-            self.core = shapely.difference(self.core, grow(zone.waste, self.sliver, ROUGH))
+        if not shapely.is_empty(stock.waste):
+            self.core = shapely.difference(self.core, grow(stock.waste, self.sliver, ROUGH))
 
     def _blocked(self, order: int) -> shapely.Geometry:
         """Where the centre must not be on the ring of this order."""
@@ -165,15 +166,15 @@ class Roughing:
             return self.zone.blocked(self.tool, ring, self.allowance)
         return self.zone.blocked(self.tool, max(self.allowance, self.zone.path.bias) + ring)
 
-    def serves(self, zone: Zone) -> bool:
-        """Whether another layer of the same recess, with the same stock in it, is cut alike."""
-        left, over = self.before
-        return zone.left is left and zone.over == over and shapely.is_empty(zone.ridges) and not self.ridges
+    def serves(self, stock: Stock) -> bool:
+        """Whether another layer of the same recess, with this stock in it, is cut alike."""
+        same = stock.left is self.stock.left and stock.over == self.stock.over
+        return same and shapely.is_empty(stock.ridges) and not self.ridges
 
-    def at(self, zone: Zone) -> "Roughing":
+    def at(self, zone: Zone, stock: Stock) -> "Roughing":
         """The same cut of another layer that it serves."""
         other = copy(self)
-        other.zone = zone
+        other.zone, other.stock = zone, stock
         return other
 
     @property
@@ -185,30 +186,30 @@ class Roughing:
     @property
     def share(self) -> float:
         """Part of what is left that this cut takes."""
-        return self.taken / self.zone.left.area if self.zone.left.area > 0 else 0.0
+        left = self.stock.left.area
+        return self.taken / left if left > 0 else 0.0
 
-    def commit(self) -> None:
-        """Take what this cut removes out of what is left."""
-        zone = self.zone
+    def after(self) -> Stock:
+        """What this cut leaves of the stock."""
         if self.ridges:
-            zone.ridges = areas(shapely.difference(zone.ridges, self.reach))
-            return
-        self._take(self.reach)
-        zone.over = self.over
+            return replace(self.stock, ridges=areas(shapely.difference(self.stock.ridges, self.reach)))
+        return replace(self._without(self.reach), over=self.over)
 
-    def commit_core(self) -> None:
+    def after_core(self) -> Stock:
         """The same for a cut that is only for its core: what it cuts elsewhere does not count."""
-        self._take(areas(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius))))
+        return self._without(
+            areas(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius)))
+        )
 
-    def _take(self, reach: shapely.Geometry) -> None:
-        zone = self.zone
+    def _without(self, reach: shapely.Geometry) -> Stock:
+        stock = self.stock
         if self.foot < self.radius:
-            taken = areas(shapely.intersection(zone.left, reach))
+            taken = areas(shapely.intersection(stock.left, reach))
             if self.smooth:
                 taken = areas(shapely.difference(taken, grow(self.free, self.foot, ROUGH)))
-            zone.ridges = areas(shapely.union(zone.ridges, taken))
-            zone.ridge_height = max(zone.ridge_height, min(self.tool.nose, zone.height))
-        zone.left = areas(shapely.difference(zone.left, reach))
+            ridges = areas(shapely.union(stock.ridges, taken))
+            stock = stock.with_ridges(ridges, min(self.tool.nose, self.zone.height))
+        return replace(stock, left=areas(shapely.difference(stock.left, reach)))
 
     @cached_property
     def cavities(self) -> list[Cavity]:
@@ -219,7 +220,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.zone.standing, self.radius + self.zone.over - CLEAR, ROUGH)
+        near = grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH)
         near = prepared(near)
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
@@ -328,7 +329,7 @@ class Roughing:
         """Write the moves: every cavity level by level, from the zone's top to its bottom."""
         zone = self.zone
         bottom = zone.bottom_for(self.tool)
-        top = bottom + zone.ridge_height if self.ridges else zone.top
+        top = bottom + self.stock.ridge_height if self.ridges else zone.top
         heights = levels(top, bottom, step_down)
         for cavity in self.cavities:
             first = cavity.runs[0]

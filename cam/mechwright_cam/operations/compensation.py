@@ -10,7 +10,7 @@ hop
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -23,12 +23,14 @@ from mechwright.errors import DesignError, ToolError
 from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.contour_writer import ContourWriter, touching
 from mechwright_cam.operations.entry import Lead, lead_length, leads, offsets_of, starts, ways
 from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.zone import HEAVY, Zone
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.contour import contour_beside
 from mechwright_cam.plane.leads import middle_of_longest
 from mechwright_cam.plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
@@ -45,8 +47,8 @@ HALVINGS = 12
 """Bisections of a lead's sweep: its start is found to a thousandth of its length."""
 
 
-def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
-    """Refuse what D cannot move.
+def check_compensated(job: Job, zone: Zone, mill: Tool, *, fills: bool = False) -> None:
+    """Refuse what D cannot move; a groove that the mill ``fills``, say.
 
     Raises
     ------
@@ -69,7 +71,7 @@ def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
             f"cam.stock_to_leave: {leave:g} mm leave no room to move {mill.name} by D in the channel around "
             f'part {job.part.name}; use at least {LEAST_TURN:g} mm, or compensation = "computer"'
         )
-    why = "fills it" if zone.snug else "has a round end" if mill.nose > 0 else ""
+    why = "fills it" if fills else "has a round end" if mill.nose > 0 else ""
     if why:
         raise ToolError(
             f"cam.compensation: {zone.name} of part {job.part.name} cannot be brought to size by D, since "
@@ -77,38 +79,56 @@ def check_compensated(job: Job, zone: Zone, mill: Tool) -> None:
         )
 
 
-def has_entries(job: Job, zone: Zone) -> bool:
-    """Whether the mills that finish a zone have room to enter all of its contours, once it is roughed.
+def has_entries(job: Job, zone: Zone, stock: Stock, mills: Sequence[Tool]) -> bool:
+    """Whether mills that finish a zone have room to enter all of its contours, once it is roughed.
 
     It is what planning asks in the end, but that corners which wider mills leave count as roughed.
     """
     if job.settings.compensation == "computer" or zone.slopes:  # slopes are refused, whatever the mill
         return True
-    for mill in zone.last_mills:
-        roughed = replace(zone)
+    for mill in mills:
         reach = mill.radius + job.settings.stock_to_leave
         free = shapely.difference(zone.room(mill.radius), grow(zone.keep, reach, ROUGH))
         if zone.kind != "outside":
             free = shapely.intersection(free, grow(zone.clear, -mill.radius, ROUGH))
-        roughed.left = shapely.difference(zone.left, grow(free, mill.radius, ROUGH))
+        roughed = stock.without(grow(free, mill.radius, ROUGH))
         try:
-            CompensatedFinishing(roughed, job, mill).enter()
+            CompensatedFinishing(zone, roughed, job, mill).enter()
         except ToolError:
             return False
     return True
 
 
-class CompensatedFinishing:
-    """The finishing of one zone with cutter compensation, when ``left`` holds only what roughing left."""
+def entering(
+    job: Job,
+    zones: Sequence[tuple[Zone, shapely.Geometry]],
+    mills: Sequence[Tool],
+    finishers: tuple[Tool, ...],
+    choose: Callable[[list[Tool]], list[Tool]],
+) -> tuple[Tool, ...]:
+    """Where compensation leaves the mills that finish a wall no room for their entry, finer ones.
 
-    def __init__(self, zone: Zone, job: Job, mill: Tool | None = None) -> None:
-        self.zone, self.job, self.tool = zone, job, mill or zone.finisher
+    ``zones`` are its layers, each with the stock in it. ``choose`` gives those that finish of some ``mills``.
+    The finest is not asked: if it has no room, planning says so.
+    """
+    while finer := [mill for mill in mills if mill.diameter < finishers[-1].diameter]:
+        if all(has_entries(job, zone, Stock(left), finishers) for zone, left in zones):
+            break
+        finishers = tuple(choose(finer))
+    return finishers
+
+
+class CompensatedFinishing:
+    """The finishing of one zone with cutter compensation, whose stock is only what roughing left."""
+
+    def __init__(self, zone: Zone, stock: Stock, job: Job, mill: Tool) -> None:
+        self.zone, self.job, self.tool = zone, job, mill
         check_compensated(job, zone, self.tool)
         self.settings = job.settings
         self.offsets = offsets_of(self.tool, job.settings)
         self.side = 1 if job.settings.climb else -1
         self.leads = leads(self.offsets, self.tool.radius, job.settings.stock_to_leave)
-        self.near = grow(zone.left, self.tool.radius - CLEAR, ROUGH)
+        self.near = grow(stock.left, self.tool.radius - CLEAR, ROUGH)
         room = zone.room(self.tool.radius, finishing=True)
         self.wide = grow(room, CLEAR + self.offsets.limit, ROUGH)
         self.air = self._air() if zone.must is not None else self.wide

@@ -14,8 +14,8 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.adaptive import clear
 from mechwright_cam.operations.cavity import Cavity, Pass
+from mechwright_cam.operations.engagement import clear
 from mechwright_cam.plane.offsets import ROUGH, areas
 from mechwright_cam.plane.path import Path, arc, line, rounded
 from mechwright_cam.shop.tool import Tool
@@ -85,7 +85,7 @@ def turn_between(one: Pocket | Profile, other: Pocket | Profile) -> Turn | None:
     >>> turn_between(slot, across).point((20, 1))
     (-1.0, 20.0)
     """
-    first, second = _corners(one), _corners(other)
+    first, second = corners_of(one), corners_of(other)
     if (one.top, one.depth) != (other.top, other.depth) or len(first) != len(second):
         return None
     middle, centre = first.mean(), second.mean()
@@ -115,15 +115,13 @@ class Copies:
 
     def clear(
         self,
-        feature: Pocket | Profile | None,
+        feature: Pocket | Profile,
         area: shapely.Geometry,
         tool: Tool,
         engagement: float,
         climb: bool,
     ) -> list[Cavity]:
         """Clear the area around a feature; see :func:`mechwright_cam.operations.adaptive.clear`."""
-        if feature is None:
-            return clear(area, tool, engagement, climb)
         for known, place, mill, cavities in self._known:
             turn = turn_between(known, feature) if mill is tool else None
             if turn is not None and same(turn.shape(place), area):
@@ -133,7 +131,8 @@ class Copies:
         return found
 
 
-def _corners(feature: Pocket | Profile) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+def corners_of(feature: Pocket | Profile) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
+    """The corners of a drawing (n,), in the complex plane, mm."""
     loops = (feature.boundary, *feature.islands) if isinstance(feature, Pocket) else (feature.loop,)
     points = np.concatenate([loop.flatten() for loop in loops])
     return np.asarray(points[:, 0] + 1j * points[:, 1], dtype=np.complex128)

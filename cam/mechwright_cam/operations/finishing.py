@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
+from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.wedges import into_wedges
-from mechwright_cam.operations.zone import HEAVY, Zone
+from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
@@ -31,9 +33,9 @@ def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
 
 
 class Finishing:
-    """The finishing of one zone, when ``left`` holds only what roughing left on walls."""
+    """The finishing of one zone, whose stock is only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, settings: CamSettings, tool: Tool, material: str) -> None:
+    def __init__(self, zone: Zone, stock: Stock, settings: CamSettings, tool: Tool, material: str) -> None:
         self.zone, self.settings, self.tool = zone, settings, tool
         self.depth = finish_depth(settings, tool, material)
         self.step_down = tool.cutting[material].step_down * tool.diameter
@@ -44,7 +46,7 @@ class Finishing:
             # Along a tab only as far as the finishing of the wall needs it.
             near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
             self.room = shapely.intersection(self.room, near)
-        self.near = grow(zone.standing, radius + zone.over - CLEAR, ROUGH)
+        self.near = grow(stock.standing, radius + stock.over - CLEAR, ROUGH)
         # Where all of the plate goes, there is nothing but air beyond it.
         beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
         # Leads touch the path they lead to: between that and the wall they may be as wrong as it.

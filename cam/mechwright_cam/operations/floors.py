@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import shapely
 
+from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.setup.job import Job
 
@@ -29,27 +30,18 @@ THIN = 0.2
 """A layer that begins or ends so near to an opening, mm, is not divided there."""
 
 
-def over_openings(job: Job, zone: Zone) -> list[Zone]:
+def over_openings(zone: Zone, stock: Stock) -> list[tuple[Zone, Stock]]:
     """A recess in layers from the top down, each without what earlier setups have opened from below."""
     inside = [
         air.top
-        for air in job.gone
+        for air in stock.gone
         if zone.bottom + THIN < air.top < zone.top - THIN
-        and shapely.intersection(air.shape, zone.left).area > OPENED * zone.left.area
+        and shapely.intersection(air.shape, stock.left).area > OPENED * stock.left.area
     ]
     heights = [zone.top, *sorted(set(inside), reverse=True), zone.bottom]
     found = []
     for place, (top, bottom) in enumerate(pairwise(heights)):
         name = zone.name if place == 0 else f"{zone.name} around the opening"
         layer = replace(zone, name=name, top=top, bottom=bottom)
-        layer.left = shapely.difference(zone.left, job.air_below(top)) if job.gone else zone.left
-        found.append(layer)
+        found.append((layer, stock.without(stock.air_below(top)) if stock.gone else stock))
     return found
-
-
-def layers(zone: Zone, allowance: float) -> tuple[Zone, Zone]:
-    """A recess in two layers: what is roughed, and what is left on its floor."""
-    height = zone.bottom + allowance
-    rough, floor = replace(zone, bottom=height), replace(zone, top=height)
-    rough.left = floor.left = zone.left
-    return rough, floor

@@ -11,19 +11,25 @@ around
     Where the cutter's edge may be: ``must``, and beyond its open stretches a strip to run out into.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeGuard
 
 import shapely
 
 from mechwright.contracts import sections
+from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Bore, Feature, Pocket, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.choice import roomy_mills, run_out
 from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons
 from mechwright_cam.plane.reach import opening_keep
+from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
 
 LEVEL = 1e-6
 """Heights nearer than this are one, mm: far below the last decimal of a program."""
@@ -51,6 +57,11 @@ class Recess:
     open: bool
 
 
+def is_recess(feature: Feature | Detail) -> TypeGuard[Profile | Pocket]:
+    """Whether it is a pocket, or an opening that is not round."""
+    return isinstance(feature, Pocket) or (isinstance(feature, Profile) and feature.side == "inside")
+
+
 def plan_view(feature: Feature) -> shapely.Geometry:
     """What an inside feature takes, seen from above, as it is drawn."""
     if isinstance(feature, Bore):
@@ -59,13 +70,16 @@ def plan_view(feature: Feature) -> shapely.Geometry:
     return sections.plan_view(feature)
 
 
-def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -> Recess:
-    """Look at a feature that is cut down to ``bottom``, z in mm.
+def recess(job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: float = 0.0) -> Recess:
+    """Look at a feature.
 
     Parameters
     ----------
-    run_out
-        How far beyond an open stretch the cutter's edge goes, mm.
+    mills
+        Those that may cut it, largest first.
+    far
+        How far beyond an open stretch the cutter's edge goes, mm; by default as far as the widest mill goes
+        that has room in it.
     """
     shape = plan_view(feature)
     others = _at_least_as_deep(job, feature)
@@ -76,13 +90,16 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     if isinstance(feature, Pocket) and feature.floor_radius > 0:
         _check_alone(job, feature, shape)
     if shapely.contains_properly(edge, shape) and not near:
-        return Recess(shape, opening_keep(shape, 2 * run_out), shape, False)
-    x0, y0, x1, y1 = shape.bounds
-    far = 4 * run_out
-    window = shapely.box(x0 - far, y0 - far, x1 + far, y1 + far)
+        return Recess(shape, opening_keep(shape, 2 * mills[0].diameter), shape, False)
     must = shapely.union_all(polygons(shapely.intersection(shape, inside)))
     if shapely.is_empty(shapely.buffer(must, -TOLERANCES.leftover / 2, quad_segs=2)):
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
+    if shapely.is_empty(must):
+        return Recess(must, must, must, True)
+    far = far or run_out(roomy_mills(mills, must)[:1], job.settings)
+    (x0, y0, x1, y1), wide = shape.bounds, 4 * far
+    window = shapely.box(x0 - wide, y0 - wide, x1 + wide, y1 + wide)
+    bottom = bottom_of(job, feature.top, feature.depth)
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.body, window), shapely.union_all([must, gone]))
     keep = _without_skin(keep)
@@ -90,7 +107,7 @@ def recess(job: Job, feature: Profile | Pocket, run_out: float, bottom: float) -
     if job.frame is not None:
         tabs.append(shapely.intersection(job.frame.holds, window))
     keep = shapely.union_all([*polygons(keep), *tabs])
-    free = polygons(shapely.difference(grow(must, run_out, ROUGH), keep))
+    free = polygons(shapely.difference(grow(must, far, ROUGH), keep))
     around = shapely.union_all([part for part in free if shapely.intersects(part, must)])
     return Recess(must, keep, around, True)
 
@@ -156,12 +173,13 @@ def _without_skin(keep: shapely.Geometry) -> shapely.Geometry:
 
     The tip of a sharp wedge is as thin, but short. Choice, findings and plan ask for the same shapes.
     """
-    thin = shapely.get_parts(shapely.difference(keep, opened(keep, SKIN / 2))).tolist()
-    skin = [part for part in thin if part.length > LONG or part.area < FILM * part.length]
-    if not skin:
+    thin = shapely.get_parts(shapely.difference(keep, opened(keep, SKIN / 2)))
+    length, area = shapely.length(thin), shapely.area(thin)
+    found = (length > LONG) | (area < FILM * length)
+    if not found.any():
         return keep
     # What is thinner than numbers can tell has come out as lines.
-    bodies = [part if part.area > 0 else shapely.buffer(part, FILM, quad_segs=1) for part in skin]
+    bodies = [*thin[found & (area > 0)], *shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)]
     return shapely.union_all(polygons(shapely.difference(keep, shapely.union_all(bodies))))
 
 

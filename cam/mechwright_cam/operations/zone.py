@@ -6,21 +6,18 @@ keep
     What must stay.
 clear
     What must go, from ``top`` to ``bottom``.
-left
-    What of ``clear`` the planned cuts have not reached yet.
 room
     Where the centre of a cutter may be, apart from the distance to ``keep``.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Literal
 
 import shapely
 
-from mechwright.contracts.part import Pocket, Profile
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.choice import radius_in
+from mechwright_cam.operations.choice import HEAVY, radius_in, roughers
 from mechwright_cam.operations.recess import Layer
 from mechwright_cam.plane.offsets import CHORD, ROUGH, grow, simplified, sound, thinned
 from mechwright_cam.setup.holding import Tab
@@ -44,13 +41,10 @@ SNUG = TOLERANCES.gouge - TOLERANCES.arc_fit - 3 * TOLERANCES.flatten
 """A groove may be so much narrower on each side than the mill that makes it, mm: what the path and the
 outline leave of the permitted gouge."""
 
-HEAVY = 0.1
-"""Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 
-
-@dataclass
+@dataclass(frozen=True, eq=False)
 class Zone:
-    """A wall and the stock in front of it; shapes in work coordinates, heights z in mm."""
+    """A wall and what has to go in front of it; shapes in work coordinates, heights z in mm."""
 
     name: str
     wall: shapely.Geometry
@@ -58,17 +52,15 @@ class Zone:
     clear: shapely.Geometry
     top: float
     bottom: float
-    mills: list[Tool]
-    """Those long enough, and for an outside with a channel that leaves a frame; largest first."""
-    finisher: Tool
-    """The mill that finishes the wall."""
     kind: Literal["outside", "inside", "pocket"]
-    through: bool
-    """Whether nothing of the plate stays below."""
-    path: PathSettings = field(kw_only=True)
+    mills: tuple[Tool, ...]
+    """Those long enough, and for an outside with a channel that leaves a frame; largest first."""
+    finishers: tuple[Tool, ...]
+    """Those that finish the wall, one after the other: the last one is the finest."""
+    path: PathSettings
     """How exact the wall is to be."""
-    feature: Pocket | Profile | None = None
-    """What it is in the drawing, inside."""
+    below: bool
+    """Whether the cut ends below the underside of the plate."""
     must: shapely.Geometry | None = None
     """The feature itself, where ``clear`` runs out beyond its open stretches."""
     channel: shapely.Geometry | None = None
@@ -77,43 +69,38 @@ class Zone:
     """What of the tabs stands between these heights."""
     slopes: tuple[Tab, ...] = ()
     """Ramped tabs between these heights: the cutter goes over them."""
-    below: bool = False
-    """Whether the cut ends below the underside of the plate."""
-    before: tuple[Tool, ...] = ()
-    """Mills with sharper corners that finish before the finisher, which is a finer round one."""
     walls: tuple[Layer, ...] = ()
     """What stands around a recess from its floor up, where round mills are to make it."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
-    snug: bool = False
-    """Whether the finisher is just as wide as the groove, and makes it in one go."""
-    waste: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
-    """Stock of ``left`` that need not go."""
-    left: shapely.Geometry = field(init=False)
-    over: float = field(default=0.0, init=False)
-    """By how much more than the cutters reached may be missing in ``left``, mm."""
-    begun: bool = field(default=False, init=False)
-    """Whether an end mill has been in it."""
-    ridges: shapely.Geometry = field(default_factory=shapely.Polygon, init=False)
-    """Where round mills have cleared all but the floor: fillets at its edge, cusps between their cuts."""
-    ridge_height: float = field(default=0.0, init=False)
-    """Height of the ridges above the floor, mm."""
-    _rough: dict[tuple[float, float], shapely.Geometry] = field(default_factory=dict, init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        self.left = self.clear
 
     @cached_property
     def keep(self) -> shapely.Geometry:
         """What must stay."""
         return self.wall if self.tabs is None else shapely.union(self.wall, self.tabs)
 
-    def forget_waste(self, mill: Tool, allowance: float) -> None:
-        """After a mill has roughed: what it left beside tabs, away from the part, stays with the frame."""
-        if self.tabs is not None:
-            beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
-            band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
-            self.waste = shapely.difference(beside, band)
+    @property
+    def through(self) -> bool:
+        """Whether nothing of the plate stays below."""
+        return self.below or self.kind == "outside"
+
+    @property
+    def finisher(self) -> Tool:
+        """The finest of the mills that finish."""
+        return self.finishers[-1]
+
+    @property
+    def tools(self) -> tuple[Tool, ...]:
+        """All mills that have something to do, in the order of their work."""
+        return (*roughers(self.mills, self.finishers), *self.finishers)
+
+    def waste(self, mill: Tool, allowance: float) -> shapely.Geometry:
+        """What a mill that roughs leaves beside tabs, away from the part: it stays with the frame."""
+        if self.tabs is None:
+            return shapely.Polygon()
+        beside = grow(self.tabs, mill.diameter + allowance, ROUGH)
+        band = grow(self.thinned, self.finisher.diameter + allowance + HEAVY, ROUGH)
+        return shapely.difference(beside, band)
 
     @property
     def in_the_open(self) -> bool:
@@ -159,25 +146,9 @@ class Zone:
         return max(allowance, self.floor_radius - mill.nose)
 
     @property
-    def standing(self) -> shapely.Geometry:
-        """Where a cutter that goes down to the floor meets stock."""
-        return self.left if shapely.is_empty(self.ridges) else shapely.union(self.left, self.ridges)
-
-    @property
-    def last_mills(self) -> tuple[Tool, ...]:
-        """The mills that finish, one after the other."""
-        return (*self.before, self.finisher)
-
-    @property
     def reach_radius(self) -> float:
         """Radius of the finisher as far as it reaches into corners, mm."""
-        return self.radius_of(self.finisher) - (SNUG if self.snug else 0.0)
-
-    def leave_ridges(self, mill: Tool, cleared: shapely.Geometry, closely: shapely.Geometry) -> None:
-        """Note what a round mill leaves on the floor of a region that it has cleared, in parts closely."""
-        if mill.nose > 0 and not self.through:
-            self.ridges = shapely.union(self.ridges, shapely.difference(cleared, closely))
-            self.ridge_height = max(self.ridge_height, min(mill.nose, self.height))
+        return self.radius_of(self.finisher)
 
     def room(self, radius: float, slack: float = 0.0, *, finishing: bool = False) -> shapely.Geometry:
         """Where the centre of a cutter of this radius may be, and ``slack`` beyond."""
@@ -196,14 +167,20 @@ class Zone:
         With a ``radius`` it is what the centre of a cutter must not enter: grown by that, tabs apart, for the
         layers above and below their tops have the same wall.
         """
-        if (allowance, radius) not in self._rough:
+        known = self._rough
+        if (allowance, radius) not in known:
             wall = _with_allowance(self.thinned, allowance)
             if radius > 0:
                 wall = _grown(wall, radius)
             if self.tabs is not None:
                 wall = shapely.union(wall, grow(self.tabs, min(allowance, TAB_SLACK) + radius, ROUGH))
-            self._rough[allowance, radius] = wall
-        return self._rough[allowance, radius]
+            known[allowance, radius] = wall
+        return known[allowance, radius]
+
+    @cached_property
+    def _rough(self) -> dict[tuple[float, float], shapely.Geometry]:
+        """What :meth:`rough_keep` has given."""
+        return {}
 
     @cached_property
     def thinned(self) -> shapely.Geometry:

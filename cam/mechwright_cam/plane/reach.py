@@ -86,6 +86,7 @@ def _walls(keep: shapely.Geometry) -> Array:
     return points
 
 
+@lru_cache(maxsize=32)
 def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
     """Places (n, 2) on the edge of a shape, or those of them that stand on another shape."""
     points = _walls(keep)

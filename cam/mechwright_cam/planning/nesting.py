@@ -15,8 +15,8 @@ import shapely
 from mechwright.contracts.part import Part, check_name
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, MechwrightError
-from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.zones import channel_width
+from mechwright_cam.operations.channel import channel_width
+from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from mechwright_cam.setup.sides import sides

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mechwright.contracts.part import Bore
-from mechwright_cam.operations.holes import point_length
+from mechwright_cam.operations.drilling import point_length
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.tool import Tool

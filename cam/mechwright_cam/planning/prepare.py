@@ -8,6 +8,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, err
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged
 from mechwright_cam.planning.setups import lay_out_setups
@@ -58,8 +59,12 @@ def library_of(design: Design) -> Library:
     return library.cutting(settings.cam.cutting)
 
 
-def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[Job]]:
+def prepare(
+    design: Design, parts: Sequence[Part], assignments: Assignments
+) -> tuple[list[Finding], list[Job]]:
     """Choose cutters and lay the plates among the parts into their stock.
+
+    ``assignments`` keeps who cuts what.
 
     Returns
     -------
@@ -75,7 +80,9 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     jobs: list[Job] = []
     for part in cut:
         cam = settings_of(design).of(part.name)
-        laid, found = lay_out_setups(part, cam, library.cutting(cam.cutting))
+        laid, found = lay_out_setups(
+            part, cam, library.cutting(cam.cutting).measured(cam.measured.lengths), assignments
+        )
         found = [*found, *(finding for job in laid for finding in check_machine(job))]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
@@ -83,19 +90,19 @@ def prepare(design: Design, parts: Sequence[Part]) -> tuple[list[Finding], list[
     findings += check_measured(jobs)
     tops = [job for job in jobs if job.side == "top"]
     if len(tops) == len(cut):
-        findings += _as_cut(design, tops)
+        findings += _as_cut(design, tops, assignments)
         findings += _unused_data(design, jobs)
     return at_stage(Stage.MACHINING, findings), jobs
 
 
-def _as_cut(design: Design, tops: Sequence[Job]) -> list[Finding]:
+def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> list[Finding]:
     """What the family says of the parts as the cutters leave them.
 
     The copies of a part in a nest may be left different by their neighbours: the family sees all.
     """
     copies: dict[str, list[shapely.Polygon]] = {}
     for job in tops:
-        for name, outline in parts_as_cut(job):
+        for name, outline in parts_as_cut(job, assignments):
             copies.setdefault(name, []).append(outline)
     findings: list[Finding] = []
     for number in range(max(map(len, copies.values()), default=0)):
@@ -121,9 +128,9 @@ def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
     ]
 
 
-def parts_as_cut(job: Job) -> list[tuple[str, shapely.Polygon]]:
+def parts_as_cut(job: Job, assignments: Assignments) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
-    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job)]
+    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
     if isinstance(job.part, Nest):
         return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
     return [(job.part.name, cut[0])]

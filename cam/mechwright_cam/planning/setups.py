@@ -23,7 +23,8 @@ from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright_cam.plane.offsets import ROUGH, filled, grow
-from mechwright_cam.planning import lay_out
+from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.remarks import lay_out
 from mechwright_cam.setup.job import LEVEL, Air, Job
 from mechwright_cam.setup.sides import SIGNS, _over, sides
 from mechwright_cam.setup.thin_floors import thin_floors
@@ -34,7 +35,7 @@ from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS
 
-FRAME = 3.0
+DOWEL_FRAME = 3.0
 """Stock between the channel around the part and a dowel's wall, mm: what holds the tabs."""
 
 UNDERSIDE = "-underside"
@@ -44,20 +45,23 @@ WALL = 3.0
 """Stock around a dowel hole, mm: it must not break out under the dowel."""
 
 
-def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple[list[Job], list[Finding]]:
+def lay_out_setups(
+    part: Part, settings: CamSettings, library: Library, assignments: Assignments | None = None
+) -> tuple[list[Job], list[Finding]]:
     """The jobs of a part: one, or a second one for the underside; with all findings.
 
     There are fewer jobs if a finding is an error.
     """
+    assignments = assignments or Assignments()
     try:
         upper, under = sides(part)
     except DesignError as error:
         return [], [_refusal("cam", str(error))]
     if not under:
-        job, found = lay_out(part, settings, library)
+        job, found = lay_out(part, settings, library, (), assignments)
         return ([], found) if job is None else ([job], [*found, *thin_floors(part, upper, ())])
     first = replace(part, machined=upper)
-    job, found = lay_out(first, settings, library, under)
+    job, found = lay_out(first, settings, library, under, assignments)
     if job is None:
         return [], found
     try:
@@ -65,10 +69,10 @@ def lay_out_setups(part: Part, settings: CamSettings, library: Library) -> tuple
             settings = _with_room(job)
             dowels = _dowels(job, settings)
             first = replace(part, machined=(*dowels, *upper))
-            job, found = lay_out(first, settings, library, (*under, *dowels))
+            job, found = lay_out(first, settings, library, (*under, *dowels), assignments)
             if job is None:
                 return [], found
-        second, more = _second(job, part, under, library)
+        second, more = _second(job, part, under, library, assignments)
     except DesignError as error:
         parameter, _, message = str(error).partition(": ")
         return [], [*found, _refusal(parameter, message)]
@@ -81,7 +85,7 @@ def _refusal(parameter: str, message: str) -> Finding:
 
 
 def _second(
-    first: Job, part: Part, under: Sequence[Feature], library: Library
+    first: Job, part: Part, under: Sequence[Feature], library: Library, assignments: Assignments
 ) -> tuple[Job | None, list[Finding]]:
     """The job of the underside: the plate is the part, and keeps all but the underside's features."""
     side = first.settings.second_side
@@ -124,7 +128,7 @@ def _second(
         "post": post.model_copy(update={"offsets": post.offsets and side.x is not None}),
     }
     settings = first.settings.model_copy(update=changes)
-    job, found = lay_out(over, settings, library)
+    job, found = lay_out(over, settings, library, (), assignments)
     if job is None or errors(found):
         return None, found
     located: list[Bore] = []
@@ -135,7 +139,7 @@ def _second(
             located = dowels
     turned = (turned_point(bore.centre, side.flip) for bore in located)
     pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
-    return replace(job, side="underside", pick_up=pick_up), found
+    return assignments.carry(job, replace(job, side="underside", pick_up=pick_up)), found
 
 
 def _frame(first: Job, dowels: Sequence[Bore], flip: Literal["x", "y"]) -> Frame:
@@ -167,7 +171,7 @@ def _with_room(job: Job) -> CamSettings:
     if settings.stock != Stock():
         return settings
     widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    margin = widest + FRAME + WALL + side.dowel_diameter + WALL
+    margin = widest + DOWEL_FRAME + WALL + side.dowel_diameter + WALL
     return settings.model_copy(update={"stock": Stock(margin=math.ceil(margin))})
 
 
@@ -184,7 +188,7 @@ def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
     inset = WALL + diameter / 2
     along = (x0 - mx + inset, x1 + mx - inset) if side.flip == "x" else (y0 - my + inset, y1 + my - inset)
     widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    need = widest + FRAME + WALL + diameter + WALL
+    need = widest + DOWEL_FRAME + WALL + diameter + WALL
     if (mx if side.flip == "x" else my) < need:
         raise DesignError(
             f"cam.stock: dowels of {diameter:g} mm on the {side.flip.upper()} axis need {need:.1f} mm of "

@@ -12,7 +12,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, moved_feature
 from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.setup.tabs import lay_tabs
-from mechwright_cam.setup.vice import lay_jaws
+from mechwright_cam.setup.vice import CLAMP_GAP, lay_jaws
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool
 
@@ -82,3 +82,16 @@ def _clamp(job: Job) -> Clamp:
         )
     hold = job.settings.hold
     return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
+
+
+def check_clamp(job: Job) -> None:
+    """Raise DesignError if the clamp comes too near to the outside."""
+    if job.clamp is None:
+        return
+    reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
+    limit = 2 * (float(reach) - CLAMP_GAP)
+    if job.clamp.diameter > limit:
+        raise DesignError(
+            f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
+            f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
+        )

@@ -80,6 +80,16 @@ class Library:
         """
         return self.extended(tuple(_changed(self.get(name), change) for name, change in changes.items()))
 
+    def measured(self, lengths: Mapping[str, float]) -> "Library":
+        """The library with lengths as measured, mm, by the name of the tool."""
+        known = ((tool, lengths.get(tool.name, tool.length)) for tool in self.tools)
+        return Library(
+            tuple(
+                tool if length == tool.length else tool.model_copy(update={"length": length})
+                for tool, length in known
+            )
+        )
+
 
 def _changed(tool: Tool, change: CuttingChange) -> Tool:
     said = change.model_dump(exclude_none=True)

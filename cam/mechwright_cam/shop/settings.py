@@ -73,6 +73,9 @@ class CamSettings(Parameters):
     tools: tuple[str, ...] = Field(
         (), description="Names of the cutters to use; empty: chosen from the library."
     )
+    operations: tuple[str, ...] = Field(
+        (), description="Names of operations that are asked before the built-in ones."
+    )
     tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
     cutting: dict[str, CuttingChange] = Field(
         default_factory=dict, description="Tool name to cutting data, over those of the library."

@@ -2,11 +2,11 @@ import re
 from dataclasses import replace
 
 import pytest
-from mechwright_cam.pipeline import machine
 from mechwright_larch.control import Larch
 
 from mechwright import ProgramError, host
 from mechwright_cam.controls.fanuc import Fanuc
+from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet import setup_html, summary_html
 from mechwright_cam.proof import prove
 from mechwright_cam.shop.posting import Compensation

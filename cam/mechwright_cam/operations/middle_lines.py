@@ -1,8 +1,6 @@
-"""Grooves just as wide as the mill that makes them: along their middle, pass by pass.
+"""The middle lines of recesses just as wide as a mill: where its centre runs.
 
-There is no room for an allowance, a lead or a second cut: the mill goes down on a ramp along the groove, to
-and fro, or round and round where the groove is closed in itself. Where the groove leaves the part it runs
-straight on, until all of the mill is out.
+Where such a recess leaves the part its line runs straight on, until all of the mill is out.
 """
 
 import math
@@ -11,13 +9,10 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
-from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.recess import plan_view
 from mechwright_cam.operations.zone import SNUG, Zone
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import CHORD, FIT, ROUGH, densified, grow, polygons
 from mechwright_cam.plane.path import Path
-from mechwright_cam.shop.settings import CamSettings
 
 PAST = 0.5
 """The mill runs out of an open end by this more than its radius, mm."""
@@ -25,33 +20,13 @@ FAR = 20.0
 """A slanted mouth is looked for so many radii ahead: at 87 degrees it is as long."""
 
 
-def groove(zone: Zone, settings: CamSettings, pen: Pen, step_down: float) -> None:
-    """Write the passes of one zone."""
-    heights = levels(zone.top, zone.bottom, step_down)
-    heights += heights[-1:] * settings.spring_passes
-    for path in ways(zone, pen.tool.radius, settings.climb):
-        to_and_fro(pen, path, zone.top, heights)
-    pen.retract()
-
-
-def to_and_fro(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
-    """Passes along a groove, at one height after the other; a closed one is run round and round."""
-    pen.above(path.start)
-    pen.sink(top)
-    for z in heights:
-        pen.ramp(path, z)
-        pen.follow(path)
-        path = path if path.closed else path.reversed()
-
-
-def ways(zone: Zone, radius: float, climb: bool) -> list[Path]:
-    """The middle lines of a groove that a mill of this radius fills."""
+def middle_lines(zone: Zone, drawn: shapely.Geometry, radius: float, climb: bool) -> list[Path]:
+    """The middle lines of a groove, ``drawn`` like this, that a mill of this radius fills."""
     free, must = zone.clear, zone.clear
-    if zone.must is not None and zone.feature is not None:
+    if zone.must is not None:
         # Over the edge it goes on as it is drawn, until all of the mill is out.
         must = zone.must
-        drawn = grow(plan_view(zone.feature), SNUG - radius)
-        free = shapely.intersection(drawn, grow(must, radius + PAST, ROUGH))
+        free = shapely.intersection(grow(drawn, SNUG - radius), grow(must, radius + PAST, ROUGH))
     found = []
     for part in polygons(shapely.difference(free, grow(zone.keep, radius - SNUG))):
         ring = shapely.get_coordinates(part.exterior)
