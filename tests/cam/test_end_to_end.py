@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_control import interpret
+from by_control import interpret, prove
 from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
@@ -174,10 +174,10 @@ def test_a_gouge_of_20_micrometres_is_found_and_one_of_none_is_not(example: Mach
     finisher = example.program.sections[-1].tool
     thicker = finisher.model_copy(update={"diameter": finisher.diameter + 0.04})
     tools = tuple(thicker if tool.name == finisher.name else tool for tool in example.job.tools)
-    proof = pipeline.prove(example.text, replace(example.job, tools=tools))
+    proof = prove(example.text, replace(example.job, tools=tools))
     assert {failure.name for failure in proof.failures} >= {"gouge"}
     assert proof.gouge_max_mm == pytest.approx(0.02, abs=0.004)
-    assert pipeline.prove(example.text, example.job).ok
+    assert prove(example.text, example.job).ok
 
 
 def test_a_program_that_cannot_be_read_is_refused_with_its_line(example: Machined) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, rounded_box
@@ -120,7 +121,7 @@ def test_random_nests_are_planned_and_proven(seed):
             keep = not line.startswith(f"(operation: {last} outside")
         if keep or line.startswith(("T", "G43", "G53", "M")):
             text.append(line)
-    failed = {check.name for check in pipeline.prove("".join(text), job).failures}
+    failed = {check.name for check in prove("".join(text), job).failures}
     assert {"leftover", "depth"} <= failed
 
 
@@ -130,10 +131,10 @@ def test_the_program_of_a_nest_is_none_for_one_of_its_parts():
     nest = nest_of("nest", plates, wanted, 2 * channel_of(plates, wanted, LIBRARY) + 3.0)
     job = make_job(nest, wanted, choose_tools(nest, wanted, LIBRARY))
     text = pipeline.machine(job, POST).text
-    assert pipeline.prove(text, job).checks["beside"].passed
+    assert prove(text, job).checks["beside"].passed
     # The first of them lies at the nest's origin, where the part alone would lie.
     alone = make_job(plates[0], wanted, job.tools)
-    found = pipeline.prove(text, alone).checks["beside"]
+    found = prove(text, alone).checks["beside"]
     assert not found.passed
     assert found.line is not None
     assert "mm outside of the stock" in found.message
