@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 
 from mechwright.plugins import hookspecs
+from mechwright_cam.controls.contract import Control
 
 ROOT = Path(__file__).parents[1]
 TEMPLATE = ROOT / "examples" / "plugin-template"
+CONTROL_TEMPLATE = ROOT / "examples" / "control-template"
 PLUGINS = ROOT / "docs" / "plugins.md"
 
 SKIPPED = {"node_modules", "build", "dist", "out", "__pycache__"}
@@ -70,14 +72,15 @@ def public_classes():
 
 def test_every_public_class_of_the_contracts_is_documented():
     names = sorted(set(public_classes()))
-    assert {"Family", "Post", "Exporter", "FamilyContract", "Outline", "Finding"} <= set(names)
+    assert {"Family", "Exporter", "FamilyContract", "Outline", "Finding"} <= set(names)
     text = PLUGINS.read_text(encoding="utf-8")
     assert [name for name in names if not re.search(rf"`{name}\b", text)] == []
 
 
 @pytest.mark.parametrize(("name", "quote"), QUOTES, ids=[f"{n}-{name}" for n, (name, _) in enumerate(QUOTES)])
 def test_quotes_are_the_template_word_for_word(name, quote):
-    source = (TEMPLATE / name).read_text(encoding="utf-8")
+    holds = [template for template in (TEMPLATE, CONTROL_TEMPLATE) if (template / name).is_file()]
+    source = "\n".join((template / name).read_text(encoding="utf-8") for template in holds)
     assert f"\n{quote}" in f"\n{source}", f"{name} does not hold these lines:\n{quote}"
 
 
@@ -85,6 +88,13 @@ def test_the_walk_visits_every_module_of_the_template():
     modules = {path.name for path in (TEMPLATE / "src").rglob("*.py")} - {"__init__.py"}
     assert modules <= {Path(name).name for name, _ in QUOTES}
     assert {"pyproject.toml", "test_scotch_yoke.py"} <= {Path(name).name for name, _ in QUOTES}
+
+
+def test_every_member_of_a_control_is_documented():
+    text = PLUGINS.read_text(encoding="utf-8")
+    members = [name for name in {**vars(Control), **Control.__annotations__} if not name.startswith("_")]
+    assert len(members) > 15
+    assert [name for name in members if f"`{name}`" not in text] == []
 
 
 def headings(path):

@@ -5,6 +5,7 @@ A control is a subclass that says how it spells what differs, and how it reads (
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
@@ -51,19 +52,9 @@ class GcodeControl(Sections):
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
         return tuple(unmet(settings, self))
 
-    def read(
-        self,
-        program: str | Mapping[str, str],
-        *,
-        block_delete: bool = False,
-        upper_end: float = 0.0,
-        diameters: Mapping[int, float] | None = None,
-    ) -> Run:
+    def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
         """Run a program by the rules of the control's dialect."""
-        dialect = replace(self.dialect, name=self.title)
-        return interpret_files(
-            program, dialect, block_delete=block_delete, upper_end=upper_end, diameters=diameters
-        )
+        return interpret_files(program, replace(self.dialect, name=self.title), **settings)
 
     def head(self, out: Writer) -> None:
         """Write what the operator has to know before the start."""

@@ -1,11 +1,11 @@
 """LinuxCNC 2.9 and later, from its documents and sources."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.corners import Corners
-from mechwright_cam.controls.dialect import FEEDS, RETURN, Dialect
+from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
@@ -13,11 +13,6 @@ from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
-
-_MOTION = {0, 10, 20, 30, 730, 800, 810, 820, 830, 850, 890}
-_PLANE_UNITS = {170, 180, 190, 200, 210}
-_OFFSETS = {100, 400, 410, 411, 420, 421, 430, 431, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593}
-_MODES = {40, 280, 530, 610, 611, 640, 900, 901, 910, 911, 940, 980, 990}
 
 
 class LinuxCnc(GcodeControl):
@@ -32,7 +27,7 @@ class LinuxCnc(GcodeControl):
         macros=Macros,
         # Without P, or without any word, it keeps up its speed however far it leaves the path.
         corners=Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True),
-        g_codes=frozenset(_MOTION | _PLANE_UNITS | _OFFSETS | _MODES),
+        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911},
         unsupported=(
             (RETURN, "retract with G53 G0 Z0 or G28"),
             (840, "tapping is not simulated"),
@@ -63,20 +58,17 @@ class LinuxCnc(GcodeControl):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``tool.tbl``: pocket, length, diameter and name; a length not measured yet stands at 0."""
-        return "tool.tbl", "".join(_row(tool, tool.number, tool.diameter) for tool in _each(tools))
+        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
-        rows = {tool.number: _row(tool, tool.number, tool.diameter) for tool in tools}
-        for d in self.offsets.of_tools(_each(tools), settings):
-            rows[d.number] = _row(d.tool, d.number, d.planned, f" D of T{d.tool.number}")
-        return "tool.tbl", "".join(rows[number] for number in sorted(rows))
+        return _table(self.offsets.rows(tools, settings))
 
 
-def _each(tools: Sequence[Tool]) -> list[Tool]:
-    return sorted({tool.number: tool for tool in tools}.values(), key=lambda tool: tool.number)
-
-
-def _row(tool: Tool, place: int, diameter: float, note: str = "") -> str:
-    length = number(tool.length or 0.0)
-    return f"T{place} P{place} Z{length} D{number(diameter)} ;{tool.name} {tool.kind}{note}\n"
+def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
+    return "tool.tbl", "".join(
+        f"T{place} P{place} Z{number(tool.length or 0.0)} D{number(value)} "
+        + " ".join(filter(None, (f";{tool.name} {tool.kind}", note)))
+        + "\n"
+        for place, (tool, value, note) in sorted(rows.items())
+    )

@@ -40,23 +40,21 @@ class Mach3(GcodeControl):
 
     def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
         """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
-        return _table({tool.number: (tool, "", tool.diameter) for tool in tools})
+        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
 
     def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
         """The same with the diameters that D takes: an own row where D has a number of its own."""
-        rows = {tool.number: (tool, "", tool.diameter) for tool in tools}
-        for d in self.offsets.of_tools(tools, settings):
-            rows[d.number] = d.tool, f", D of T{d.tool.number}", d.planned
-        return _table(rows)
+        return _table(self.offsets.rows(tools, settings))
 
 
-def _table(rows: Mapping[int, tuple[Tool, str, float]]) -> tuple[str, str]:
+def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["tool", "description", "diameter", "height"])
-    for place, (tool, note, diameter) in sorted(rows.items()):
+    for place, (tool, diameter, note) in sorted(rows.items()):
         height = "" if tool.length is None else number(tool.length)
-        table.writerow([place, f"{tool.name} {tool.kind}{note}", number(diameter), height])
+        words = ", ".join(filter(None, (f"{tool.name} {tool.kind}", note)))
+        table.writerow([place, words, number(diameter), height])
     return "mach3-tools.csv", text.getvalue()
 
 

@@ -69,6 +69,13 @@ class OffsetTables:
         planned = cam.post, cam.compensation, cam.wear_limit
         return [self.d_offset(tool, *planned) for tool in tools if tool.kind is ToolKind.END_MILL]
 
+    def rows(self, tools: Sequence[Tool], cam: CamSettings) -> dict[int, tuple[Tool, float, str]]:
+        """A table whose D are numbers of tools: to each number the tool, its diameter or D, and a note."""
+        rows = {tool.number: (tool, tool.diameter, "") for tool in tools}
+        return rows | {
+            d.number: (d.tool, d.planned, f"D of T{d.tool.number}") for d in self.of_tools(tools, cam)
+        }
+
     def d_offset(self, tool: Tool, posting: Posting, compensation: Compensation, wear: float) -> DOffset:
         """The D offset of a tool, when its radius may be off by ``wear`` mm; ValueError if there is none.
 

@@ -64,7 +64,7 @@ class Build:
     A build is closed when it is done with, so that what runs beside it ends.
     """
 
-    def __init__(self, design: Design | Path, host: Host, wanted: Wanted = Wanted()) -> None:  # noqa: B008
+    def __init__(self, design: Design | Path, host: Host, wanted: Wanted = Wanted()) -> None:
         self.host, self.wanted = host, wanted
         self.path = design.path if isinstance(design, Design) else design
         self.faults: list[str] = []
