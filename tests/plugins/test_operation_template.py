@@ -16,7 +16,7 @@ def run(*arguments):
     return subprocess.run(
         [sys.executable, *map(str, arguments)],
         cwd=TEMPLATE,
-        env={**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"},
+        env={**os.environ, "PYTHONPATH": path, "MYPYPATH": str(TEMPLATE / "src"), "PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True,
         text=True,
         check=False,
@@ -37,5 +37,6 @@ def test_it_is_one_file_and_a_registration():
 
 def test_its_types_are_right():
     pytest.importorskip("mypy", reason="mypy is not installed")
-    done = run("-m", "mypy", "--strict", "--cache-dir", os.devnull, TEMPLATE / "src")
+    bases = ("--explicit-package-bases", "--cache-dir", os.devnull)
+    done = run("-m", "mypy", "--strict", *bases, TEMPLATE / "src")
     assert done.returncode == 0, done.stdout + done.stderr

@@ -73,6 +73,8 @@ class Zone:
     """What stands around a recess from its floor up, where round mills are to make it."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
+    like: "Zone | None" = None
+    """The zone of which it is a turned copy: the same mills reach as much of both."""
 
     @cached_property
     def keep(self) -> shapely.Geometry:
