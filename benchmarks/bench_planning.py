@@ -19,7 +19,7 @@ from mechwright_cam import planning
 from mechwright_cam.planning.prepare import plates, prepare
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "geneva-cycloidal.toml"
-ANCHOR, BEFORE = "a star of 2,000 corners, grown and shrunk", 5.0
+ANCHOR, BEFORE = "a star of 2,000 corners, grown and shrunk", 20.8
 """What planning took on the last version that asked again and again, in anchors."""
 
 

@@ -26,6 +26,7 @@ OVERRIDES = {
     "work_offset": "G57",
     "origin": "corner",
     "tools": ["mill-3"],
+    "operations": ["adaptive"],
     "cutting": {"mill-3": {"step_down": 0.3}},
     "climb": False,
     "coolant": "off",

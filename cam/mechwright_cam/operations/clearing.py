@@ -25,7 +25,7 @@ from mechwright_cam.operations.zone import CUSP, SLACK, Zone
 from mechwright_cam.plane.arcfit import fit_all
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.plane.offsets import (
-    CHORD,
+    FINE,
     ROUGH,
     Piece,
     areas,
@@ -45,7 +45,7 @@ SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
 FLOOR_SLIVER = TOLERANCES.leftover / 4
 """The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
-FRAME = 0.05
+FRINGE = 0.05
 """What the far side of a channel keeps, mm, belongs to the frame. Exact rings that reach just as far would
 leave hundreds of threads there, and to grow them takes longer than all the rest."""
 CLEAR = 0.01
@@ -59,7 +59,7 @@ lines again."""
 COARSE_FROM = 8 * ROUGH
 """From this allowance on the wall is far enough away for thinned paths, mm: twice of what outline, offset,
 thinning and fit may be off together."""
-BESIDE = 1.5
+NEXT_RING = 1.5
 """The next ring is beside the present one if its start is within this many steps."""
 TIGHT = 0.49
 """Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
@@ -133,7 +133,7 @@ class Roughing:
     ) -> None:
         self.zone, self.stock, self.tool, self.climb, self.only = zone, stock, tool, climb, only
         coarse = allowance >= COARSE_FROM
-        self.chord = ROUGH if coarse else CHORD
+        self.chord = ROUGH if coarse else FINE
         self.fit = COARSE_FIT if coarse else fit_tolerance(zone.path)
         self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
         self.radius = zone.radius_of(tool)
@@ -154,7 +154,7 @@ class Roughing:
         self.reach = grow(self.free, self.foot if ridges else self.radius + self.over, ROUGH)
         take = areas(shapely.intersection(stock.left if only is None else only, self.reach))
         if zone.channel is not None and not coarse:
-            take = shapely.intersection(take, grow(zone.channel, -FRAME, ROUGH))
+            take = shapely.intersection(take, grow(zone.channel, -FRINGE, ROUGH))
         self.core = buffered(take, -self.sliver, 2)
         if not shapely.is_empty(stock.waste):
             self.core = shapely.difference(self.core, grow(stock.waste, self.sliver, ROUGH))
@@ -262,7 +262,7 @@ class Roughing:
         entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
         for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
             linked = stays_inside(free, last.end, path.start)
-            if linked and math.dist(last.end, path.start) > BESIDE * self.step:
+            if linked and math.dist(last.end, path.start) > NEXT_RING * self.step:
                 # A longer way must go through what is cleared, or is being cleared by the runs so far.
                 stock = grow(core, self.sliver, ROUGH) if stock is None else stock
                 trail = shapely.linestrings(last.points(radius / 3))

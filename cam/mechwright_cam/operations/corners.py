@@ -1,5 +1,7 @@
 """What is worth knowing of corners and passages that the mills of a zone do not reach."""
 
+from functools import lru_cache
+
 import shapely
 
 from mechwright.contracts.finding import Finding, Severity
@@ -16,12 +18,23 @@ MOSTLY = 0.9
 
 def corner_remarks(zone: Zone, job: Job, slack: float = 0.0) -> list[Finding]:
     """The remainder on the wall of a zone, and at its foot; its finisher reaches ``slack`` mm further."""
-    found = [*_partly(job, zone, slack), *_fillet(job, zone)]
-    depth = remainder(zone.wall, zone.reach_radius - slack + job.wear_margin, zone.must)
+    share, depth = _reached(zone.like or zone, slack, job.wear_margin)
+    found = [*_partly(job, zone, share), *_fillet(job, zone)]
     if depth > TOLERANCES.leftover:
         message = f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name}"
         found.append(_unreachable(job, message, depth, TOLERANCES.leftover))
     return found
+
+
+@lru_cache(maxsize=64)
+def _reached(zone: Zone, slack: float, wear: float) -> tuple[float, float]:
+    """The part of a recess that its finisher reaches, and the most that it leaves on its wall, mm."""
+    radius, share = zone.reach_radius - slack, 1.0
+    if zone.kind != "outside":
+        must = zone.clear if zone.must is None else zone.must
+        reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
+        share = float(shapely.intersection(reach, must).area / must.area)
+    return share, remainder(zone.wall, radius + wear, zone.must)
 
 
 def _unreachable(job: Job, message: str, value: float, limit: float, remedy: str = "") -> Finding:
@@ -38,13 +51,8 @@ def _fillet(job: Job, zone: Zone) -> list[Finding]:
     return [_unreachable(job, message, last.nose, zone.floor_radius, "list a flat end mill as well")]
 
 
-def _partly(job: Job, zone: Zone, slack: float) -> list[Finding]:
+def _partly(job: Job, zone: Zone, share: float) -> list[Finding]:
     """Whether much of a recess is too narrow for all its mills."""
-    if zone.kind == "outside":
-        return []
-    must, radius = zone.clear if zone.must is None else zone.must, zone.reach_radius - slack
-    reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
-    share = float(shapely.intersection(reach, must).area / must.area)
     if share >= MOSTLY:
         return []
     return [

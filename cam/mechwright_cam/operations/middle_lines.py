@@ -11,7 +11,7 @@ import shapely
 from mechwright.arrays import Array
 from mechwright_cam.operations.zone import SNUG, Zone
 from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import CHORD, FIT, ROUGH, densified, grow, polygons
+from mechwright_cam.plane.offsets import FINE, FIT, ROUGH, densified, grow, polygons
 from mechwright_cam.plane.path import Path
 
 PAST = 0.5
@@ -33,7 +33,7 @@ def middle_lines(zone: Zone, drawn: shapely.Geometry, radius: float, climb: bool
         if bool(shapely.is_ccw(part.exterior)) != climb:
             ring = ring[::-1]
         line = ring if part.interiors else _run_out(half(ring, radius), zone.keep, must, radius)
-        thin = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), CHORD))
+        thin = shapely.get_coordinates(shapely.simplify(shapely.LineString(line), FINE))
         path = fit(densified(thin, radius / 4), FIT, zone.path.lines_per_arc)
         if path.cuts:
             found.append(path)

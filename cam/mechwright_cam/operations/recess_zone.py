@@ -88,6 +88,7 @@ def recess_zone(
         must=shapes.must if shapes.open else None,
         floor_radius=radius,
         walls=walls,
+        like=like,
     )
     if job.settings.compensation == "computer" or not able:
         return zone

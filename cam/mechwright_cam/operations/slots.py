@@ -1,4 +1,4 @@
-"""Mills as wide as a slot: they would cut with their whole width, and leave no stock to finish on its walls.
+"""Whether a mill fills a slot of an outside: no stock would stay on its walls for finishing.
 
 Where such a mill can be but one with its allowance cannot, its centre runs along the middle of the slot, and
 farther than the mill's radius from any place where there is room for the allowance. Whether there is any such

@@ -12,7 +12,7 @@ class Stock:
     """The stock of one task, or of one layer of it; shapes in work coordinates, mm."""
 
     left: shapely.Geometry = field(default_factory=shapely.Polygon)
-    """What has to go and has not been cut yet, seen from above."""
+    """What has to go, seen from above; once a wall is roughed, the allowance in front of it."""
     gone: tuple[Air, ...] = ()
     """What earlier setups have cut from the other side."""
     over: float = 0.0

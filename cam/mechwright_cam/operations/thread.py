@@ -1,21 +1,18 @@
 """Threads: milled along a helix in a bore of their core."""
 
 import math
-from collections.abc import Sequence
 from functools import partial
 
-from mechwright.contracts.details import Detail, Thread
-from mechwright.contracts.part import Bore, Feature
+from mechwright.contracts.details import Thread
+from mechwright.contracts.part import Bore
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.contract import Operation, Task
+from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import tools_of
-from mechwright_cam.operations.steps import Steps
-from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.pointed import DetailOperation, tools_of
 from mechwright_cam.plane.path import Path, arc, circle, rounded
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import ToolKind
 
 AROUND = 0.1
 """Air all round a thread mill in its hole, mm."""
@@ -23,46 +20,36 @@ CORE_PLAY = 0.25
 """By how much, in pitches, a hole may miss the core diameter of its thread: ISO 965's tolerance, roughly."""
 
 
-class ThreadOperation(Operation):
+class ThreadOperation(DetailOperation):
     """Mills a right-hand thread."""
 
     name = "thread"
+    detail = Thread
 
-    def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
-        """Any thread; raises ToolError if there is no tool for it, and says what it needs."""
-        return _task(self, feature, job) if isinstance(feature, Thread) else None
-
-    def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
-        """The tool."""
-        return _task(self, feature, every).tools if isinstance(feature, Thread) else None
-
-    def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
-        """Turn by turn."""
-        steps.add(f"{task.feature.name}: thread", task.tools[0], task.data)
-        return stock
-
-
-def _task(operation: Operation, detail: Thread, job: Job) -> Task:
-    holes = [
-        f
-        for f in job.features
-        if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < TOLERANCES.closure
-    ]
-    play = CORE_PLAY * detail.pitch
-    hole = next((h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None)
-    if hole is None:
-        raise ToolError(
-            f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} mm "
-            f"that is {detail.depth:g} mm deep; draw one"
+    def task(self, detail: Thread, job: Job) -> Task:
+        """Choose the tool; raises ToolError if there is none, and says what it needs."""
+        holes = [
+            f
+            for f in job.features
+            if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < TOLERANCES.closure
+        ]
+        play = CORE_PLAY * detail.pitch
+        hole = next(
+            (h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None
         )
-    for tool in tools_of(job, ToolKind.THREAD_MILL):
-        if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
-            write = partial(_turns, detail=detail, climb=job.settings.climb)
-            return Task(detail, operation, (tool,), 0.0, -detail.depth, data=write)
-    raise ToolError(
-        f"cam.tools: no thread mill cuts {detail.name} of part {job.part.name}; list one of at most "
-        f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm"
-    )
+        if hole is None:
+            raise ToolError(
+                f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} "
+                f"mm that is {detail.depth:g} mm deep; draw one"
+            )
+        for tool in tools_of(job, ToolKind.THREAD_MILL):
+            if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
+                write = partial(_turns, detail=detail, climb=job.settings.climb)
+                return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)
+        raise ToolError(
+            f"cam.tools: no thread mill cuts {detail.name} of part {job.part.name}; list one of at most "
+            f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm"
+        )
 
 
 def _turns(pen: Pen, detail: Thread, climb: bool) -> None:

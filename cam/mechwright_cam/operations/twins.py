@@ -1,4 +1,4 @@
-"""Recesses that are turned copies of each other: where the same stands around, one decision holds for all."""
+"""Recesses that are turned copies of each other: with the same around them one decision holds for all."""
 
 import math
 from collections.abc import Iterable
@@ -30,7 +30,7 @@ class Twins:
         self._around: dict[str, dict[tuple[float, ...], shapely.Geometry]] = {}
 
     def first(self, feature: Feature | Detail) -> Pocket | Profile | None:
-        """The first one asked about that a recess is a copy of; None for that one, and for no recess."""
+        """The first one asked about that a recess is a copy of; None for that one, and if it is no recess."""
         if not is_recess(feature):
             return None
         for known in self._known:

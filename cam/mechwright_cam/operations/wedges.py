@@ -10,10 +10,10 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import CHORD
+from mechwright_cam.plane.offsets import FINE
 from mechwright_cam.plane.runs import CORNER
 
-TOUCH = TOLERANCES.flatten + CHORD / 2
+TOUCH = TOLERANCES.flatten + FINE / 2
 """A straight move keeps this distance off the wall, mm: what the flattened outline and the last decimal of
 the program can be wrong."""
 HELD_BACK = TOLERANCES.leftover / 2

@@ -19,7 +19,7 @@ import shapely
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, radius_in, roughers
 from mechwright_cam.operations.recess import Layer
-from mechwright_cam.plane.offsets import CHORD, ROUGH, grow, simplified, sound, thinned
+from mechwright_cam.plane.offsets import FINE, ROUGH, grow, simplified, sound, thinned
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.vice import RUN_OUT
 from mechwright_cam.shop.settings import PathSettings
@@ -73,6 +73,8 @@ class Zone:
     """What stands around a recess from its floor up, where round mills are to make it."""
     floor_radius: float = 0.0
     """Fillet that is to stay between floor and wall, mm."""
+    like: "Zone | None" = None
+    """The zone of which it is a turned copy: the same mills reach as much of both."""
 
     @cached_property
     def keep(self) -> shapely.Geometry:
@@ -158,7 +160,7 @@ class Zone:
             return grow(self.channel, slack - radius, ROUGH)
         if self.must is not None and finishing:
             # Past the end of a wall and around its corner, but not on along the outside.
-            return shapely.intersection(self.clear, grow(self.must, radius + self.path.bias + 2 * CHORD))
+            return shapely.intersection(self.clear, grow(self.must, radius + self.path.bias + 2 * FINE))
         return self.clear
 
     def rough_keep(self, allowance: float, radius: float = 0.0) -> shapely.Geometry:

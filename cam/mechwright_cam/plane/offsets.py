@@ -21,7 +21,7 @@ from mechwright.arrays import Array
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.shop.settings import PathSettings
 
-CHORD = 0.0003
+FINE = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
 BIAS = PathSettings().bias
 """How far paths beside what is no wall, such as chamfers, keep off it, mm: by what path and polygon can be
@@ -32,7 +32,7 @@ ROUGH = 0.005
 
 def fit_tolerance(path: PathSettings) -> float:
     """What is left of the tolerance for the fit, mm, after the chords of the offset and their thinning."""
-    return path.tolerance - 2 * CHORD
+    return path.tolerance - 2 * FINE
 
 
 FIT = fit_tolerance(PathSettings())
@@ -49,7 +49,7 @@ def corners(radius: float, tolerance: float) -> int:
     return max(LEAST_CORNERS, math.ceil(math.pi / 4 / math.acos(1 - tolerance / radius)))
 
 
-def grow(shape: shapely.Geometry, distance: float, tolerance: float = CHORD) -> shapely.Geometry:
+def grow(shape: shapely.Geometry, distance: float, tolerance: float = FINE) -> shapely.Geometry:
     """Everything within ``distance`` (shrink if negative), arcs within ``tolerance``, mm."""
     return buffered(shape, distance, corners(abs(distance), tolerance))
 
@@ -126,7 +126,7 @@ def _thinned_ring(ring: shapely.LinearRing, tolerance: float) -> Array:
     return points
 
 
-def rings(shape: shapely.Geometry, climb: bool, tolerance: float = CHORD) -> list[Array]:
+def rings(shape: shapely.Geometry, climb: bool, tolerance: float = FINE) -> list[Array]:
     """The rings (n + 1, 2) around and in a shape that must not be entered, thinned, in cutting direction."""
     found = []
     for part in polygons(shape):

@@ -128,7 +128,7 @@ def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
     ]
 
 
-def parts_as_cut(job: Job, assignments: Assignments) -> list[tuple[str, shapely.Polygon]]:
+def parts_as_cut(job: Job, assignments: Assignments | None = None) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
     cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
     if isinstance(job.part, Nest):
