@@ -17,6 +17,7 @@ from mechwright.plugins.host import host as default_host
 from mechwright_cad.exporters import Curves, DxfExporter
 from mechwright_cam.controls.contract import Post
 from mechwright_cam.controls.reading import DIALECTS, LINUXCNC, Dialect
+from mechwright_cam.operations.contract import Operation
 from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.pages.setup_sheet.walls import walls_view
@@ -79,7 +80,7 @@ def prepare(
     """
     assignments = assignments or Assignments()
     library = _library(design)
-    cut_parts = arranged(design, parts, library)
+    cut_parts = arranged(design, parts, library, assignments)
     _check_part_names(design, (*parts, *cut_parts))
     findings: list[Finding] = []
     jobs: list[Job] = []
@@ -174,10 +175,14 @@ def _post(design: Design, host: Host) -> Post:
         raise PluginError(f"{design.path}: cam.control: {error}") from error
 
 
-def check(design: Design, host: Host) -> list[Finding]:
-    """Find out whether the chosen cutters can make the parts, and what they leave."""
+def check(design: Design, host: Host, operations: Sequence[Operation] = ()) -> list[Finding]:
+    """Find out whether the chosen cutters can make the parts, and what they leave.
+
+    A design may ask for ``operations`` besides the built-in ones by their names.
+    """
     post = _post(design, host)
-    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    parts = plates(design.family.parts(design.params))
+    findings, jobs = prepare(design, parts, Assignments(operations))
     return _control(post, design.cam, jobs) + findings
 
 
@@ -236,15 +241,18 @@ def cut_parts(design: Design) -> dict[str, Part]:
     return {part.name: part for part in (*parts, *arranged(design, plates(parts), _library(design)))}
 
 
-def write_programs(design: Design, host: Host, output: Output, curves: str) -> list[Finding]:
+def write_programs(
+    design: Design, host: Host, output: Output, curves: str, operations: Sequence[Operation] = ()
+) -> list[Finding]:
     """Add drawing, program, tool table, setup sheet and proof of every plate part to ``output``.
 
-    Findings come back; nothing is added if one of them is an error, or if no part is a plate.
+    Findings come back; nothing is added if one of them is an error, or if no part is a plate. A design may
+    ask for ``operations`` besides the built-in ones by their names.
     """
     post = _post(design, host)
     drawing = DxfExporter(curve_kind(curves))
     parts = plates(design.family.parts(design.params))
-    assignments = Assignments()
+    assignments = Assignments(operations)
     findings, jobs = prepare(design, parts, assignments)
     findings = [*_control(post, design.cam, jobs), *findings]
     if errors(findings) or not jobs:
@@ -306,6 +314,7 @@ def verify(
     control: str = "",
     *,
     underside: bool = False,
+    operations: Sequence[Operation] = (),
 ) -> Proof:
     """Prove a program that came from anywhere, with every cutter of the library at hand.
 
@@ -323,13 +332,13 @@ def verify(
         except (KeyError, PluginError):
             known = sorted({*DIALECTS, *(host.posts if host else ())})
             raise PluginError(f"--control: {control!r} is not known; one of: {', '.join(known)}") from None
-    cam = design.cam_of(part.name)
+    cam, assignments = design.cam_of(part.name), Assignments(operations)
     library = _library(design).cutting(cam.cutting)
     parts = plates(design.family.parts(design.params))
-    _check_part_names(design, (*parts, *arranged(design, parts, library)))
+    _check_part_names(design, (*parts, *arranged(design, parts, library, assignments)))
     _, under = sides(part)
     if underside or under:
-        jobs, found = lay_out_setups(part, cam, library)
+        jobs, found = lay_out_setups(part, cam, library, assignments)
         chosen = [job for job in jobs if (job.side == "underside") == underside]
         if errors(found) or not chosen:
             fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
@@ -337,8 +346,8 @@ def verify(
         (job,) = chosen
         if underside:  # on the plate as our own program for the first side leaves it
             post = _post(design, host or default_host())
-            job = second_setup(machine(jobs[0], post), job, post)
+            job = second_setup(machine(jobs[0], post, assignments=assignments), job, post)
     else:
-        job = make_job(part, cam, choose_tools(part, cam, library))
+        job = make_job(part, cam, choose_tools(part, cam, library, assignments))
     tools = library.measured(cam.measured.lengths).tools
     return prove(text, replace(job, tools=tools), dialect)

@@ -7,6 +7,7 @@ import pytest
 import shapely
 from planning_parts import LIBRARY, bore, job, part, plate, rounded_box
 
+from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.design.design import load
 from mechwright.errors import DesignError
@@ -19,7 +20,7 @@ from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.table import BUILT_IN, asked
 from mechwright_cam.operations.twins import Twins
-from mechwright_cam.pipeline import write_programs
+from mechwright_cam.pipeline import check, write_programs
 from mechwright_cam.planning import Assignments, choose_tools, plan
 from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.setup.lay_out import make_job
@@ -196,3 +197,13 @@ def test_the_choice_of_cutters_takes_the_same_for_all_copies():
     wanted = CamSettings()
     one, four = (choose_tools(slots(count), wanted, LIBRARY) for count in (1, 4))
     assert {tool.name for tool in one} == {tool.name for tool in four}
+
+
+def test_a_design_gets_the_operations_of_others_through_the_pipeline(tmp_path):
+    text = (EXAMPLES / "elliptic-pair.toml").read_text(encoding="utf-8")
+    file = tmp_path / "pair.toml"
+    file.write_text(text.replace("[cam]\n", '[cam]\noperations = ["plunge"]\n', 1), encoding="utf-8")
+    design = load(file, host())
+    (found,) = {finding.message for finding in check(design, host())}
+    assert found.startswith("no operation is named 'plunge'; there is: ")
+    assert not errors(check(design, host(), (Plunge(),)))
