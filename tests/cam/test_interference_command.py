@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Loop, Outline
@@ -41,10 +41,10 @@ def test_a_collision_stops_every_command_and_names_the_bodies(command, design, t
     family = type(host().family("elliptic-gears"))
     solve = family.solve
     monkeypatch.setattr(family, "solve", lambda self, params, samples: twisted(self, params, samples, solve))
-    monkeypatch.setattr("mechwright.cli.solids.cores", lambda: 1)  # a second process would not be twisted
+    monkeypatch.setattr("mechwright_cad.making.cores", lambda: 1)  # a second process would not be twisted
     folder = tmp_path / "out"
     words = [command, str(design)] + ([] if command == "check" else ["-o", str(folder)])
-    done = CliRunner().invoke(app, words)
+    done = CliRunner().invoke(make_app(), words)
     assert done.exit_code == 1
     assert re.search(
         r"error \[interference.collision\] gear-2 and gear-4 stand in each other, \d\.\d{3} mm deep at "
@@ -55,7 +55,7 @@ def test_a_collision_stops_every_command_and_names_the_bodies(command, design, t
 
 
 def test_the_elliptic_pair_is_clear(design):
-    done = CliRunner().invoke(app, ["check", str(design)])
+    done = CliRunner().invoke(make_app(), ["check", str(design)])
     assert done.exit_code == 0, done.output
     assert (
         "note [interference.clear] no two bodies collide over the whole motion (one pair compared)"

@@ -15,7 +15,7 @@ from planning_parts import LIBRARY, bore, lobes, rounded_box
 from rs274 import needs_rs274, run_rs274
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 from mechwright.contracts.details import Chamfer, Engraving, Thread, moved
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.designs.design import load
@@ -318,7 +318,7 @@ def told(done):
 def test_bad_input_is_one_line(tmp_path, text):
     file = tmp_path / "pair.toml"
     file.write_text(PAIR + text)
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code != 0
     said = told(done)
     assert len([line for line in said if BAD[text] in line]) == 1, said
@@ -330,7 +330,7 @@ def test_parts_of_different_thickness_are_refused(tmp_path):
     text = (EXAMPLES / "figure-eight-best.toml").read_text()
     file = tmp_path / "best.toml"
     file.write_text(text + '\n[cam.nest]\nparts = ["gear-2", "coupler"]\n')
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code != 0
     assert "cam.nest.parts: coupler is 6 mm aluminium, gear-2 is 10 mm aluminium" in told(done)[-1]
 
@@ -356,7 +356,7 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     file = tmp_path / "pair.toml"
     file.write_text(PAIR + "[cam.nest]\n")
     out = tmp_path / "out"
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(out)])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(out)])
     assert done.exit_code == 0, done.output
     names = {path.name for path in out.iterdir()}
     assert {"nest.nc", "nest.dxf", "nest.setup.html", "setup.html", "gear.dxf"} <= names
@@ -369,7 +369,9 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     assert drawing.rindex("<path") < drawing.index(">gear no 1<"), "nothing is drawn over the names"
     assert "Nest of 2: gear no 1, gear no 2" in sheet
     assert "the axis of gear no 1" in sheet
-    again = CliRunner().invoke(app, ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"])
+    again = CliRunner().invoke(
+        make_app(), ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"]
+    )
     assert again.exit_code == 0, again.output
     from ezdxf.filemanagement import readfile
 

@@ -8,10 +8,11 @@ import shapely
 from planning_parts import LIBRARY, bore, job, part, plate, rounded_box
 
 from mechwright.build import Build
+from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
-from mechwright.plugins.host import host
+from mechwright.plugins.host import Host, Registered, host
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machining
 from mechwright_cam.operations.contract import Operation, Task
@@ -190,3 +191,13 @@ def test_the_choice_of_cutters_takes_the_same_for_all_copies():
     wanted = CamSettings()
     one, four = (choose_tools(slots(count), wanted, LIBRARY) for count in (1, 4))
     assert {tool.name for tool in one} == {tool.name for tool in four}
+
+
+def test_a_design_gets_the_operations_of_others_through_the_pipeline(tmp_path):
+    text = (EXAMPLES / "elliptic-pair.toml").read_text(encoding="utf-8")
+    file = tmp_path / "pair.toml"
+    file.write_text(text.replace("[cam]\n", '[cam]\noperations = ["plunge"]\n', 1), encoding="utf-8")
+    (found,) = {finding.message for finding in Build(file, host()).made(Machining).findings}
+    assert found.startswith("no operation is named 'plunge'; there is: ")
+    more = Host({**host().registered, Operation: {"plunge": Registered(Plunge(), "here", "plunge")}})
+    assert not errors(Build(file, more).made(Machining).findings)

@@ -10,7 +10,7 @@ import pytest
 from four_bar_reference import poles_of
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
@@ -32,7 +32,7 @@ def test_the_crank_rocker_builds_without_a_warning(tmp_path):
     assert {finding.severity for finding in FourBars().check(design.params)} == {Severity.NOTE}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        done = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out")])
+        done = CliRunner().invoke(make_app(), ["build", str(path), "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     assert "warning" not in done.output
     made = {file.name for file in (tmp_path / "out").iterdir()}

@@ -71,8 +71,10 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
         Name of the control that reads it; by default that of the design.
     """
     design = build.design
-    library = library_of(design)
-    known = {part.name: part for part in (*build.parts, *cut_plates(design, build.parts, library))}
+    library, assignments = library_of(design), build.made(Machining).assignments
+    known = {
+        part.name: part for part in (*build.parts, *cut_plates(design, build.parts, library, assignments))
+    }
     name = part_name if part_name in known else part_name.removesuffix(UNDERSIDE)
     if name not in known:
         raise DesignError(
@@ -83,7 +85,7 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
     cam = settings_of(design).of(part.name)
     library = library.cutting(cam.cutting)
     if underside or sides(part)[1]:
-        jobs, found = lay_out_setups(part, cam, library)
+        jobs, found = lay_out_setups(part, cam, library, assignments)
         chosen = [job for job in jobs if (job.side == "underside") == underside]
         if errors(found) or not chosen:
             fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
@@ -91,9 +93,9 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
         (job,) = chosen
         if underside:  # on the plate as our own program for the first side leaves it
             own = build.made(Machining).control
-            job = second_setup(machine(jobs[0], own), job, own)
+            job = second_setup(machine(jobs[0], own, assignments=assignments), job, own)
     else:
-        job = make_job(part, cam, choose_tools(part, cam, library))
+        job = make_job(part, cam, choose_tools(part, cam, library, assignments))
     return prove(text, replace(job, tools=library.measured(cam.measured.lengths).tools), reader)
 
 

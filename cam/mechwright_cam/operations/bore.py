@@ -85,10 +85,6 @@ class BoreOperation(Operation):
             steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
         return stock.without(task.region)
 
-    def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
-        """The circle."""
-        return task.region if task.bottom == job.floor else None
-
 
 EXACT = 256
 """Chords of a quarter of a bore, where its edge is looked at."""

@@ -65,8 +65,8 @@ class ChamferOperation(DetailOperation):
         if held:
             raise DesignError(
                 f"cam.hold.tab_height: the chamfer {detail.name} of {detail.width:g} mm in part "
-                f"{job.part.name} would cut into the tabs, whose upper side is at Z{tabs:g}; make the tabs "
-                "lower"
+                f"{job.part.name} would cut into the tabs, whose upper side is at Z{tabs:g}; "
+                "make the tabs lower"
             )
         if detail.width + BELOW[-1] > -floor + TOLERANCES.noise:
             raise DesignError(

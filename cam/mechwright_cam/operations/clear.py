@@ -68,7 +68,7 @@ class Clear(Operation):
             return None
         bottom = bottom_of(every, feature.top, feature.depth)
         able = usable_mills(every, -bottom)
-        shapes = recess(every, feature, able)
+        shapes = recess(every, feature, able, roomy=True)
         if shapely.is_empty(shapes.must):
             return []
         if isinstance(feature, Pocket) and feature.floor_radius > 0:

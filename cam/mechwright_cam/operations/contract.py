@@ -9,7 +9,8 @@ A whole operation is one class in one file. This one plunges a mill as wide as t
             if not isinstance(feature, Bore):
                 return None
             fit = [mill for mill in job.end_mills if abs(mill.diameter - feature.diameter) < 0.005]
-            return Task(feature, self, tuple(fit[:1]), -feature.top, -feature.bottom) if fit else None
+            region = plan_view(feature)
+            return Task(feature, self, tuple(fit[:1]), -feature.top, job.floor, region) if fit else None
 
         def cut(self, task, stock, steps):
             def write(pen):
@@ -18,7 +19,7 @@ A whole operation is one class in one file. This one plunges a mill as wide as t
                 pen.retract()
 
             steps.add(f"{task.feature.name}: plunge", task.tools[0], write)
-            return stock.without(plan_view(task.feature))
+            return stock.without(task.region)
 
 A design asks for it by its name, ``[cam] operations = ["plunge"]``, and it is asked before the built-in ones.
 """
@@ -123,7 +124,7 @@ class Operation(Plugin):
 
     def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
         """What the cutters really open through the plate, or for an outside leave of it; None if nothing."""
-        return None
+        return task.region if task.bottom <= job.floor else None
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """What the cutters of a task do not reach."""

@@ -111,10 +111,6 @@ class Groove(Operation):
         steps.cuts += layer.cuts
         return stock.without(zone.clear)
 
-    def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
-        """The groove as it is drawn."""
-        return task.region if task.bottom == job.floor else None
-
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """What is narrower than its mill."""
         return [] if isinstance(task.data, Way) else corner_remarks(task.data, job, SNUG)

@@ -70,7 +70,9 @@ def plan_view(feature: Feature) -> shapely.Geometry:
     return sections.plan_view(feature)
 
 
-def recess(job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: float = 0.0) -> Recess:
+def recess(
+    job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: float = 0.0, *, roomy: bool = False
+) -> Recess:
     """Look at a feature.
 
     Parameters
@@ -78,8 +80,9 @@ def recess(job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: floa
     mills
         Those that may cut it, largest first.
     far
-        How far beyond an open stretch the cutter's edge goes, mm; by default as far as the widest mill goes
-        that has room in it.
+        How far beyond an open stretch the cutter's edge goes, mm; by default as far as the widest mill goes.
+    roomy
+        By default only as far as the widest goes that has room: others come in at its mouths, if at all.
     """
     shape = plan_view(feature)
     others = _at_least_as_deep(job, feature)
@@ -96,7 +99,9 @@ def recess(job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: floa
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
     if shapely.is_empty(must):
         return Recess(must, must, must, True)
-    far = far or run_out(roomy_mills(mills, must)[:1], job.settings)
+    if not far:
+        far = run_out(roomy_mills(mills, must)[:1], job.settings)
+        far = far if roomy else max(far, mills[0].diameter)
     (x0, y0, x1, y1), wide = shape.bounds, 4 * far
     window = shapely.box(x0 - wide, y0 - wide, x1 + wide, y1 + wide)
     bottom = bottom_of(job, feature.top, feature.depth)

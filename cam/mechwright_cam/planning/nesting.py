@@ -16,6 +16,7 @@ from mechwright.contracts.part import Part, check_name
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.operations.channel import channel_width
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest
@@ -63,7 +64,9 @@ class _Layout:
     height: float
 
 
-def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Part]:
+def arranged(
+    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments | None = None
+) -> list[Part]:
     """The plate parts as they are cut: those that go together are one nest, at the place of the first.
 
     Raises
@@ -84,7 +87,7 @@ def arranged(design: Design, parts: Sequence[Part], library: Library) -> list[Pa
             raise DesignError(f"{design.path}: cam.nest.name: {error}") from error
         if name in {part.name for part in parts}:
             raise DesignError(f"{design.path}: cam.nest.name: {name!r} is a part; take another name")
-        nest = _nested(design, wanted, name, group, library)
+        nest = _nested(design, wanted, name, group, library, assignments)
         made |= {part.name: nest for part in group}
     return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())
 
@@ -136,7 +139,14 @@ def copies(part: Part) -> int:
     return max(1, len(part.instances))
 
 
-def _nested(design: Design, wanted: Nesting, name: str, group: Sequence[Part], library: Library) -> Nest:
+def _nested(
+    design: Design,
+    wanted: Nesting,
+    name: str,
+    group: Sequence[Part],
+    library: Library,
+    assignments: Assignments | None,
+) -> Nest:
     settings = settings_of(design).of(name)
     total = sum(map(copies, group))
     if total > MOST:
@@ -148,14 +158,16 @@ def _nested(design: Design, wanted: Nesting, name: str, group: Sequence[Part], l
             f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
             "none at a finished edge; leave finished out, or cam.nest"
         )
-    gap = wanted.gap or 2 * channel_of(group, settings, library) + WEB
+    gap = wanted.gap or 2 * channel_of(group, settings, library, assignments) + WEB
     try:
         return nest_of(name, group, settings, gap, turn=wanted.turn)
     except DesignError as error:
         raise DesignError(f"{design.path}: {error}") from error
 
 
-def channel_of(group: Iterable[Part], settings: CamSettings, library: Library) -> float:
+def channel_of(
+    group: Iterable[Part], settings: CamSettings, library: Library, assignments: Assignments | None = None
+) -> float:
     """Width of the widest channel around the parts, mm.
 
     The part with the narrowest one decides: its mills rough all outsides of the plate.
@@ -163,7 +175,7 @@ def channel_of(group: Iterable[Part], settings: CamSettings, library: Library) -
     found = []
     for part in group:
         try:
-            tools = choose_tools(part, settings, library)
+            tools = choose_tools(part, settings, library, assignments)
         except MechwrightError:
             continue  # laying out the nest says what is missing
         job = Job(part, settings, tools, (0.0, 0.0), (0.0, 0.0, 0.0, 0.0))

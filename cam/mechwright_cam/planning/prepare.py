@@ -25,7 +25,9 @@ def plates(parts: Sequence[Part]) -> list[Part]:
     return [part for part in parts if part.outline is not None]
 
 
-def cut_plates(design: Design, parts: Sequence[Part], library: Library) -> list[Part]:
+def cut_plates(
+    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments
+) -> list[Part]:
     """The plates among the parts as they are cut: nested where that is wanted.
 
     Raises
@@ -33,7 +35,7 @@ def cut_plates(design: Design, parts: Sequence[Part], library: Library) -> list[
     DesignError
         A nest is not possible, or a table ``[cam.part.NAME]`` names no plate and no nest.
     """
-    cut = arranged(design, plates(parts), library)
+    cut = arranged(design, plates(parts), library, assignments)
     known = sorted({part.name for part in (*plates(parts), *cut)})
     for name in settings_of(design).parts:
         if name not in known:
@@ -60,7 +62,7 @@ def library_of(design: Design) -> Library:
 
 
 def prepare(
-    design: Design, parts: Sequence[Part], assignments: Assignments
+    design: Design, parts: Sequence[Part], assignments: Assignments | None = None
 ) -> tuple[list[Finding], list[Job]]:
     """Choose cutters and lay the plates among the parts into their stock.
 
@@ -74,8 +76,9 @@ def prepare(
         One for each part, and one more where the underside is milled as well; fewer if a finding is an
         error.
     """
+    assignments = assignments or Assignments()
     library = library_of(design)
-    cut = cut_plates(design, parts, library)
+    cut = cut_plates(design, parts, library, assignments)
     findings: list[Finding] = []
     jobs: list[Job] = []
     for part in cut:
