@@ -16,7 +16,12 @@ def run(*arguments):
     return subprocess.run(
         [sys.executable, *map(str, arguments)],
         cwd=TEMPLATE,
-        env={**os.environ, "PYTHONPATH": path, "MYPYPATH": str(TEMPLATE / "src"), "PYTHONDONTWRITEBYTECODE": "1"},
+        env={
+            **os.environ,
+            "PYTHONPATH": path,
+            "MYPYPATH": str(TEMPLATE / "src"),
+            "PYTHONDONTWRITEBYTECODE": "1",
+        },
         capture_output=True,
         text=True,
         check=False,
