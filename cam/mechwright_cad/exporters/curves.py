@@ -10,7 +10,6 @@ bulge
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -191,11 +190,3 @@ def _arc_distance(points: Array, start: Array, chord: Array, bulge: Array) -> Ar
     slope = np.hypot(2 * s * u, 2 * s * w - (h * h - s * s))
     distance: Array = np.abs(value) / slope
     return distance
-
-
-Curves = Literal["spline", "spline3", "arc", "polyline"]
-"""How a drawing holds B-splines.
-
-``spline``: as they are, of any degree. ``spline3``: of degree 3, which every reader knows. ``arc``: one
-closed polyline with arcs per loop. ``polyline``: one closed polyline of chords per loop.
-"""

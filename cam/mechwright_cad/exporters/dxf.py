@@ -25,7 +25,8 @@ from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circ
 from mechwright.geometry.segments import Point
 from mechwright.geometry.trim import stretches
 from mechwright.tolerances import TOLERANCES
-from mechwright_cad.exporters.curves import Curves, cubic, vertices
+from mechwright_cad.exporters.curve_kinds import Curves
+from mechwright_cad.exporters.curves import cubic, vertices
 
 if TYPE_CHECKING:
     import shapely

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from mechwright.contracts.exporter import Exporter
-from mechwright_cad.exporters.curves import Curves
+from mechwright_cad.exporters.curve_kinds import Curves
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
