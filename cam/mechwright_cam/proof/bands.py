@@ -46,11 +46,14 @@ class Band:
         z in work coordinates, mm.
     keep
         The finished part's cross-section, tabs not counted.
+    section
+        Number of the cross-section: bands of one number have the same.
     """
 
     top: float
     bottom: float
     keep: Shape
+    section: int = 0
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:
@@ -74,15 +77,15 @@ def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
         heights |= {-feature.top, -min(feature.top + feature.depth, job.thickness)}
     ordered = sorted((h for h in heights if -job.thickness - NEAR <= h <= NEAR), reverse=True)
     layers = []
-    known: dict[tuple[Feature, ...], Shape] = {}
+    known: dict[tuple[Feature, ...], tuple[Shape, int]] = {}
     for top, bottom in pairwise(ordered):
         if top - bottom < NEAR:
             continue
         depth = -(top + bottom) / 2
         here = tuple(feature for feature in partial if feature.top < depth < feature.top + feature.depth)
         if here not in known:
-            known[here] = _section(job, here)
-        layers.append(Band(top, bottom, known[here]))
+            known[here] = _section(job, here), len(known)
+        layers.append(Band(top, bottom, *known[here]))
     return layers
 
 

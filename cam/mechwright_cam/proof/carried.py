@@ -4,18 +4,15 @@ Nothing is handed on that was not cut: regions are smaller by their accuracy, an
 it takes at a few heights counts.
 """
 
-from collections.abc import Mapping
-
 import shapely
 
 from mechwright.contracts.details import Chamfer
-from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.leftover import TAB_SLACK
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, swept
-from mechwright_cam.proof.prove import read
-from mechwright_cam.proof.sweep import ROUNDING, Sweeps
+from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.sweep import ROUNDING
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
 
@@ -27,15 +24,14 @@ DIGITS = 3
 """Decimals of heights, mm: nearer ones are one."""
 
 
-def cut_away(text: str | Mapping[str, str], job: Job, control: Control) -> tuple[tuple[Shape, float], ...]:
+def cut_away(scene: Scene) -> tuple[tuple[Shape, float], ...]:
     """Regions that a program has cut down to a height z, mm, deepest first; higher ones hold deeper ones.
 
     The heights are those of the job's floors, tabs and details, and of the holes that the program drills.
     """
-    paths = Paths(read(text, job, control), {tool.number: tool for tool in job.tools})
-    sweeps, found = Sweeps(paths), list[tuple[Shape, float]]()
-    for height in sorted(_heights(paths, job)):
-        cut = sweeps.at(height + ROUNDING, height)
+    found = list[tuple[Shape, float]]()
+    for height in sorted(_heights(scene.paths, scene.job)):
+        cut = scene.sweeps.at(height + ROUNDING, height)
         areas = [swept(sweep.chains, sweep.radius, SWEPT) for sweep in cut]
         region = shapely.buffer(shapely.union_all(areas), -SWEPT, quad_segs=4)
         if not region.is_empty and not (found and region.area <= found[-1][0].area + NEAR):

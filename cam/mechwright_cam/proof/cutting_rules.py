@@ -39,7 +39,7 @@ def cutting_data(scene: Scene) -> list[tuple[Tool, CuttingData]]:
 def cutting_speed(scene: Scene) -> Check:
     """No edge runs much faster than the tool library says, unless the spindle turns no slower."""
     run, machine = scene.run, scene.job.settings.machine
-    rpm = scene.of_states(lambda state: state.rpm)
+    rpm = scene.run.of_states(lambda state: state.rpm)
     working = in_work(scene)
     for tool, data in cutting_data(scene):
         highest = max(1000 * BEYOND * data.cutting_speed / (math.pi * tool.diameter), machine.spindle_min)
@@ -48,7 +48,6 @@ def cutting_speed(scene: Scene) -> Check:
             step = int(fast[0])
             speed = math.pi * tool.diameter * float(rpm[step]) / 1000
             return scene.bad(
-                "cutting-speed",
                 step,
                 f"S{rpm[step]:g} turns T{tool.number} ({tool.name}) at {speed:.0f} m/min in "
                 f"{scene.job.part.material}, the tool library says {data.cutting_speed:g}; lower S, or set "
@@ -57,13 +56,13 @@ def cutting_speed(scene: Scene) -> Check:
                 BEYOND * data.cutting_speed,
                 "m/min",
             )
-    return Check("cutting-speed", True, "no edge runs much faster than the tool library says")
+    return Check(True, "no edge runs much faster than the tool library says")
 
 
 def chips(scene: Scene) -> Check:
     """Nothing is fed into material much faster than the tool library says."""
     run, paths = scene.run, scene.paths
-    rpm = scene.of_states(lambda state: state.rpm)
+    rpm = scene.run.of_states(lambda state: state.rpm)
     working = paths.steps[in_work(scene)[paths.steps] & (rpm[paths.steps] > 0)]
     for tool, data in cutting_data(scene):
         steps = working[run.tool[working] == tool.number]
@@ -86,8 +85,8 @@ def chips(scene: Scene) -> Check:
                 f"{scene.job.part.material}, the tool library says {data.chip_load:g}; lower F, or set "
                 f"chip_load in [cam.cutting.{tool.name}]"
             )
-            return scene.bad("chips", step, message, tooth, float(share[index]) * data.chip_load, "mm")
-    return Check("chips", True, "nothing is fed into material much faster than the tool library says")
+            return scene.bad(step, message, tooth, float(share[index]) * data.chip_load, "mm")
+    return Check(True, "nothing is fed into material much faster than the tool library says")
 
 
 def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:
@@ -126,7 +125,7 @@ def pecks(scene: Scene) -> Check:
     for tool in scene.tools.values():
         if tool.kind is not ToolKind.DRILL:
             continue
-        steps: Ints = paths.steps[run.cutting[paths.steps] & (run.tool[paths.steps] == tool.number)]
+        steps: Ints = paths.cuts[run.tool[paths.cuts] == tool.number]
         top = np.minimum(paths.start[steps, 2], 0.0)
         deep = top - paths.end[steps, 2]
         for index in np.flatnonzero(deep > diameters * tool.diameter + NEAR).tolist():
@@ -134,7 +133,6 @@ def pecks(scene: Scene) -> Check:
             found = _in_material(scene, step)
             if found > diameters * tool.diameter:
                 return scene.bad(
-                    "pecks",
                     step,
                     f"T{tool.number} ({tool.name}) drills {found:.1f} mm in one go, "
                     f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q",
@@ -142,7 +140,7 @@ def pecks(scene: Scene) -> Check:
                     diameters * tool.diameter,
                     "mm",
                 )
-    return Check("pecks", True, "no drill goes too deep in one go")
+    return Check(True, "no drill goes too deep in one go")
 
 
 def _in_material(scene: Scene, step: int) -> float:

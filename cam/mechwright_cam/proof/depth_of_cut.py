@@ -39,13 +39,12 @@ class _Cuts:
 
     def __init__(self, paths: Paths) -> None:
         self.paths = paths
-        self.steps = paths.steps[paths.run.cutting[paths.steps]]
-        self.low = np.minimum(paths.start[:, 2], paths.end[:, 2])
+        self.steps = paths.cuts
         self.top: Array = np.maximum(paths.start[:, 2], paths.end[:, 2])
 
     def asked(self, limit: float) -> Array:
         """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
-        height: Array = np.maximum(self.low, self.top - limit)
+        height: Array = np.maximum(self.paths.low, self.top - limit)
         return height
 
     @cached_property
@@ -101,13 +100,12 @@ def depth_of_cut(scene: Scene) -> Check:
         for step, length in _lasting(
             *_suspects(cuts, tool, limit, middle(scene, tool)), LASTING * tool.diameter
         ):
-            if not meets_middle(scene, tool, step, max(limit, float(cuts.top[step] - cuts.low[step]))):
+            if not meets_middle(scene, tool, step, max(limit, float(cuts.top[step] - scene.paths.low[step]))):
                 continue
             lasting, before = (lasting if step <= before + APART else 0.0) + length, step
             if lasting >= LASTING * tool.diameter:
-                low = -float(min(scene.paths.start[step, 2], scene.paths.end[step, 2]))
+                low = -float(scene.paths.low[step])
                 return scene.bad(
-                    "depth-of-cut",
                     step,
                     f"T{tool.number} ({tool.name}) cuts more than {limit:g} mm of {job.part.material} at "
                     f"once, {BEYOND:g} times its step_down; cut in passes, or set step_down in "
@@ -116,7 +114,7 @@ def depth_of_cut(scene: Scene) -> Check:
                     limit,
                     "mm",
                 )
-    return Check("depth-of-cut", True, "no mill takes much more depth at once than the tool library says")
+    return Check(True, "no mill takes much more depth at once than the tool library says")
 
 
 def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[tuple[int, float]]:

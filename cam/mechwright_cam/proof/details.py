@@ -16,7 +16,6 @@ from mechwright_cam.proof.fillets import Fillet
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
-from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.setup.job import Job
@@ -95,19 +94,19 @@ def _given(detail: Detail, depth: float = 0.0) -> Shape:
             return grow(shapely.MultiLineString(list(detail.strokes)), detail.width / 2)
 
 
-def cut(paths: Paths, job: Job) -> Check:
-    """Whether every detail is there: along its whole edge, on all strokes, to the last turn."""
+def missing(paths: Paths, job: Job) -> str:
+    """What is not there of a detail: along its whole edge, on all strokes, to the last turn; else nothing."""
     for detail in job.details:
         match detail:
             case Chamfer():
-                missing = _chamfer(paths, job, detail)
+                found = _chamfer(paths, job, detail)
             case Engraving():
-                missing = _engraving(paths, detail)
+                found = _engraving(paths, detail)
             case Thread():
-                missing = _thread(paths, detail)
-        if missing:
-            return Check("details", False, f"{detail.name}: {missing}")
-    return Check("details", True, "chamfers, threads and engravings are cut")
+                found = _thread(paths, detail)
+        if found:
+            return f"{detail.name}: {found}"
+    return ""
 
 
 def _off(paths: Paths, points: Array, height: float, level: float) -> Array:

@@ -13,7 +13,9 @@ A bore has no such corners: it is cut to its wall (``bores``), or the program is
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -30,11 +32,11 @@ from mechwright_cam.proof.grooves import along, entered
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
 from mechwright_cam.proof.reachable import Reach, Surroundings
-from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
+from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import PathSettings
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.tool import Tool
 
 VISIBLE = 0.001
 """Unreachable stock thinner than this is not told from the outline's own deviation, mm."""
@@ -85,80 +87,119 @@ class Remains:
 
 def remains(sweeps: Sweeps, job: Job) -> Remains:
     """Measure the stock that the program leaves around the part."""
-    paths = sweeps.paths
-    used = set(paths.run.tool[paths.steps].tolist())
-    mills = [t for n, t in paths.tools.items() if n in used and t.kind in MILLS]
     worst, at, bore = uncut_bores(sweeps, job)
-    if not mills:
+    if not sweeps.paths.mills:
         return Remains(worst, at, (), bore)
-    air = play(job) + job.wear_margin
-    reach, round_floors = Reach(mills, air, -job.floor), fillets(job)
-    smallest, widest = min(t.radius for t in mills) + air, max(t.diameter for t in mills)
-    slack = max(TAB_SLACK, *reach.noses) if reach.noses else TAB_SLACK
-    extra = [z for fillet in round_floors for z in fillet.heights] + _above_floors(job, reach)
-    every = bands(job, (*(tab.top + slack for tab in job.tabs), *extra))
-    # With round or short cutters, or round floors, every height is another question, else one cross-section
-    # asks but once.
-    alike = reach.plain and not round_floors
-    floors = []
-    if not reach.plain:
-        floors = [(-(one.top + one.depth), floor_of(one, job)) for one in _recesses(job)]
-    free = Surroundings(
-        [(band.top, entered(band.keep, smallest, play(job), job, band)) for band in every],
-        -job.thickness,
-        floors,
-        round_floors,
-    )
-    beside = [_tabs_at(job, one, slack) for one in every]
-    held = free
-    if any(beside):
-        layers = [
-            (b.top, entered(shapely.union_all([b.keep, *t]), smallest, play(job), job, b))
-            for b, t in zip(every, beside, strict=True)
-        ]
-        held = replace(free, layers=layers)
-    rests: dict[int, Shape] = {}
-    lowest: dict[int, tuple[Band, list[Sweep]]] = {}
-    unseen: dict[int, Shape | None] = {}
-    drawn = asked(job)
-    for place, band in reversed(list(enumerate(every))):
-        underside = band.bottom <= -job.thickness + NEAR
-        height = band.bottom + (ROUNDING if underside else TOLERANCES.leftover)
-        level = band.bottom + (0.0 if underside else TOLERANCES.leftover)
-        groups = sweeps.at(height, level)
-        key = id(band.keep)
-        reached = rests[key] if alike and key in rests else reach.rest(free, place, level)
-        if reach.noses:
-            reached = along(reached, play(job), job, band, mills, level)
-        if key not in lowest:
-            rests[key], lowest[key] = reached, (band, groups)
-        aside = None
-        if beside[place]:
-            reached = reach.rest(held, place, level)
-            if reach.noses:
-                reached = along(reached, play(job), job, band, mills, level)
-            # Beside a tab the cutter lifts, and what it leaves there goes with the tab.
-            aside = shapely.union_all([grow(tab, widest, COARSE) for tab in beside[place]])
+    wanted = _Wanted(job, sweeps.paths.mills)
+    lowest: dict[int, _Foot] = {}
+    left_out: dict[int, Shape] = {}
+    for place, band in reversed(list(enumerate(wanted.bands))):
+        level, groups = sweeps.foot(band.bottom, job.thickness)
+        below = lowest.get(band.section)
+        reached = below.rest if below and wanted.alike else wanted.rest(place, level)
+        lowest.setdefault(band.section, _Foot(band, groups, reached))
+        aside = wanted.beside_tabs(place)
+        if aside is not None:
+            reached = wanted.rest(place, level, held=True)
         # Of one cross-section the lowest band is swept least: higher up only what it left out is looked at.
-        narrow = smallest if underside or not reach.noses else reach.least(TOLERANCES.leftover)
-        thick, where = 0.0, None
-        if not alike or key not in unseen or unseen[key] is not None:
-            within = unseen.get(key) if alike else None
-            if drawn is not None:
-                within = drawn if within is None else shapely.intersection(within, drawn)
-            thick, where = _on_walls(reached, within, aside, job, groups, narrow)
-        unseen[key] = aside
-        uncut = _on_floors(reached, band, job, groups)
-        for depth, spot in ((min(thick, 2 * smallest), where), uncut):
+        within = left_out.get(band.section) if wanted.alike else None
+        left_out[band.section] = shapely.Polygon() if aside is None else aside
+        found = [_on_floors(reached, band, job, groups)]
+        if within is None or not within.is_empty:
+            within = _both(within, wanted.drawn)
+            thick, spot = _on_walls(reached, within, aside, job, groups, wanted.narrowest(band))
+            found.insert(0, (min(thick, 2 * wanted.smallest), spot))
+        for depth, spot in found:
             if spot is not None and depth > worst:
                 worst, at, bore = depth, (*spot, band.bottom), None
-    beyond = []
-    for key, (band, groups) in lowest.items():
-        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in round_floors]
-        keep = shapely.union_all([band.keep, *solid]) if solid else band.keep
-        beyond += _beyond(rests[key], Band(band.top, band.bottom, keep), job, groups)
-    beyond.sort(key=lambda spot: -spot[3])
-    return Remains(worst, at, tuple(beyond), bore)
+    beyond = [spot for foot in lowest.values() for spot in _beyond(foot, wanted, job)]
+    return Remains(worst, at, tuple(sorted(beyond, key=lambda spot: -spot[3])), bore)
+
+
+@dataclass(frozen=True)
+class _Foot:
+    """The lowest band of a cross-section: what is cut there, and what has to stay there at least."""
+
+    band: Band
+    groups: list[Sweep]
+    rest: Shape
+
+
+class _Wanted:
+    """What the mills of a program have to leave, band by band."""
+
+    def __init__(self, job: Job, mills: Sequence[Tool]) -> None:
+        self.job, self.mills = job, mills
+        air = play(job) + job.wear_margin
+        self.reach = Reach(mills, air, -job.floor)
+        self.fillets = fillets(job)
+        self.smallest = min(tool.radius for tool in mills) + air
+        self.slack = max(TAB_SLACK, *self.reach.noses) if self.reach.noses else TAB_SLACK
+        extra = [z for fillet in self.fillets for z in fillet.heights] + _above_floors(job, self.reach)
+        self.bands = bands(job, (*(tab.top + self.slack for tab in job.tabs), *extra))
+        self.drawn = asked(job)
+
+    @property
+    def alike(self) -> bool:
+        """Whether one cross-section asks but once.
+
+        With round or short cutters, or round floors, every height is another question.
+        """
+        return self.reach.plain and not self.fillets
+
+    def narrowest(self, band: Band) -> float:
+        """Radius of the narrowest mill where a band is measured, mm."""
+        underside = band.bottom <= -self.job.thickness + NEAR
+        if underside or not self.reach.noses:
+            return self.smallest
+        return self.reach.least(TOLERANCES.leftover)
+
+    def rest(self, place: int, level: float, *, held: bool = False) -> Shape:
+        """What has to stay at a height in the band of an index; with ``held`` the tabs as well."""
+        rest = self.reach.rest(self._held if held else self._free, place, level)
+        if not self.reach.noses:
+            return rest
+        return along(rest, play(self.job), self.job, self.bands[place], self.mills, level)
+
+    def beside_tabs(self, place: int) -> Shape | None:
+        """Where the cutter lifts beside the tabs that a band touches, if any: what stays goes with the tab."""
+        tabs, widest = self._tabs[place], max(tool.diameter for tool in self.mills)
+        return shapely.union_all([grow(tab, widest, COARSE) for tab in tabs]) if tabs else None
+
+    @cached_property
+    def _tabs(self) -> list[list[Shape]]:
+        """The tabs that each band touches."""
+        tabs = self.job.tabs
+        return [[t.shape for t in tabs if t.top + self.slack >= band.top - NEAR] for band in self.bands]
+
+    @cached_property
+    def _free(self) -> Surroundings:
+        """What has to stay, without tabs."""
+        job, floors = self.job, []
+        if not self.reach.plain:
+            floors = [(-(one.top + one.depth), floor_of(one, job)) for one in _recesses(job)]
+        layers = [(band.top, self._entered(band, band.keep)) for band in self.bands]
+        return Surroundings(layers, -job.thickness, floors, self.fillets)
+
+    @cached_property
+    def _held(self) -> Surroundings:
+        """What has to stay, with the tabs."""
+        layers = [
+            (band.top, self._entered(band, shapely.union_all([band.keep, *tabs])))
+            for band, tabs in zip(self.bands, self._tabs, strict=True)
+        ]
+        return replace(self._free, layers=layers)
+
+    def _entered(self, band: Band, keep: Shape) -> Shape:
+        return entered(keep, self.smallest, play(self.job), self.job, band)
+
+
+def _both(one: Shape | None, two: Shape | None) -> Shape | None:
+    """Where two regions are both; None is everywhere."""
+    if one is None or two is None:
+        return two if one is None else one
+    both: Shape = shapely.intersection(one, two)
+    return both
 
 
 def _recesses(job: Job) -> list[Feature]:
@@ -175,11 +216,6 @@ def _above_floors(job: Job, reach: Reach) -> list[float]:
     """Heights from which on round mills are as wide as they get above the floors."""
     floors = {feature.top + feature.depth for feature in _recesses(job)}
     return [nose - floor for nose in reach.noses for floor in floors]
-
-
-def _tabs_at(job: Job, band: Band, slack: float) -> list[Shape]:
-    """The tabs that a band touches."""
-    return [tab.shape for tab in job.tabs if tab.top + slack >= band.top - NEAR]
 
 
 def _on_walls(
@@ -280,11 +316,13 @@ def _on_floors(
     return float(distance[worst]), (float(corners[worst, 0]), float(corners[worst, 1]))
 
 
-def _beyond(
-    reached: Shape, band: Band, job: Job, groups: list[Sweep]
-) -> list[tuple[float, float, float, float, float]]:
+def _beyond(foot: _Foot, wanted: _Wanted, job: Job) -> list[tuple[float, float, float, float, float]]:
     """The places between the part and its closing that nothing has cut."""
-    rest = shapely.difference(reached, grow(band.keep, VISIBLE / 2))
+    band, groups, keep = foot.band, foot.groups, foot.band.keep
+    if wanted.fillets:
+        solid = [fillet.solid(band.bottom + TOLERANCES.leftover) for fillet in wanted.fillets]
+        keep = shapely.union_all([keep, *solid])
+    rest = shapely.difference(foot.rest, grow(keep, VISIBLE / 2))
     inside = stock_shape(job) if job.frame is None else job.frame.body
     parts = shapely.get_parts(shapely.intersection(rest, inside))
     if parts.size == 0:
@@ -295,7 +333,7 @@ def _beyond(
     parts = parts[~shapely.is_empty(parts)]
     if parts.size == 0:
         return []
-    points, depth = _deepest_points(parts, Boundary(band.keep))
+    points, depth = _deepest_points(parts, Boundary(keep))
     told = depth > VISIBLE
     return [
         (x, y, band.bottom, d, a)

@@ -188,12 +188,11 @@ class Reach:
         return around.blocked[key]
 
     def _blocked_anew(self, tool: Tool, around: Surroundings, tip: float) -> Shape:
-        blocked: dict[int, tuple[float, Shape]] = {}
-        for top, keep in around.layers:
-            if top > tip + NEAR:
-                away = self._swept(tool, top - tip)
-                blocked[id(keep)] = max(away, blocked.get(id(keep), (0.0, keep))[0]), keep
-        shapes = [grow(keep, away) for away, keep in blocked.values()]
+        blocked: list[tuple[float, Shape]] = []
+        for top, keep in around.layers:  # of layers with one cross-section the highest asks for most
+            if top > tip + NEAR and all(keep is not other for _, other in blocked):
+                blocked.append((self._swept(tool, top - tip), keep))
+        shapes = [grow(keep, away) for away, keep in blocked]
         for fillet in around.fillets:
             if tip >= fillet.floor + fillet.radius - NEAR:
                 continue  # above it, layers say where the walls are

@@ -13,8 +13,6 @@ class Check:
 
     Parameters
     ----------
-    name
-        Stable name (``"gouge"``, ``"length-offset"``).
     passed
         The answer.
     message
@@ -25,9 +23,10 @@ class Check:
         What was found and what is allowed, in ``unit``.
     at
         Place in work coordinates, mm.
+    name
+        That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in.
     """
 
-    name: str
     passed: bool
     message: str
     line: int | None = None
@@ -35,6 +34,7 @@ class Check:
     limit: float | None = None
     unit: str = ""
     at: tuple[float, float, float] | None = None
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)

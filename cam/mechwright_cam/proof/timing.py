@@ -11,6 +11,8 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.program.moves import OPERATION_COMMENT
+from mechwright_cam.proof.report import OperationTime
 from mechwright_cam.shop.machine import Machine
 
 CORNER = 100.0
@@ -49,6 +51,42 @@ def step_times(run: Run, machine: Machine) -> Array:
     seconds += run.seconds
     seconds[run.kind == Kind.TOOL] += machine.tool_change
     return seconds
+
+
+def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
+    """Times by operation: from one operation comment to the next; by tool where there are none."""
+    named = [
+        (remark.step, _as_planned(remark.text[len(OPERATION_COMMENT) :]))
+        for remark in run.remarks
+        if remark.text.lower().startswith(OPERATION_COMMENT)
+    ]
+    if not named:
+        named = [(int(step), f"T{run.tool[step]}") for step in np.flatnonzero(run.kind == Kind.TOOL)]
+    if not named or named[0][0] > 0:
+        named.insert(0, (0, "start"))
+    edges = [step for step, _ in named] + [len(run)]
+    path = np.where(run.cutting, np.nan_to_num(run.length), 0.0)
+    out = []
+    for (first, name), last in zip(named, edges[1:], strict=True):
+        if last > first:
+            # After the last cut the next file may already have named its tool.
+            cuts = np.flatnonzero(run.cutting[first:last])
+            tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])
+            out.append(
+                OperationTime(
+                    name,
+                    tool,
+                    float(seconds[first:last].sum()),
+                    float(path[first:last].sum()),
+                    float(seconds[first:last][run.cutting[first:last]].sum()),
+                )
+            )
+    return tuple(out)
+
+
+def _as_planned(name: str) -> str:
+    """The name of an operation; a control that shows capitals only has changed it."""
+    return name.lower() if name.isupper() else name
 
 
 def _rapids(run: Run, machine: Machine) -> Array:

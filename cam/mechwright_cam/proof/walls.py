@@ -21,16 +21,14 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import Band, asked, bands
 from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import MILLS
 
 SAMPLES = 6000
 """Places along all walls of one height, at most."""
@@ -104,13 +102,9 @@ class Walls:
         }
 
 
-def wall_deviation(run: Run, job: Job) -> Walls:
+def wall_deviation(sweeps: Sweeps, job: Job) -> Walls:
     """Measure the cut along every wall of a job."""
-    tools = {tool.number: tool for tool in job.tools}
-    paths = Paths(run, tools)
-    sweeps = Sweeps(paths)
-    used = [tools[number] for number in set(run.tool[paths.steps].tolist())]
-    mills = [tool for tool in used if tool.kind in MILLS]
+    mills = sweeps.paths.mills
     smallest = min((tool.radius for tool in mills), default=0.0)
     widest = max((tool.diameter for tool in mills), default=0.0)
     nose = max((tool.nose for tool in mills), default=0.0)
