@@ -12,9 +12,9 @@ import time
 
 import numpy as np
 import shapely
+from mechwright.findings import errors, until_error
 
 from mechwright.errors import MechwrightError
-from mechwright.findings import errors, until_error
 from mechwright_elliptic_gears import checks
 from mechwright_elliptic_gears.gear import offsets_that_mesh, outline_of, teeth_of
 from mechwright_elliptic_gears.kinematics import Turning, driven

@@ -13,6 +13,7 @@ import multiprocessing
 import sys
 import time
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -33,6 +34,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
 
 PROCESSES = 2
 RANDOM = 2

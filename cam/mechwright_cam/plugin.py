@@ -1,4 +1,4 @@
-"""What the CAM room registers: controls, rules of the proof, ``[cam]``, pages, and the inspection of cutters."""
+"""What the CAM room registers: controls, the table ``[cam]``, rules, pages, and the inspection of cutters."""
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl

@@ -15,13 +15,10 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.turned import Frame
-from mechwright_cam.setup.views import inside_of
+from mechwright_cam.setup.views import SKIN, inside_of
 from mechwright_cam.shop.tool import MILLS
 
-SKIN = 2 * TOLERANCES.flatten
-"""A boundary within this of the part is a wall, or its rim, mm: what chords of both may be off together."""
-
-RUN_OUT = 3.0
+LONGEST_RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
 lead that is as long again with the largest D."""
 
@@ -33,7 +30,7 @@ Length = TypeVar("Length", float, Array)
 
 def run_out(diameter: Length) -> Length:
     """How far beyond a rim the edge of a cutter may go that runs out there, mm."""
-    return RUN_OUT * diameter + SPARE
+    return LONGEST_RUN_OUT * diameter + SPARE
 
 
 @dataclass(frozen=True)

@@ -19,14 +19,14 @@ from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 BEYOND = 1.5
 """Speeds, depths, and feeds of what is no mill, may be so many times the library's: tables of makers differ
 by as much, and a wrong digit is more."""
-THIN = 3.0
+THIN_CHIPS = 3.0
 """Feed per tooth of a mill in chip loads: where it takes little, chips are thinner. Beyond, nobody feeds into
 material."""
 MIDDLE = 0.5
 """Radius of the middle of a mill in radii: beside it a quarter of the diameter may be in a wall."""
 SHAVES = 0.05
 """A mill on its way through what is cleared may shave so much off a wall, mm."""
-PLAY = 0.1
+ROUGHING_PLAY = 0.1
 """What roughing leaves on walls may be so much more than planned without being in the middle, mm."""
 
 
@@ -71,7 +71,7 @@ def chips(scene: Scene) -> Check:
         if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
             steps, plunge = steps[plunge], plunge[plunge]
         # Straight down a flat end has no place where chips are thin.
-        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN)
+        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN_CHIPS)
         # Whole feeds are as near as some posts come to a small one.
         fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
         for index in np.flatnonzero(run.feed[steps] > fastest).tolist():
@@ -115,7 +115,7 @@ def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:
 def middle(scene: Scene, tool: Tool) -> float:
     """Radius of the middle of a mill, mm, 0 if it has none: what roughing leaves on a wall is beside it."""
     beside = tool.radius - MIDDLE * tool.radius
-    return MIDDLE * tool.radius if scene.job.settings.stock_to_leave + PLAY <= beside else 0.0
+    return MIDDLE * tool.radius if scene.job.settings.stock_to_leave + ROUGHING_PLAY <= beside else 0.0
 
 
 def pecks(scene: Scene) -> Check:

@@ -23,14 +23,14 @@ from mechwright_cam.shop.tool import ToolKind
 
 OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
 """Which kind of tool may cut which detail."""
-SPACING = 0.2
+EDGE_SPACING = 0.2
 """Distance of the places along an edge or a stroke at which its cut is measured, mm."""
 FINE = 24
 """A fillet is looked at, at so many heights, for what is not as a mill: in between it is within 0.1 % of its
 radius of both."""
 FITS = 0.02
 """A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
-BESIDE = 0.003
+BESIDE_CORNER = 0.003
 """A place of a chamfer this near to what its cutter cannot reach is not asked for, mm."""
 
 
@@ -127,8 +127,10 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
         keep = shapely.difference(frame, grow(region, width))
     tools = [t.diameter / 2 for t in job.tools if t.kind is ToolKind.CHAMFER]
     wall = Wall(closing(keep, min(tools, default=0.0)))
-    points, _ = wall.at(wall.stations(SPACING))
-    near = shapely.dwithin(shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE)
+    points, _ = wall.at(wall.stations(EDGE_SPACING))
+    near = shapely.dwithin(
+        shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE_CORNER
+    )
     off = _off(paths, points[near], -width + TOLERANCES.arc_fit, 0.0)
     if not off.size or off.max() > TOLERANCES.leftover:
         x, y = points[near][int(np.argmax(off))] if off.size else (0.0, 0.0)
@@ -137,7 +139,7 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
 
 
 def _engraving(paths: Paths, detail: Engraving) -> str:
-    lines = shapely.segmentize([shapely.LineString(stroke) for stroke in detail.strokes], SPACING)
+    lines = shapely.segmentize([shapely.LineString(stroke) for stroke in detail.strokes], EDGE_SPACING)
     points = shapely.get_coordinates(lines)
     off = _off(paths, points, -detail.depth + TOLERANCES.arc_fit, -detail.depth + TOLERANCES.leftover)
     if off.max() > TOLERANCES.leftover:

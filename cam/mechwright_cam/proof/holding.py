@@ -14,7 +14,7 @@ from mechwright_cam.proof.sweep import Sweep, Sweeps
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import inside_of
 
-ROUGHLY = 0.02
+BRIDGE = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
 JAMS = 1.0
 """A loose piece wider than this is worth a remark, mm: it can be caught between cutter and part."""
@@ -79,7 +79,7 @@ def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     for sweep in cut:
         chains = sweep.beside(region)
         near = chains[shapely.dwithin(region, chains, sweep.radius)]
-        shapes.append(swept(near, sweep.radius, ROUGHLY))
+        shapes.append(swept(near, sweep.radius, BRIDGE))
     return shapes
 
 
@@ -91,11 +91,11 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     """
     plate = stock_shape(job)
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
-    tabs = [grow(tab.shape, scrap, ROUGHLY) for tab in job.tabs]
+    tabs = [grow(tab.shape, scrap, BRIDGE) for tab in job.tabs]
     pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
     inside = shapely.point_on_surface(shapely.get_parts(job.target))
     others = pieces[~shapely.intersects(pieces[:, None], inside).any(axis=1)]
-    ends = np.array([shapely.dwithin(others, tab, ROUGHLY) for tab in tabs]).reshape(len(tabs), len(others))
+    ends = np.array([shapely.dwithin(others, tab, BRIDGE) for tab in tabs]).reshape(len(tabs), len(others))
     frame = ends.sum(axis=0) >= 2
     for tab, row in zip(job.tabs, ends, strict=True):
         if not (row & frame).any():
@@ -112,7 +112,7 @@ def loose(sweeps: Sweeps, job: Job) -> list[str]:
             continue
         opening = inside_of(feature)
         rest = shapely.get_parts(shapely.difference(opening, shapely.union_all(_swept(cut, opening))))
-        free = rest[shapely.distance(rest, opening.exterior) > ROUGHLY]
+        free = rest[shapely.distance(rest, opening.exterior) > BRIDGE]
         for piece in free[~shapely.is_empty(shapely.buffer(free, -JAMS / 2, quad_segs=4))].tolist():
             remarks.append(
                 f"a piece of {piece.area:.1f} mm² comes loose in {feature.name}; stop to take it out"

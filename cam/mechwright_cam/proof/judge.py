@@ -10,8 +10,9 @@ import numpy as np
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.holding import loose
-from mechwright_cam.proof.leftover import SPOTS, Remains
+from mechwright_cam.proof.leftover import Remains
 from mechwright_cam.proof.report import Proof, Spot
 from mechwright_cam.proof.rule import Rule, ask
 from mechwright_cam.proof.rules import BUILT_IN

@@ -24,7 +24,7 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.shop.cutter import Cutter, cutter
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-CHORD = 0.0002
+PATH_CHORD = 0.0002
 """Chord error of arcs, mm: a twenty-fifth of the gouge limit."""
 FAR_ABOVE = 1000.0
 """Stands for the machine's upper end, mm: above any clamp or clearance."""
@@ -144,7 +144,7 @@ class Paths:
         last = np.where(z1 > height, crossing, 1.0)
         return Pieces(steps, first, last, np.minimum(z0, z1))
 
-    def points(self, pieces: Pieces, chord: float = CHORD) -> tuple[Array, Ints]:
+    def points(self, pieces: Pieces, chord: float = PATH_CHORD) -> tuple[Array, Ints]:
         """Corners (k, 2) of all pieces, mm, and the piece (k,) that each belongs to."""
         run, step = self.run, pieces.step
         turn = run.sweep[step] * (pieces.last - pieces.first)
@@ -224,7 +224,7 @@ class Paths:
             return np.empty(0, dtype=object)
         return _lines(*self.points(pieces))
 
-    def chains(self, pieces: Pieces, chord: float = CHORD) -> Geometries:
+    def chains(self, pieces: Pieces, chord: float = PATH_CHORD) -> Geometries:
         """The pieces joined into chains, repeated passes once.
 
         All pieces have to be of one tool.

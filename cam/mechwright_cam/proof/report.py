@@ -76,7 +76,7 @@ class Proof:
     unreachable_area_mm2, unreachable_max_mm
         Stock that no cutter of the program reaches: area seen from above, and greatest depth.
     unreachable
-        Where that is, deepest first; at most :data:`mechwright_cam.proof.leftover.SPOTS`.
+        Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`.
     rapids_in_stock
         Number of rapid moves that meet material.
     time_estimate_s
