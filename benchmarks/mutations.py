@@ -13,6 +13,7 @@ import multiprocessing
 import sys
 import time
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -33,6 +34,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
 
 PROCESSES = 2
 RANDOM = 2
@@ -91,9 +93,9 @@ def sources() -> tuple[Source, ...]:
     return tuple(found)
 
 
-def _moves(run: Run) -> list[height_map.Move]:
+def _moves(run: Run, tools: Sequence[Tool]) -> list[height_map.Move]:
     """The run as moves of the height map."""
-    paths = Paths(run, {int(n): None for n in set(run.tool.tolist())})
+    paths = Paths(run, tools)
     steps = paths.steps
     points, owner = paths.points(paths.below(np.inf, steps=steps), 0.01)
     edges = np.flatnonzero(np.diff(owner)) + 1
@@ -131,7 +133,7 @@ def _cut(run: Run, job: Job) -> tuple[height_map.Simulation, np.ndarray]:
             return low
 
     seen = height_map.Simulation(job.stock, job.thickness, PITCH, under)
-    seen.run(_moves(run), height_map.cutters(job))
+    seen.run(_moves(run, job.tools), height_map.cutters(job))
     return seen, seen.table().reshape(-1, 10)
 
 

@@ -1,5 +1,6 @@
 """Machining: the jobs of a build, their programs, and the proof of each."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,7 +17,11 @@ from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.prepare import plates, prepare
 from mechwright_cam.planning.setups import carried
 from mechwright_cam.program.moves import Program
-from mechwright_cam.proof import Proof, cut_away, prove
+from mechwright_cam.proof.carried import cut_away
+from mechwright_cam.proof.judge import RULES, judge
+from mechwright_cam.proof.report import Proof
+from mechwright_cam.proof.rule import Rule
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.library import Library
@@ -32,8 +37,8 @@ class Machined:
     program: Program
     files: dict[str, str]
     proof: Proof
-    proven: str | dict[str, str]
-    """What the proof has read: the text, or several files by name."""
+    scene: Scene
+    """What the proof has looked at, as far as it is worked out."""
 
     @property
     def text(self) -> str:
@@ -56,6 +61,11 @@ class Machining:
     def control(self) -> Control:
         """The control that reads the programs; raises PluginError if it is not installed."""
         return control_of(self._build.design, self._build.host)
+
+    @property
+    def rules(self) -> list[Rule]:
+        """What every program is judged by: what is built in, and what anybody has installed."""
+        return self._build.host.all(Rule)
 
     @cached_property
     def plates(self) -> list[Part]:
@@ -113,8 +123,8 @@ class Machining:
         for place, job in enumerate(self.jobs):
             laid = job
             if job.side == "underside":  # what the first side leaves changes how it is cut, and not by whom
-                laid = self.assignments.carry(job, second_setup(made[-1], job, self.control))
-            made.append(machine(laid, self.control, place, self.assignments))
+                laid = self.assignments.carry(job, second_setup(made[-1], job))
+            made.append(machine(laid, self.control, place, self.assignments, self.rules))
         return made
 
     @cached_property
@@ -137,13 +147,18 @@ def control_of(design: Design, host: Host) -> Control:
         raise PluginError(f"{design.path}: cam.control: {error}") from error
 
 
-def second_setup(first: Machined, job: Job, control: Control) -> Job:
+def second_setup(first: Machined, job: Job) -> Job:
     """The second setup of a part, with what the first one has left of the plate."""
-    cut = cut_away(first.proven, first.job, control)
-    return replace(job, gone=carried(cut, first.job, job))
+    return replace(job, gone=carried(cut_away(first.scene), first.job, job))
 
 
-def machine(job: Job, control: Control, place: int = 0, assignments: Assignments | None = None) -> Machined:
+def machine(
+    job: Job,
+    control: Control,
+    place: int = 0,
+    assignments: Assignments | None = None,
+    rules: Sequence[Rule] = RULES,
+) -> Machined:
     """Plan a program, post it, and prove the posted text.
 
     Who cuts what is taken from ``assignments``, if it has been decided. Programs of one design that have
@@ -169,6 +184,7 @@ def machine(job: Job, control: Control, place: int = 0, assignments: Assignments
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))
-    proof = prove(text, job, control)
+    scene = Scene(text, job, control)
+    proof = judge(scene, rules)
     proof.require()
-    return Machined(job, program, files, proof, text)
+    return Machined(job, program, files, proof, scene)

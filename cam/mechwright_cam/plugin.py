@@ -1,4 +1,4 @@
-"""What the CAM room registers: controls, the table ``[cam]``, pages, and the inspection of cutters."""
+"""What the CAM room registers: controls, the table ``[cam]``, rules, pages, and the inspection of cutters."""
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
@@ -14,7 +14,8 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.mach3 import Mach3
     from mechwright_cam.inspection import Machinable
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
+    from mechwright_cam.proof.rules import BUILT_IN
     from mechwright_cam.shop.table import CamTable
 
     controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
-    return [*controls, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]
+    return [*controls, *BUILT_IN, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]

@@ -13,6 +13,7 @@ from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.pages import setup_sheet
 from mechwright_cam.pages.setup_sheet import procedure
+from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.setup.job import Job
 
 BY_NAME: dict[str, GcodeControl] = {
@@ -34,11 +35,19 @@ def prove(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) 
 
 
 def read(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC, more: float = 0.0) -> Run:
-    return proof.read(text, job, control, more)
+    return scene_of(text, job, control).read(more)
+
+
+def scene_of(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) -> proof.Scene:
+    return proof.Scene(text, job, control)
+
+
+def simulated(text: str, job: Job) -> Simulation:
+    return simulate(scene_of(text, job).paths, job)
 
 
 def cut_away(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) -> Any:
-    return proof.cut_away(text, job, control)
+    return proof.cut_away(scene_of(text, job, control))
 
 
 def setup_html(programs: Sequence[tuple[Job, Any, Any]], control: Control | None = None, **more: Any) -> str:

@@ -304,7 +304,7 @@ def made(operation: str, control: str) -> tuple[Machined, ...]:
         raise AssertionError(f"{operation}: {errors(found)[0]}")
     done: list[Machined] = []
     for place, job in enumerate(jobs):
-        done.append(machine(job if job.side == "top" else second_setup(done[-1], job, post), post, place))
+        done.append(machine(job if job.side == "top" else second_setup(done[-1], job), post, place))
     return tuple(done)
 
 

@@ -23,7 +23,8 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import lay_out_setups
-from mechwright_cam.proof import Proof
+from mechwright_cam.proof import Proof, Scene
+from mechwright_cam.proof.judge import judge
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
@@ -405,10 +406,11 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         if errors(found):
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:
-            laid = job if job.side == "top" else second_setup(made[-1], job, post)
+            laid = job if job.side == "top" else second_setup(made[-1], job)
             program = plan(laid)
             text = post.write(program)
-            made.append(Machined(laid, program, {program.name: text}, prove(text, laid, post), text))
+            scene = Scene(text, laid, post)
+            made.append(Machined(laid, program, {program.name: text}, judge(scene), scene))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))
     return Outcome(drawn, control, made=tuple(made))

@@ -7,7 +7,7 @@ import height_map
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, cut_away, interpret, prove
+from by_control import BY_NAME, cut_away, interpret, prove, simulated
 from planning_parts import LIBRARY, bore, rounded_box
 
 from mechwright.contracts.details import Chamfer
@@ -21,7 +21,6 @@ from mechwright_cam.machining import machine, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import carried, lay_out_setups, turned_shape
 from mechwright_cam.proof.carried import SWEPT
-from mechwright_cam.proof.simulation import simulate
 from mechwright_cam.setup.job import Air
 from mechwright_cam.shop.settings import CamSettings
 
@@ -49,7 +48,7 @@ def made(flip="x"):
     jobs, found = lay_out_setups(part, settings, LIBRARY)
     assert not errors(found), found
     first = machine(jobs[0], LinuxCnc())
-    return first, machine(second_setup(first, jobs[1], LinuxCnc()), LinuxCnc())
+    return first, machine(second_setup(first, jobs[1]), LinuxCnc())
 
 
 @cache
@@ -121,7 +120,7 @@ def test_recesses_that_meet_break_through():
     beside = turned_shape(shapely.transform(alone, lambda p: p - first.job.origin), first.job, second.job)
     assert len(below.left(beside, -THICKNESS)) > 0
     assert len(below.left(beside.buffer(-0.3), -4.98)) == 0
-    seen = simulate(interpret(second.text), second.job)
+    seen = simulated(second.text, second.job)
     x0, y0, _, _ = second.job.stock
     at = there.centroid
     assert seen.heights[int((at.y - y0) / seen.cell), int((at.x - x0) / seen.cell)] == -THICKNESS
@@ -129,7 +128,7 @@ def test_recesses_that_meet_break_through():
 
 def test_the_same_stock_stands_in_both_simulators():
     for side, seen in zip(made(), milled(), strict=True):
-        grid = simulate(interpret(side.text), side.job)
+        grid = simulated(side.text, side.job)
         x0, y0, _, _ = side.job.stock
         i = np.clip(((seen.x - x0) / grid.cell).astype(int), 0, grid.heights.shape[1] - 1)
         j = np.clip(((seen.y - y0) / grid.cell).astype(int), 0, grid.heights.shape[0] - 1)
@@ -146,7 +145,7 @@ def test_the_underside_does_not_cut_air():
     blind = replace(second.job, gone=())
     plain = LinuxCnc().write(plan(blind))
     assert prove(plain, blind).ok
-    knowing, not_knowing = (simulate(interpret(text), second.job) for text in (second.text, plain))
+    knowing, not_knowing = (simulated(text, second.job) for text in (second.text, plain))
     assert knowing.feed_mm < 0.9 * not_knowing.feed_mm
     assert knowing.air_mm < 0.6 * not_knowing.air_mm
     # Without what the first side has left, the program leaves floors standing.
@@ -193,11 +192,11 @@ def test_chips_are_as_thick_as_the_stock_that_is_there():
     whole = replace(second.job, gone=())
     opened = replace(second.job, gone=(Air(shapely.box(x0, y0, x1, y1), -2.0),))
     through = replace(second.job, gone=(Air(shapely.box(x0, y0, x1, y1), 0.0),))
-    run = interpret(text)
-    rates = [simulate(run, job).works for job in (whole, opened, through)]
+    rates = [simulated(text, job).works for job in (whole, opened, through)]
     assert rates[0][0].removal == pytest.approx(3 * rates[1][0].removal, rel=0.02)
     assert rates[2] == ()
-    assert simulate(run, through).air_mm == simulate(run, through).feed_mm
+    blank = simulated(text, through)
+    assert blank.air_mm == blank.feed_mm
 
 
 def test_nothing_is_carried_from_a_program_that_cuts_nothing():

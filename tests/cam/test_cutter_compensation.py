@@ -55,7 +55,7 @@ def contours(text: str, one: Job, more: float = 0.0) -> shapely.Geometry:
     run = read(text, one, reader(), more)
     on = np.array([state.side != 0 for state in run.states])[run.state]
     steps = np.flatnonzero(on & np.isin(run.kind, (Kind.FEED, Kind.ARC)))
-    paths = Paths(run, {tool.number: tool for tool in one.tools})
+    paths = Paths(run, one.tools)
     zeros = np.zeros(steps.size)
     ways: shapely.Geometry = shapely.geometrycollections(paths.lines(Pieces(steps, zeros, zeros + 1, zeros)))
     return ways

@@ -64,7 +64,7 @@ def test_a_reference_move_without_an_axis_is_one_of_all(control: str) -> None:
     text, line = in_cut(text_of(control), "G28")
     if control == "fanuc":
         with pytest.raises(ProgramError, match=f"^line {line}: G28 without an axis sends none home"):
-            scene_of(control, text)
+            _ = scene_of(control, text).run
         return
     refused(machine_moves, control, text, line)
     assert judged(machine_moves, control, at_the_end(text_of(control), "G28")[0]).passed
@@ -101,7 +101,7 @@ def test_machine_coordinates_are_no_distances(control: str) -> None:
     """LinuxCNC refuses G53 with G91, Fanuc skips it: a retract that does not happen."""
     text, line = in_cut(text_of(control), "G91 G53 G0 Z0.")
     with pytest.raises(ProgramError, match=rf"^line {line}: G53 with distances \(G91\).* write G90 before"):
-        scene_of(control, text)
+        _ = scene_of(control, text).run
 
 
 def test_a_reference_move_does_not_end_compensation() -> None:

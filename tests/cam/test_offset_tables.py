@@ -115,4 +115,4 @@ def test_other_controls_have_no_parameters_here(control: str, words: str) -> Non
     with pytest.raises(
         ProgramError, match=rf"^line {line}: parameters, expressions and O-words are not read"
     ):
-        scene_of(control, text)
+        _ = scene_of(control, text).run

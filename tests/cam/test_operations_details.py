@@ -132,7 +132,7 @@ def test_a_chamfer_mill_that_cuts_into_a_fillet_is_seen():
     deepest = []
     for planted in ("", f"G0 X25 Y-3.6\nG43 H{mill.number} Z5\nG1 Z-1.2 F99\nX26\n"):
         run = read(text.replace("M9\nM5\nG53 G0 Z0\nM30", planted + "M9\nM5\nG53 G0 Z0\nM30"), of, LINUXCNC)
-        cuts = deepest_in_fillet(Paths(run, {tool.number: tool for tool in of.tools}), of, fillet)
+        cuts = deepest_in_fillet(Paths(run, of.tools), of, fillet)
         deepest.append(max((cut.depth for cut in cuts if cut is not None), default=0.0))
     # 0.4 mm off the wall, 0.1 mm above the floor: a cone of 45 degrees meets the fillet.
     assert deepest[0] <= 0.005

@@ -170,7 +170,7 @@ def test_stock_above_a_tab_is_found(program: str) -> None:
 
 def test_a_sweep_knows_what_is_beside_a_shape(program: str) -> None:
     job = plate_job()
-    sweeps = Sweeps(Paths(interpret(program), {tool.number: tool for tool in job.tools}))
+    sweeps = Sweeps(Paths(interpret(program), job.tools))
     cut = sweeps.through(job.thickness)
     assert sweeps.through(job.thickness) is cut
     for sweep in cut:

@@ -35,7 +35,7 @@ def run_of(text: str, start: str = START) -> Run:
 
 
 def paths_of(text: str, *tools: Tool) -> Paths:
-    return Paths(run_of(text), {tool.number: tool for tool in tools or (MILL,)})
+    return Paths(run_of(text), tools or (MILL,))
 
 
 # -- gouges ----------------------------------------------------------------------------------------------
@@ -228,7 +228,7 @@ def test_a_boundary_knows_holes() -> None:
 def test_material_is_known_at_any_moment() -> None:
     job = plate_job()
     run = run_of("G1 Z-2 F100\nG1 X20\nG0 Z5\nG0 X0\nG0 Z-2\nG0 Z5\nG0 Z-2.5\nG0 Z5\nG0 X10 Y3\nG0 Z-1\n")
-    paths = Paths(run, {tool.number: tool for tool in TOOLS})
+    paths = Paths(run, TOOLS)
     stock = Stock(paths, job)
     met = {int(run.line[step]): stock.meets(int(step)) for step in paths.steps}
     # Down into the slot to its floor, below it, and beside it.

@@ -113,7 +113,7 @@ def both(made_part, control="linuxcnc", **changes):
     assert [job.side for job in jobs] == ["top", "underside"]
     post = host().get(Control, control)
     first = machine(jobs[0], post)
-    return first, machine(second_setup(first, jobs[1], post), post)
+    return first, machine(second_setup(first, jobs[1]), post)
 
 
 @pytest.mark.parametrize(
@@ -242,9 +242,7 @@ def test_a_recess_over_the_rim_is_open_into_the_frame(feature, locate) -> None:
     assert not [f for f in found if f.code == "cam.unreachable"]
     assert min(mill.diameter for mill in jobs[1].mills) >= 4.0
     first = machine(jobs[0], host().get(Control, "linuxcnc"))
-    second = machine(
-        second_setup(first, jobs[1], host().get(Control, "linuxcnc")), host().get(Control, "linuxcnc")
-    )
+    second = machine(second_setup(first, jobs[1]), host().get(Control, "linuxcnc"))
     assert second.proof.unreachable_max_mm < 0.01
     # The cutter runs out over the rim, and no further into the frame than it needs.
     run, mill = interpret(second.text), second.program.sections[-1].tool

@@ -12,7 +12,7 @@ from planning_parts import bore, job, plate
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.machining import machine as build
-from mechwright_cam.proof.timing import CORNER, step_times
+from mechwright_cam.proof.timing import CORNER_JUMP, step_times
 from mechwright_cam.shop.machine import Machine
 
 STEP = 0.004  # mm
@@ -61,7 +61,7 @@ def integrated(run: Run, machine: Machine) -> float:
                 continue
             here, there = piece[mine[1]] - piece[mine[0]], points[other][theirs[1]] - points[other][theirs[0]]
             turn = np.linalg.norm(here / np.linalg.norm(here) - there / np.linalg.norm(there))
-            own[at] = min(own[at], caps[other][0], CORNER / 60 / max(turn, 1e-6))
+            own[at] = min(own[at], caps[other][0], CORNER_JUMP / 60 / max(turn, 1e-6))
         cap.append(own)
     if not points:
         return 0.0

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from by_control import interpret, prove, setup_html
+from by_control import prove, scene_of, setup_html
 from planning_parts import job
 from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
@@ -23,7 +23,9 @@ SQUARE = Loop.polygon([(-24, -14), (-8, -14), (-8, 6), (-24, 6)])
 
 
 def measured(bias=BIAS):
-    return wall_deviation(interpret(LinuxCnc().write(plate_program(bias=bias))), plate_job())
+    return wall_deviation(
+        scene_of(LinuxCnc().write(plate_program(bias=bias)), plate_job()).sweeps, plate_job()
+    )
 
 
 @cache
@@ -33,7 +35,7 @@ def angle():
     of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6", "mill-4")
     program = plan(of)
     text = LinuxCnc().write(program)
-    return of, program, text, wall_deviation(interpret(text), of)
+    return of, program, text, wall_deviation(scene_of(text, of).sweeps, of)
 
 
 @pytest.mark.parametrize("bias", [0.001, 0.003, -0.002])
@@ -57,7 +59,7 @@ def test_the_worst_cut_is_where_it_was_planted():
     below = next(i for i in range(last + 1, len(lines)) if lines[i].startswith(("G1", "Y")))
     lines.insert(below, f"G1 X{HALF_X + 3 - 0.004:.4f}")
     lines.insert(below + 1, f"G1 X{HALF_X + 3 + BIAS:.4f}")
-    walls = wall_deviation(interpret("\n".join(lines)), plate_job())
+    walls = wall_deviation(scene_of("\n".join(lines), plate_job()).sweeps, plate_job())
     worst = walls.cut[0]
     assert worst.off == pytest.approx(-0.004, abs=2e-4)
     assert worst.x == pytest.approx(HALF_X, abs=0.01)
@@ -94,7 +96,7 @@ def test_places_listed_are_plain_data_of_the_proof():
 
 
 def test_a_program_that_cuts_nothing_leaves_all():
-    walls = wall_deviation(interpret("G21 G90\nM30\n"), plate_job())
+    walls = wall_deviation(scene_of("G21 G90\nM30\n", plate_job()).sweeps, plate_job())
     assert len(walls.off) == 0 or walls.off.min() >= 0
     assert walls.cut == ()
 

@@ -18,7 +18,9 @@ from mechwright_cam.machining import Machining, machine, second_setup
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.prepare import cut_plates, library_of
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.proof.judge import prove
+from mechwright_cam.proof.report import Proof
+from mechwright_cam.proof.rule import Rule
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.table import settings_of
@@ -80,7 +82,7 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
         raise DesignError(
             f"--part: {part_name!r} is no part of {design.path}; it has: {', '.join(sorted(known))}"
         )
-    reader = _reader(build, control)
+    reader, rules = _reader(build, control), build.host.all(Rule)
     part, underside = known[name], name != part_name
     cam = settings_of(design).of(part.name)
     library = library.cutting(cam.cutting)
@@ -93,10 +95,11 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
         (job,) = chosen
         if underside:  # on the plate as our own program for the first side leaves it
             own = build.made(Machining).control
-            job = second_setup(machine(jobs[0], own, assignments=assignments), job, own)
+            job = second_setup(machine(jobs[0], own, assignments=assignments, rules=rules), job)
     else:
         job = make_job(part, cam, choose_tools(part, cam, library, assignments))
-    return prove(text, replace(job, tools=library.measured(cam.measured.lengths).tools), reader)
+    job = replace(job, tools=library.measured(cam.measured.lengths).tools)
+    return prove(text, job, reader, rules)
 
 
 def _reader(build: Build, name: str) -> Control:

@@ -5,7 +5,6 @@ from typing import Any
 
 from mechwright.build import Build
 from mechwright_cam.machining import Machined, Machining
-from mechwright_cam.proof import read
 from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.proof.walls import Walls, wall_deviation
 
@@ -19,9 +18,10 @@ class Seen:
     @cached_property
     def measured(self) -> list[tuple[Machined, Simulation, Walls]]:
         """Each program with its simulated stock and the deviation along its walls."""
-        control = self.machining.control
-        runs = [(item, read(item.proven, item.job, control)) for item in self.machining.made]
-        return [(item, simulate(run, item.job), wall_deviation(run, item.job)) for item, run in runs]
+        return [
+            (item, simulate(item.scene.paths, item.job), wall_deviation(item.scene.sweeps, item.job))
+            for item in self.machining.made
+        ]
 
     @cached_property
     def proofs(self) -> dict[str, dict[str, Any]]:

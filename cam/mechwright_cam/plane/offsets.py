@@ -145,7 +145,7 @@ def densified(ring: Array, step: float) -> Array:
     return dense
 
 
-HALVINGS = 12
+BISECTIONS = 12
 """Bisections of an edge where it leaves the room: a thousandth of the edge is exact enough."""
 
 
@@ -207,7 +207,7 @@ def _last_inside(a: Array, b: Array, whole: bool, room: shapely.Geometry) -> Arr
     if whole:
         return b
     low, high = 0.0, 1.0
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = (low + high) / 2
         x, y = a + middle * (b - a)
         low, high = (middle, high) if shapely.contains_xy(room, x, y) else (low, middle)

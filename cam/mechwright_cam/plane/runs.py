@@ -25,7 +25,7 @@ CORNER = 0.5
 LONGEST_TURN = 2.2
 """An arc turns by little more than a third of a circle, rad: a circle is three of them, and the round end of
 a slot two, none of them a scrap."""
-NEAR = 1e-6
+ONE_VERTEX = 1e-6
 """Vertices nearer than this are one, mm."""
 STRAIGHT = 1e-9
 """A vertex this near to the line of its neighbours, mm, is none: a line of the drawing is one edge."""
@@ -135,7 +135,7 @@ def _without(gone: Mask, points: Array, bounds: Index) -> tuple[Array, Index]:
 def _doubled(points: Array) -> Mask:
     """Which vertices are where the one before is."""
     step = np.diff(points, axis=0)
-    return np.append(False, np.hypot(step[:, 0], step[:, 1]) <= NEAR)
+    return np.append(False, np.hypot(step[:, 0], step[:, 1]) <= ONE_VERTEX)
 
 
 def _on_straights(points: Array) -> Mask:

@@ -15,13 +15,10 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.turned import Frame
-from mechwright_cam.setup.views import inside_of
+from mechwright_cam.setup.views import SKIN, inside_of
 from mechwright_cam.shop.tool import MILLS
 
-SKIN = 2 * TOLERANCES.flatten
-"""A boundary within this of the part is a wall, or its rim, mm: what chords of both may be off together."""
-
-RUN_OUT = 3.0
+LONGEST_RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
 lead that is as long again with the largest D."""
 
@@ -33,7 +30,7 @@ Length = TypeVar("Length", float, Array)
 
 def run_out(diameter: Length) -> Length:
     """How far beyond a rim the edge of a cutter may go that runs out there, mm."""
-    return RUN_OUT * diameter + SPARE
+    return LONGEST_RUN_OUT * diameter + SPARE
 
 
 @dataclass(frozen=True)
@@ -46,11 +43,14 @@ class Band:
         z in work coordinates, mm.
     keep
         The finished part's cross-section, tabs not counted.
+    section
+        Number of the cross-section: bands of one number have the same.
     """
 
     top: float
     bottom: float
     keep: Shape
+    section: int = 0
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:
@@ -74,15 +74,15 @@ def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
         heights |= {-feature.top, -min(feature.top + feature.depth, job.thickness)}
     ordered = sorted((h for h in heights if -job.thickness - NEAR <= h <= NEAR), reverse=True)
     layers = []
-    known: dict[tuple[Feature, ...], Shape] = {}
+    known: dict[tuple[Feature, ...], tuple[Shape, int]] = {}
     for top, bottom in pairwise(ordered):
         if top - bottom < NEAR:
             continue
         depth = -(top + bottom) / 2
         here = tuple(feature for feature in partial if feature.top < depth < feature.top + feature.depth)
         if here not in known:
-            known[here] = _section(job, here)
-        layers.append(Band(top, bottom, known[here]))
+            known[here] = _section(job, here), len(known)
+        layers.append(Band(top, bottom, *known[here]))
     return layers
 
 

@@ -7,7 +7,7 @@ import shapely
 
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.proof.motion_rules import bodies
+from mechwright_cam.proof.holder import bodies
 from mechwright_cam.proof.paths import NEAR, Pieces
 from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.report import Check
@@ -62,9 +62,9 @@ def clamp(scene: Scene) -> Check:
             if check is not None:
                 return check
     if not every:
-        return Check("clamp", True, "there is no clamp in the way")
+        return Check(True, "there is no clamp in the way")
     held = "jaws of the vice" if scene.job.jaws else "clamp"
-    return Check("clamp", True, f"the cutter stays clear of the {held}")
+    return Check(True, f"the cutter stays clear of the {held}")
 
 
 def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float | None) -> Check | None:
@@ -83,7 +83,6 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
         return None
     advice = "" if radius is None else "; let the tool stick out further"
     return scene.bad(
-        "clamp",
         int(pieces.step[worst]),
         f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}",
         float(room[worst]),

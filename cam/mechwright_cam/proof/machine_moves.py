@@ -8,8 +8,6 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first
 
-NAME = "machine-moves"
-
 
 def machine_moves(scene: Scene) -> Check:
     """X and Y go to such places with the tool up all the way, and Z goes up only."""
@@ -19,7 +17,6 @@ def machine_moves(scene: Scene) -> Check:
     step = first(run.machine_xy & ~((start >= least) & (end >= least)))
     if step is not None and start[step] >= least:
         return scene.bad(
-            NAME,
             step,
             f"Z comes below the clearance plane, Z{limit:g}, while X or Y go to a place in machine "
             "coordinates; leave Z out of the line",
@@ -31,7 +28,6 @@ def machine_moves(scene: Scene) -> Check:
         z = float(start[step])
         found = "an unknown height" if np.isnan(z) else f"Z{z:g}"
         return scene.bad(
-            NAME,
             step,
             f"X or Y go to a place in machine coordinates from {found}, the clearance plane is Z{limit:g}; "
             f"before it {retract(scene)}",
@@ -43,9 +39,8 @@ def machine_moves(scene: Scene) -> Check:
     if step is not None:
         top = scene.job.settings.machine.retract_z
         return scene.bad(
-            NAME,
             step,
             f"Z goes to a height in machine coordinates below Z{top:g}, which may be in the work; "
             f"{retract(scene)}, or set cam.machine.retract_z to a lower height that is above everything",
         )
-    return Check(NAME, True, "in machine coordinates X and Y move with the tool up, and Z goes up")
+    return Check(True, "in machine coordinates X and Y move with the tool up, and Z goes up")

@@ -13,8 +13,6 @@ class Check:
 
     Parameters
     ----------
-    name
-        Stable name (``"gouge"``, ``"length-offset"``).
     passed
         The answer.
     message
@@ -25,9 +23,10 @@ class Check:
         What was found and what is allowed, in ``unit``.
     at
         Place in work coordinates, mm.
+    name
+        That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in.
     """
 
-    name: str
     passed: bool
     message: str
     line: int | None = None
@@ -35,6 +34,7 @@ class Check:
     limit: float | None = None
     unit: str = ""
     at: tuple[float, float, float] | None = None
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,7 @@ class Proof:
     unreachable_area_mm2, unreachable_max_mm
         Stock that no cutter of the program reaches: area seen from above, and greatest depth.
     unreachable
-        Where that is, deepest first; at most :data:`mechwright_cam.proof.leftover.SPOTS`.
+        Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`.
     rapids_in_stock
         Number of rapid moves that meet material.
     time_estimate_s

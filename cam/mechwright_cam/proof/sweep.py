@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
-from mechwright_cam.controls.reading import Kind
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
@@ -84,13 +84,22 @@ class Sweeps:
 
     def _cut(self, height: float, level: float) -> list[Sweep]:
         paths = self.paths
-        cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-        pieces = distinct(paths, _settled(paths, paths.below(height, steps=cutting), level))
+        pieces = distinct(paths, _settled(paths, paths.below(height, steps=paths.cuts), level))
         pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
         radius = np.round(paths.radius_at(pieces, level), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
         ]
+
+    def foot(self, bottom: float, thickness: float) -> tuple[float, list[Sweep]]:
+        """The height z, mm, at which a band above ``bottom`` is measured, and what is cut there.
+
+        Above a floor it is as high as stock may be left, which cusps are; the underside is cut through.
+        """
+        if bottom <= -thickness + NEAR:
+            return bottom, self.at(bottom + ROUNDING, bottom)
+        level = bottom + TOLERANCES.leftover
+        return level, self.at(level, level)
 
     def through(self, thickness: float) -> list[Sweep]:
         """What is cut at the underside of a plate."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.setup.job import Job
 
-NEAR = 0.01
+INDICATED = 0.01
 """Places and thicknesses that differ by less are the same, mm: what a plate is indicated to."""
 
 
@@ -29,7 +29,7 @@ def check_measured(jobs: Sequence[Job]) -> list[Finding]:
             if job.side == "top"
             else "leave x, y and z out of cam.second_side, and set it at the machine"
         )
-        if abs(job.thickness - other.thickness) > NEAR:
+        if abs(job.thickness - other.thickness) > INDICATED:
             found.append(
                 Finding(
                     "cam.measured",
@@ -43,7 +43,7 @@ def check_measured(jobs: Sequence[Job]) -> list[Finding]:
                 )
             )
         elif job.clamp is None and any(
-            abs(a - b) > NEAR for a, b in zip(job.datum, other.datum, strict=True)
+            abs(a - b) > INDICATED for a, b in zip(job.datum, other.datum, strict=True)
         ):
             found.append(
                 Finding(

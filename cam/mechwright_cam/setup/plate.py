@@ -4,7 +4,7 @@ from mechwright.contracts.part import Part
 from mechwright.errors import DesignError, GeometryError
 from mechwright_cam.shop.settings import CamSettings
 
-EXACT = 0.01
+AS_WIDE = 0.01
 """Stock with two finished edges is as wide as the part to this, mm: what the leftover limit calls clean."""
 
 Box = tuple[float, float, float, float]
@@ -54,7 +54,7 @@ def _beside(
     free = given - size
     match finished:
         case [True, True]:
-            if abs(free) > EXACT:
+            if abs(free) > AS_WIDE:
                 raise DesignError(
                     f"cam.stock.{key}: the {edges[0]} and {edges[1]} edges are finished, so the stock is "
                     f"there as long as part {part.name}: {size:.3f} mm, not {given:g} mm"

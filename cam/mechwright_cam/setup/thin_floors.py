@@ -9,10 +9,10 @@ from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.contracts.sections import plan_view
 from mechwright_cam.setup.job import LEVEL
 
-THIN = 0.5
+THIN_FLOOR = 0.5
 """Floors below this are told of, mm: they spring away from an end mill, which then pulls them up and tears
 them. Common advice is to leave 1 mm without a support."""
-WIDE = 1.0
+WIDE_FLOOR = 1.0
 """A floor narrower than this, mm, is stiff enough."""
 
 _Level = tuple[str, float, shapely.Geometry | None]
@@ -32,7 +32,7 @@ def thin_floors(part: Part, above: Sequence[Feature], below: Sequence[Feature]) 
         (floor, ceiling)
         for floor in (*floors, ("the top face", 0.0, None))
         for ceiling in (*ceilings, ("the underside", thick, None))
-        if LEVEL < ceiling[1] - floor[1] < THIN and not (floor[2] is ceiling[2] is None)
+        if LEVEL < ceiling[1] - floor[1] < THIN_FLOOR and not (floor[2] is ceiling[2] is None)
     ]
     if not near:
         return []
@@ -45,7 +45,7 @@ def thin_floors(part: Part, above: Sequence[Feature], below: Sequence[Feature]) 
         for view in (floor[2], ceiling[2]):
             left = left if view is None else shapely.intersection(left, view)
         left = shapely.difference(left, shapely.union_all(deeper))
-        if not shapely.is_empty(shapely.buffer(left, -WIDE / 2)):
+        if not shapely.is_empty(shapely.buffer(left, -WIDE_FLOOR / 2)):
             web = ceiling[1] - floor[1]
             found.append(
                 Finding(
@@ -54,7 +54,7 @@ def thin_floors(part: Part, above: Sequence[Feature], below: Sequence[Feature]) 
                     "cam",
                     f"{web:.3g} mm of part {part.name} stay between {floor[0]} and {ceiling[0]}",
                     web,
-                    THIN,
+                    THIN_FLOOR,
                     "mm",
                     "leave more, or support it from below while it is cut",
                 )

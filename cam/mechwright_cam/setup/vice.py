@@ -15,15 +15,13 @@ from mechwright.errors import DesignError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled, opened
 from mechwright_cam.setup.holding import Jaw
+from mechwright_cam.setup.views import SKIN
 
 if TYPE_CHECKING:
     from mechwright_cam.setup.job import Job
 
 REACH = 100.0
 """How far a jaw and the vice behind it reach outwards, mm: further than any cutter runs out."""
-
-SKIN = 2 * TOLERANCES.flatten
-"""The part touches a jaw where its edge is so near to the stock's edge, mm: what chords may be off."""
 
 FILM = TOLERANCES.leftover / 4
 """Half the thickness of stock beside a finished edge that is not milled, mm: half of what may be left."""
@@ -37,7 +35,7 @@ RUN_OUT = 1.0
 LEAST_JAW = 10.0
 """Jaws narrower than this do not keep a part from turning, mm."""
 
-LEAST_SHARE = 1 / 3
+LEAST_GRIP = 1 / 3
 """Jaws grip at least this share of the part's length: what hangs out on a side is no longer than they are."""
 
 PAIRS: dict[tuple[str, str], Literal["x", "y"]] = {("front", "rear"): "x", ("left", "right"): "y"}
@@ -89,7 +87,7 @@ def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
         )
     length, low, axis, edges = max(found, key=lambda one: one[0])
     x0, y0, x1, y1 = job.stock
-    least = max(LEAST_JAW, LEAST_SHARE * (x1 - x0 if axis == "x" else y1 - y0))
+    least = max(LEAST_JAW, LEAST_GRIP * (x1 - x0 if axis == "x" else y1 - y0))
     wanted = job.settings.hold.jaw_width
     limit = length if wanted is None else min(wanted, length)
     if limit < least:

@@ -7,11 +7,14 @@ import shapely
 
 from mechwright.contracts.part import Bore, Feature
 from mechwright.contracts.sections import plan_view
+from mechwright.tolerances import TOLERANCES
 
 Shape: TypeAlias = shapely.Polygon | shapely.MultiPolygon
 
 ROUND = 1e-4
 """How far the chords of a circle may lie inside the true arc, mm: a hundredth of the leftover limit."""
+SKIN = 2 * TOLERANCES.flatten
+"""Two boundaries within this are one, mm: what the chords of both may be off together."""
 
 
 def quarter(radius: float, error: float = ROUND) -> int:

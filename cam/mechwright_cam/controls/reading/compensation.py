@@ -22,7 +22,7 @@ from mechwright_cam.controls.reading.run import Kind
 
 SMALL_CORNER = 0.05
 """Corners up to this angle are passed without an arc or an intersection, rad: LinuxCNC's own tolerance."""
-SAME = 1e-9
+ONE_PLACE = 1e-9
 """Places nearer than this are one, mm."""
 
 Point = tuple[float, float]
@@ -91,7 +91,7 @@ class Compensation(Recorder):
     ) -> None:
         """Make one programmed move."""
         start, end = self.contour, (x, y)
-        if centre is None and math.dist(start, end) <= SAME:
+        if centre is None and math.dist(start, end) <= ONE_PLACE:
             self._write(line, kind, Cut((self.x, self.y), (self.x, self.y)), z)
             return
         if self.fresh:
@@ -131,7 +131,7 @@ class Compensation(Recorder):
         nx, ny = -math.sin(along), math.cos(along)
         dx, dy = here[0] - target[0], here[1] - target[1]
         across = 2 * (dx * nx + dy * ny)
-        if abs(across) <= SAME:
+        if abs(across) <= ONE_PLACE:
             return Cut(here, target)
         reach = (dx * dx + dy * dy) / across
         return Cut(here, target, (target[0] + reach * nx, target[1] + reach * ny), reach > 0)
@@ -158,12 +158,12 @@ class Compensation(Recorder):
         """Lead from the last offset to the next one, around or into the corner between them."""
         before = self.last
         assert before is not None  # noqa: S101 - there was an entry
-        if self.offset <= SAME:
+        if self.offset <= ONE_PLACE:
             return  # without a radius there is nothing between the two
         turn = cut.heading(cut.start) - before.heading(before.end)
         turn = (turn + math.pi) % math.tau - math.pi
         outer = -self.side * turn  # positive away from the tool: around the outside of the corner
-        if abs(abs(turn) - math.pi) <= SAME:
+        if abs(abs(turn) - math.pi) <= ONE_PLACE:
             outer = math.pi
         if outer > SMALL_CORNER:
             arc = Cut((self.x, self.y), cut.start, corner, self.side < 0)
@@ -210,7 +210,7 @@ def _line_line(a: Cut, b: Cut) -> list[Point]:
     (x, y), (u, v) = a.end, b.start
     one, two = a.heading(a.end), b.heading(b.start)
     across = math.sin(two - one)
-    if abs(across) < SAME:
+    if abs(across) < ONE_PLACE:
         return []
     along = ((u - x) * math.sin(two) - (v - y) * math.cos(two)) / across
     return [(x + along * math.cos(one), y + along * math.sin(one))]
@@ -233,7 +233,7 @@ def _circle_circle(a: Cut, b: Cut) -> list[Point]:
     assert a.centre is not None  # noqa: S101
     assert b.centre is not None  # noqa: S101
     r, s, d = math.dist(a.end, a.centre), math.dist(b.start, b.centre), math.dist(a.centre, b.centre)
-    if d < SAME or d > r + s or d < abs(r - s):
+    if d < ONE_PLACE or d > r + s or d < abs(r - s):
         return []
     along = (r * r - s * s + d * d) / (2 * d)
     up = math.sqrt(max(r * r - along * along, 0.0))
@@ -248,4 +248,4 @@ def _reversed(cut: Cut, place: Point) -> bool:
         (x, y), (u, v) = cut.start, cut.end
         return (u - x) * (place[0] - x) + (v - y) * (place[1] - y) < 0
     whole = abs(sweep_of(cut.start, cut.end, cut.centre, cut.ccw))
-    return abs(sweep_of(cut.start, place, cut.centre, cut.ccw)) > whole + SAME
+    return abs(sweep_of(cut.start, place, cut.centre, cut.ccw)) > whole + ONE_PLACE

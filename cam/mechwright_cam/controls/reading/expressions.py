@@ -8,7 +8,7 @@ from collections.abc import Callable
 from mechwright_cam.controls.reading.blocks import NUMBER
 
 TRUE, FALSE = 1.0, 0.0
-NEAR = 1e-6
+EQUAL = 1e-6
 """Two values nearer than this are equal to EQ and NE: LinuxCNC's own tolerance."""
 _NUMBER = re.compile(NUMBER)
 _NAME = re.compile(r"<([^<>]*)>")
@@ -33,8 +33,8 @@ _BINARY: tuple[dict[str, Callable[[float, float], float]], ...] = (
         "xor": lambda a, b: float(bool(a) != bool(b)),
     },
     {
-        "eq": lambda a, b: float(abs(a - b) < NEAR),
-        "ne": lambda a, b: float(abs(a - b) >= NEAR),
+        "eq": lambda a, b: float(abs(a - b) < EQUAL),
+        "ne": lambda a, b: float(abs(a - b) >= EQUAL),
         "gt": lambda a, b: float(a > b),
         "ge": lambda a, b: float(a >= b),
         "lt": lambda a, b: float(a < b),

@@ -10,7 +10,7 @@ from mechwright_cam.controls.reading.run import Kind
 
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
-CHORD = 0.0005
+ARC_CHORD = 0.0005
 """Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
 
 
@@ -201,7 +201,7 @@ class Moving(Modal):
         radius = self._check_arc(line, start, end, centre)
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
-        count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - CHORD / radius, 0.0))))
+        count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
         angle = math.atan2(start[1] - centre[1], start[0] - centre[0])
         for number in range(1, count):
             share = number / count

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
 Ints = NDArray[np.int64]
 Coolant = Literal["off", "mist", "flood", "both"]
@@ -192,6 +192,16 @@ class Run:
         """(n,) whether the step is a feed move."""
         cutting: NDArray[np.bool_] = (self.kind == Kind.FEED) | (self.kind == Kind.ARC)
         return cutting
+
+    @cached_property
+    def moving(self) -> NDArray[np.bool_]:
+        """(n,) whether the step moves the tool in work coordinates."""
+        moving: NDArray[np.bool_] = self.cutting | (self.kind == Kind.RAPID)
+        return moving
+
+    def of_states(self, value: "Callable[[State], Any]") -> NDArray[Any]:
+        """(n,) a value of the state that each step runs in."""
+        return np.array([value(state) for state in self.states])[self.state]
 
     @cached_property
     def length(self) -> Array:

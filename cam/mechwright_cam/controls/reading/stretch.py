@@ -10,7 +10,7 @@ from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines,
 from mechwright_cam.controls.reading.recorder import COLUMNS
 from mechwright_cam.controls.reading.run import Kind
 
-SHORTEST = 8
+FEWEST_LINES = 8
 """A stretch of fewer lines is not worth it: so many run as quickly one by one."""
 
 
@@ -28,7 +28,7 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     if not (known or lines.said[G, at]) or not machine.moves_plainly:
         return at
     end = lines.until(at, known and motion in {20, 30})
-    if end - at < SHORTEST:
+    if end - at < FEWEST_LINES:
         return at
     number = at + np.flatnonzero(lines.said[G:, at:end].any(axis=0))  # without empty lines
     if number.size == 0:

@@ -9,7 +9,7 @@ from mechwright_cam.pages.picture.frame import Frame
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 
-WIDE = 0.58
+LETTER_WIDTH = 0.58
 """Width of a letter in its height, on average, generously."""
 
 
@@ -26,7 +26,7 @@ class _Dimension:
 
     def length(self, size: float) -> float:
         """Of the words, mm."""
-        return WIDE * size * len(self.words)
+        return LETTER_WIDTH * size * len(self.words)
 
     def fits(self, size: float) -> bool:
         """Whether the words have room between the arrows."""

@@ -14,7 +14,7 @@ from mechwright_cam.shop.tool import Tool
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6bb1", "#b8860b", "#56b4e9", "#5d5d5d")
 """One per tool, told apart by colour-blind eyes as well (after Okabe and Ito)."""
 
-SAME = 2
+DRAWN_ONCE = 2
 """Decimals, mm: paths that lie over one another this closely (passes at several depths) are drawn once."""
 
 
@@ -72,7 +72,7 @@ def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:
     for item in items:
         for stroke in item.strokes:
             if stroke.drilled:
-                holes[(round(stroke.end[0], SAME), round(stroke.end[1], SAME))] = None
+                holes[(round(stroke.end[0], DRAWN_ONCE), round(stroke.end[1], DRAWN_ONCE))] = None
                 continue
             key = _key(stroke)
             if key is None or key in drawn:
@@ -92,7 +92,9 @@ def _path_data(items: Sequence[Traced]) -> tuple[str, str, list[Point]]:
 
 def _key(stroke: Stroke) -> tuple[object, ...] | None:
     """What a stroke looks like from above; None for one that is a point."""
-    start, end = (tuple(round(value, SAME) for value in place[:2]) for place in (stroke.start, stroke.end))
+    start, end = (
+        tuple(round(value, DRAWN_ONCE) for value in place[:2]) for place in (stroke.start, stroke.end)
+    )
     if stroke.centre is None:
         return None if start == end else (start, end, stroke.feed > 0)
-    return start, end, tuple(round(value, SAME) for value in stroke.centre), stroke.ccw
+    return start, end, tuple(round(value, DRAWN_ONCE) for value in stroke.centre), stroke.ccw

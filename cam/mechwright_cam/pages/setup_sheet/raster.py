@@ -14,10 +14,10 @@ from mechwright_cam.setup.job import Job
 
 PIXELS = 420
 """Larger side of the picture: an A4 column at 130 dots per inch."""
-VISIBLE = 0.1
+COLOURED = 0.1
 """Stock left on a floor, or cut into it, is coloured from here on, mm: a cell of the grid."""
 UNCUT, TOP, BOTTOM, THROUGH = (222, 212, 190), (176, 198, 216), (62, 92, 122), (255, 255, 255)
-LEFT, CUT = (240, 150, 30), (200, 0, 30)
+LEFT_COLOUR, CUT_COLOUR = (240, 150, 30), (200, 0, 30)
 
 
 def simulated_view(simulation: Simulation, job: Job) -> str:
@@ -28,8 +28,8 @@ def simulated_view(simulation: Simulation, job: Job) -> str:
     image = np.where(share > 0, (1 - share) * np.array(TOP) + share * np.array(BOTTOM), np.array(UNCUT))
     image[depth >= 1.0 - 1e-6] = THROUGH
     off = deviation(simulation, job, coarser)
-    image[np.nan_to_num(off) > VISIBLE] = LEFT
-    image[np.nan_to_num(off) < -VISIBLE] = CUT
+    image[np.nan_to_num(off) > COLOURED] = LEFT_COLOUR
+    image[np.nan_to_num(off) < -COLOURED] = CUT_COLOUR
     x0, y0, x1, y1 = job.stock
     href = "data:image/png;base64," + base64.b64encode(_png(image[::-1].astype(np.uint8))).decode()
     box = " ".join(svg.number(value) for value in (x0, -y1, x1 - x0, y1 - y0))

@@ -18,11 +18,11 @@ from mechwright_cam.setup.job import Job
 
 SHOWN = 1500
 """Places along the walls in the picture: each is the worst of its neighbours."""
-HIGH = 0.9
+LARGEST_HIGH = 0.9
 """The largest deviation within reach is drawn so high, in heights of letters."""
-MOST = 1.8
+CORNERS_HIGH = 1.8
 """Corners are drawn no higher, in heights of letters; their value stands beside them."""
-LEFT, CUT, PART = "#e69f00", "#000000", "#e8ecef"
+LEFT_FILL, CUT_FILL, PART = "#e69f00", "#000000", "#e8ecef"
 """Stock left, cuts into the part, and the part."""
 
 
@@ -30,7 +30,7 @@ def exaggeration(walls: Walls, frame: Frame) -> float:
     """How many times larger than they are deviations are drawn: 1, 2 or 5 times a power of ten."""
     reach = np.abs(walls.off[~walls.corner])
     largest = max(float(reach.max(initial=0.0)), TOLERANCES.arc_fit / 2)
-    wanted = HIGH * frame.letters / largest
+    wanted = LARGEST_HIGH * frame.letters / largest
     power = 10.0 ** math.floor(math.log10(wanted))
     return power * max(step for step in (1, 2, 5) if step * power <= wanted * (1 + 1e-9))
 
@@ -69,13 +69,13 @@ def _bands(walls: Walls, frame: Frame, factor: float) -> Iterator[str]:
     cut: list[str] = []
     for points, outward, off in _stretches(walls):
         wall.append(svg.path(points))
-        high = np.clip(off * factor, -MOST * frame.letters, MOST * frame.letters)
+        high = np.clip(off * factor, -CORNERS_HIGH * frame.letters, CORNERS_HIGH * frame.letters)
         for data, part in ((left, np.maximum(high, 0.0)), (cut, np.minimum(high, 0.0))):
             for piece in _where(part != 0):
                 edge = points[piece] + outward[piece] * part[piece, None]
                 data.append(svg.path(np.concatenate((points[piece], edge[::-1])).tolist(), close=True))
     thin = 0.05 * frame.letters
-    for shapes, colour in ((left, LEFT), (cut, CUT)):
+    for shapes, colour in ((left, LEFT_FILL), (cut, CUT_FILL)):
         if shapes:
             yield svg.element("path", d="".join(shapes), fill=colour, stroke=colour, stroke_width=0.5 * thin)
     yield svg.element("path", d="".join(wall), fill="none", stroke="#333333", stroke_width=thin)

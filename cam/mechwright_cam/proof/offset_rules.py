@@ -1,0 +1,102 @@
+"""Rules about the offsets of tools: length and diameter."""
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene, first
+
+LAST_DECIMAL = 1e-3
+"""A length in the program is the measured one if it differs by its last decimal at most, mm."""
+
+
+def length_offset(scene: Scene) -> Check:
+    """The active length offset is the tool's own before Z is moved to a height above the work."""
+    run = scene.run
+    stated = run.moving & np.isfinite(run.end[:, 2]) & (run.tool > 0)
+    if not scene.control.offsets.lengths:
+        return _length_by_hand(scene, stated)
+    offset = scene.run.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
+    step = first(stated & (offset != run.tool))
+    if step is not None:
+        tool, active = int(run.tool[step]), int(offset[step])
+        if active in {0, -2}:
+            found = "Z is moved without a length offset"
+        elif active == -1:
+            found = "Z is moved with a length written into the program (G43.1)"
+        else:
+            found = f"Z is moved with H{active}"
+        return scene.bad(
+            step,
+            f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}",
+            active,
+            tool,
+        )
+    return Check(True, "every tool moves Z under its own G43 H")
+
+
+def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
+    """Without a table: each tool has its length from the program (G43.1), or is touched off.
+
+    That is at a stop, or between files.
+    """
+    run, word = scene.run, scene.control.offsets.length_word
+    given = scene.run.of_states(lambda state: np.nan if state.length is None else state.length)
+    known = {number: tool.length for number, tool in scene.tools.items()}
+    measured = np.array([np.nan if (n := known.get(t)) is None else n for t in run.tool.tolist()])
+    step = first(
+        stated & np.isfinite(given) & np.isfinite(measured) & (np.abs(given - measured) > LAST_DECIMAL)
+    )
+    if step is not None:
+        return scene.bad(
+            step,
+            f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is "
+            f"{measured[step]:g} mm",
+            float(given[step]),
+            float(measured[step]),
+            "mm",
+        )
+    # Where the operator could touch off: at a stop, or before a file starts.
+    chances = np.flatnonzero(run.kind == Kind.STOP)
+    changes = np.flatnonzero(run.kind == Kind.TOOL)
+    begun = np.zeros(len(run), dtype=np.int64) if run.file.size == 0 else run.file
+    for before, change in pairwise(changes.tolist()):
+        used = np.flatnonzero(stated[change:] & np.isnan(given[change:]))
+        if used.size == 0:
+            continue
+        at = change + int(used[0])
+        fresh = begun[at] != begun[before] or ((chances > change) & (chances < at)).any()
+        if not fresh:
+            return scene.bad(
+                at,
+                f"Z is moved with T{run.tool[at]} as if it were as long as the tool before; "
+                f"stop ({scene.control.m(0)}) to touch it off"
+                + (f", or write {word} with its length" if word else ""),
+            )
+    return Check(
+        True,
+        "every tool is touched off" + (f", or has its length from {word}" if word else ""),
+    )
+
+
+def diameter_offset(scene: Scene) -> Check:
+    """Cutter compensation takes the D of the tool in the spindle."""
+    run = scene.run
+    active = scene.run.of_states(lambda state: -1 if state.diameter_offset is None else state.diameter_offset)
+    own = np.zeros(len(run), dtype=np.int64)
+    for number, tool in scene.tools.items():
+        own[run.tool == number] = tool.d_number
+    step = first(run.moving & (active >= 0) & (own > 0) & (active != own))
+    if step is not None:
+        found, wanted = int(active[step]), int(own[step])
+        return scene.bad(
+            step,
+            f"compensation with D{found} while T{run.tool[step]} is in the spindle; write D{wanted}, or set "
+            f"diameter_offset = {found} in the tool library",
+            found,
+            wanted,
+        )
+    return Check(True, "compensation takes the D of the tool in the spindle")
