@@ -2,11 +2,12 @@ import re
 from dataclasses import replace
 
 import pytest
-from mechwright_cam.pipeline import machine
 from mechwright_larch.control import Larch
 
 from mechwright import ProgramError, host
+from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.fanuc import Fanuc
+from mechwright_cam.machining import machine
 from mechwright_cam.pages.setup_sheet import setup_html, summary_html
 from mechwright_cam.proof import prove
 from mechwright_cam.shop.posting import Compensation
@@ -25,7 +26,7 @@ def made(way: Compensation = "control"):
 
 
 def test_it_is_registered():
-    assert isinstance(host().post("larch"), Larch)
+    assert isinstance(host().get(Control, "larch"), Larch)
 
 
 def test_a_program_is_fanuc_s_but_for_the_words_of_coolant():

@@ -1,11 +1,10 @@
 """What this plugin registers."""
 
-from mechwright import hookimpl
-from mechwright_cam.controls.contract import Control
+from mechwright import Plugin, hookimpl
 from mechwright_larch.control import Larch
 
 
 @hookimpl
-def mechwright_register_posts() -> list[type[Control]]:
-    """The controls."""
+def mechwright_register() -> list[type[Plugin]]:
+    """The control."""
     return [Larch]
