@@ -8,8 +8,9 @@ from templates import EXAMPLES, answer, assert_typed, copied, installed_into, pa
 ASK = """
 import json
 from mechwright.plugins.host import load
+from mechwright_cam.controls.contract import Control
 host = load()
-larch = host.posts.get("larch")
+larch = host.of(Control).get("larch")
 print(json.dumps({
     "distribution": larch and larch.distribution,
     "title": larch and larch.item.title,

@@ -84,7 +84,8 @@ class FamilyContract:
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Run every test that takes a ``design`` once for each example."""
         if "design" in metafunc.fixturenames:
-            metafunc.parametrize("design", self.examples, ids=[_title(table) for table in self.examples])
+            titles = [json.dumps(dict(table), default=str)[1:-1][:60] for table in self.examples]
+            metafunc.parametrize("design", self.examples, ids=[title or "defaults" for title in titles])
 
     def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
         """Random tables; by default every field anywhere inside its bounds."""
@@ -395,8 +396,3 @@ class FamilyContract:
 
 def _none(faults: Sequence[str]) -> None:
     assert not faults, "; ".join(faults)
-
-
-def _title(table: Mapping[str, Any]) -> str:
-    """Name of an example in the list of tests."""
-    return json.dumps(dict(table), default=str)[1:-1][:60] if table else "defaults"
