@@ -47,7 +47,7 @@ class Work:
     @cached_property
     def parts(self) -> "Sequence[Part]":
         """The parts of the design."""
-        return self.design.family.parts(self.design.params) if self.known is None else self.known
+        return self.design.parts() if self.known is None else self.known
 
     def collisions(self) -> list[Finding]:
         """Which bodies stand in each other while the mechanism moves. Imports the CAD kernel."""

@@ -64,7 +64,7 @@ class Build:
     A build is closed when it is done with, so that what runs beside it ends.
     """
 
-    def __init__(self, design: Design | Path, host: Host, wanted: Wanted = Wanted()) -> None:  # noqa: B008
+    def __init__(self, design: Design | Path, host: Host, wanted: Wanted = Wanted()) -> None:
         self.host, self.wanted = host, wanted
         self.path = design.path if isinstance(design, Design) else design
         self.faults: list[str] = []
@@ -90,8 +90,8 @@ class Build:
 
     @cached_property
     def parts(self) -> "Sequence[Part]":
-        """The parts, as the family gives them."""
-        return self.design.family.parts(self.design.params)
+        """The parts, with what the design file asks of them; raises what :meth:`Design.parts` does."""
+        return self.design.parts()
 
     @cached_property
     def pose(self) -> "tuple[Motion, int]":

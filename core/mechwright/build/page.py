@@ -9,7 +9,7 @@ from mechwright.contracts.plugin import Plugin
 
 
 class Page(Plugin):
-    """Files of one kind, such as a table of the motion or the setup sheets.
+    r"""Files of one kind, such as a table of the motion or the setup sheets.
 
     The same build gives the same bytes. Example of a whole page::
 
@@ -19,7 +19,7 @@ class Page(Plugin):
 
             def files(self, build):
                 lines = [f"{part.name},{part.thickness}" for part in build.parts]
-                return {"masses.csv": "\\n".join(lines) + "\\n"}
+                return {"masses.csv": "\n".join(lines) + "\n"}
     """
 
     kind = "page"

@@ -3,8 +3,8 @@
 import numpy as np
 
 from mechwright.contracts.motion import Motion
-from mechwright.units import convert
 from mechwright.errors import DesignError
+from mechwright.units import convert
 
 SAMPLES = 3601
 """Samples of the motion among which the nearest is taken: every tenth of a degree of one turn."""
