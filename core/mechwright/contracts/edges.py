@@ -1,14 +1,15 @@
 """The edges of a plate's top face, broken."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal
 
 from mechwright.contracts.details import Chamfer
 from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.contracts.sections import plan_view
+from mechwright.contracts.sections import blind, plan_view
 from mechwright.errors import GeometryError
-from mechwright.geometry import Loop, circle
+from mechwright.geometry import Arc, Loop, circle
 from mechwright.tolerances import TOLERANCES
 
 Side = Literal["outside", "inside"]
@@ -50,15 +51,35 @@ def _edges(part: Part) -> Iterator[tuple[str, Loop, Side, float]]:
     """Name, loop and side of every edge of the top face, and the depth of the wall below it, mm."""
     import shapely
 
-    at_top = [feature for feature in part.features if feature.top <= TOLERANCES.closure]
-    taken = [(feature, plan_view(feature)) for feature in at_top if not _is_outside(feature)]
-    for feature in at_top:
-        depth = min(feature.depth, part.thickness)
+    assert part.outline is not None  # noqa: S101 - only plates have edges
+    yield "outside", part.outline.outer, "outside", part.thickness
+    recesses = [feature for feature in blind(part) if feature.top <= TOLERANCES.closure]
+    views = {feature.name: plan_view(feature) for feature in recesses}
+
+    def in_another(loop: Loop, name: str = "") -> bool:
+        ring = shapely.LinearRing(loop.flatten())
+        return any(shapely.contains(view, ring) for other, view in views.items() if other != name)
+
+    for number, loop in enumerate(part.outline.inner, start=1):
+        if not in_another(loop):
+            yield _name(part, loop) or f"opening-{number}", loop, "inside", part.thickness
+    for feature in recesses:
         for name, loop, side in _loops(feature):
-            ring = shapely.LinearRing(loop.flatten())
-            others = (view for other, view in taken if other is not feature)
-            if not any(shapely.contains(view, ring) for view in others):
-                yield name, loop, side, depth
+            if not in_another(loop, feature.name):
+                yield name, loop, side, feature.depth
+
+
+def _name(part: Part, loop: Loop) -> str:
+    """The name of the feature that makes an opening; nothing if that is not told."""
+    arc = loop.segments[0]
+    for feature in part.features:
+        if isinstance(feature, Profile) and feature.loop == loop:
+            return feature.name
+        if not (isinstance(feature, Bore) and loop.is_circle and isinstance(arc, Arc)):
+            continue
+        if math.dist(arc.centre, feature.centre) <= TOLERANCES.closure:
+            return feature.name
+    return ""
 
 
 def _loops(feature: Feature) -> Iterator[tuple[str, Loop, Side]]:
@@ -71,7 +92,3 @@ def _loops(feature: Feature) -> Iterator[tuple[str, Loop, Side]]:
             yield feature.name, feature.boundary, "inside"
             for number, island in enumerate(feature.islands, start=1):
                 yield f"{feature.name}-island-{number}", island, "outside"
-
-
-def _is_outside(feature: Feature) -> bool:
-    return isinstance(feature, Profile) and feature.side == "outside"
