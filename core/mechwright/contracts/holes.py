@@ -97,6 +97,23 @@ def threaded(part: Part, name: str, designation: str, depth: float | None = None
     return replace(made, details=(*made.details, thread))
 
 
+def joined(part: Part) -> Part:
+    """The part with its holes as wide as what is pressed or screwed into them; others stay as they are.
+
+    A pin in a hole of class N7 or P7, and a screw in its thread, stand in the plate by their design.
+    """
+    for bore in [feature for feature in part.features if isinstance(feature, Bore)]:
+        nominal = [
+            detail.diameter
+            for detail in part.details
+            if isinstance(detail, Thread) and math.dist(detail.centre, bore.centre) < TOLERANCES.closure
+        ]
+        wide = max([bore.diameter, *nominal, *([bore.fit.size] if bore.fit else [])])
+        if wide > bore.diameter:
+            part = _with(part, bore, replace(bore, diameter=wide))
+    return part
+
+
 def _with(part: Part, old: Bore, new: Bore) -> Part:
     """The part with one hole for another, in its features and, if it goes through, in its outline."""
     assert part.outline is not None  # noqa: S101 - only plates have features
