@@ -14,6 +14,7 @@ from mechwright.beside import Beside
 from mechwright.build import Build
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.finding import Finding, errors
+from mechwright.contracts.holes import joined
 from mechwright.cores import cores
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
@@ -47,7 +48,7 @@ class Work:
     @cached_property
     def parts(self) -> "Sequence[Part]":
         """The parts of the design."""
-        return self.design.family.parts(self.design.params) if self.known is None else self.known
+        return self.design.parts() if self.known is None else self.known
 
     def collisions(self) -> list[Finding]:
         """Which bodies stand in each other while the mechanism moves. Imports the CAD kernel."""
@@ -76,10 +77,14 @@ class Work:
 
 
 def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list[Finding]:
-    """Which bodies stand in each other while the mechanism moves; ``solids`` imports the CAD kernel."""
+    """Which bodies stand in each other while the mechanism moves; ``solids`` imports the CAD kernel.
+
+    What is pressed or screwed into a hole is meant to.
+    """
     from mechwright_cad.interference import interference_findings
 
-    return interference_findings(design.family, design.params, solids=solids, parts=parts)
+    met = [joined(part) for part in parts]
+    return interference_findings(design.family, design.params, solids=solids, parts=met)
 
 
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:

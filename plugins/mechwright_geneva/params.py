@@ -86,6 +86,16 @@ class GenevaParams(Parameters):
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
     )
+    counterbore_diameter: Millimetres = Field(
+        0.0, ge=0, le=300, description="Recess about the wheel's bore, for the shaft's screw; 0 for none."
+    )
+    counterbore_depth: Millimetres = Field(3.0, ge=0.2, le=100, description="Depth of that recess.")
+    counterbore_radius: Millimetres = Field(
+        0.0, ge=0, le=20, description="Fillet between floor and wall of that recess; 0 for a sharp corner."
+    )
+    counterbore_side: Literal["top", "underside"] = Field(
+        "top", description="Side of the wheel on which that recess is."
+    )
     hub_diameter: Millimetres = Field(
         0.0, ge=0, le=500, description="Diameter of a hub plate under the wheel; 0 for none."
     )

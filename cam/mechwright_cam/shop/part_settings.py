@@ -31,6 +31,8 @@ def split(table: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[st
     tables = table.get("part", {})
     if not isinstance(tables, Mapping):
         raise DesignError(f"{path}: cam.part: is {tables!r}; write a table [cam.part.NAME]")
+    if "holes" in table:
+        raise DesignError(f"{path}: cam.holes: holes are those of one part; write [cam.part.NAME.holes.HOLE]")
     base = {key: value for key, value in table.items() if key != "part"}
     parts = {}
     for name, own in tables.items():

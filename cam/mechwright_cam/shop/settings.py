@@ -4,6 +4,8 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from mechwright.contracts.fits import HoleClass
+from mechwright.contracts.marking import LEAST_HEIGHT
 from mechwright.contracts.parameters import Parameters
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import Degrees, Millimetres, Ratio
@@ -132,4 +134,47 @@ class CamSettings(Parameters):
     adaptive_depth: Ratio = Field(
         1.5, gt=0, le=5, description="Depth of an adaptive pass in cutter diameters."
     )
+    deburr: Millimetres = Field(
+        0.0, ge=0, le=5, description="Width of a chamfer on all edges of the top face; 0 for none."
+    )
+    mark: str = Field(
+        "",
+        max_length=60,
+        description="Text engraved where the top face has most room; {part} stands for the part's name.",
+    )
+    mark_height: Millimetres = Field(4.0, ge=LEAST_HEIGHT, le=100, description="Height of its capitals.")
+    mark_depth: Millimetres = Field(0.2, gt=0, le=2, description="Depth of its lines.")
+    mark_line: Millimetres = Field(
+        0.6, ge=0.1, le=5, description="Greatest width of its lines; at least half of it is cut."
+    )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
+
+
+class Hole(Parameters):
+    """A table ``[cam.part.NAME.holes.HOLE]``: what becomes of a round hole."""
+
+    fit: HoleClass | None = Field(None, description="ISO 286 class to whose middle the hole is made.")
+    thread: str | None = Field(
+        None,
+        max_length=20,
+        description="Metric thread, such as M6 or M6x0.75; the hole gets its core diameter.",
+    )
+    depth: Millimetres | None = Field(
+        None, gt=0, le=500, description="Depth of the thread; by default all of the hole."
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.fit is None) == (self.thread is None):
+            raise ValueError("give it a fit or a thread, one of the two")
+        if self.depth is not None and self.thread is None:
+            raise ValueError("depth is that of a thread; a fit goes all through the hole, so leave depth out")
+        return self
+
+
+class PartSettings(CamSettings):
+    """A table ``[cam.part.NAME]``, laid over ``[cam]``."""
+
+    holes: dict[str, Hole] = Field(
+        default_factory=dict, description="Name of a round hole to its fit or thread."
+    )

@@ -1,9 +1,11 @@
 """The table ``[cam]`` of a design file, with the tables ``[cam.part.NAME]`` of single parts."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
+from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
 from mechwright.designs.files import beside
@@ -12,14 +14,16 @@ from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
 from mechwright_cam.shop.machine import machine_figures
 from mechwright_cam.shop.part_settings import split
-from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.settings import CamSettings, PartSettings
 
 _OF_ONE_PART = (
     "",
     "# Any of these for one part only, by the part's name:",
     "# [cam.part.NAME]",
     '# origin = "corner"',
+    '# holes.bore-1.thread = "M6"  # or fit = "H7"',
 )
+S = TypeVar("S", bound=CamSettings)
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,7 @@ class JobSettings:
     """
 
     cam: CamSettings = field(default_factory=CamSettings)
-    parts: Mapping[str, CamSettings] = field(default_factory=dict)
+    parts: Mapping[str, PartSettings] = field(default_factory=dict)
     tool_library: Path | None = None
 
     def of(self, part: str) -> CamSettings:
@@ -58,16 +62,24 @@ class CamTable(Table[JobSettings]):
     def read(self, content: object, path: Path) -> JobSettings:
         """The settings, with the machine that they name."""
         if not isinstance(content, Mapping):
-            return JobSettings(_settings(content, path))
+            return JobSettings(_settings(CamSettings, content, path))
         base, parts = split(content, path)
-        cam = _settings(base, path)
+        cam = _settings(CamSettings, base, path)
         library = beside(path, cam.tool_library, "cam.tool_library") if cam.tool_library else None
-        own = {name: _settings(table, path, f"cam.part.{name}") for name, table in parts.items()}
+        own = {
+            name: _settings(PartSettings, table, path, f"cam.part.{name}") for name, table in parts.items()
+        }
         return JobSettings(cam, own, library)
 
     def text(self, value: JobSettings | None = None) -> list[str]:
         """The table ``[cam]``; the tables of single parts are for each design by itself."""
         return [*table_lines(CamSettings, "cam", None if value is None else value.cam), *_OF_ONE_PART]
+
+    def parts(self, value: JobSettings, parts: Sequence[Part], path: Path) -> Sequence[Part]:
+        """The parts with their holes, broken edges and marks, see :mod:`mechwright_cam.shop.asked`."""
+        from mechwright_cam.shop.asked import asked
+
+        return asked(value.cam, value.parts, parts, path)
 
     def inputs(self, value: JobSettings, path: Path) -> dict[str, Path]:
         """The tool library, and machine files."""
@@ -96,13 +108,13 @@ class CamTable(Table[JobSettings]):
         return JobSettings(value.cam.model_copy(update=changes), {}, value.tool_library), files
 
 
-def _settings(table: object, path: Path, where: str = "cam") -> CamSettings:
+def _settings(model: type[S], table: object, path: Path, where: str = "cam") -> S:
     """One table of settings, with the machine that it names; mistakes are told of ``where``."""
     machine = table.get("machine") if isinstance(table, Mapping) else None
     if isinstance(machine, str):
         machine = {"model": machine}
     if isinstance(table, Mapping) and isinstance(machine, Mapping):
-        model = machine.get("model")
-        if isinstance(model, str) and model:
-            table = {**table, "machine": {**machine_figures(model, path), **machine}}
-    return read_table(CamSettings, table, str(path), where)
+        known = machine.get("model")
+        if isinstance(known, str) and known:
+            table = {**table, "machine": {**machine_figures(known, path), **machine}}
+    return read_table(model, table, str(path), where)

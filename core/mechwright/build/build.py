@@ -91,8 +91,8 @@ class Build:
 
     @cached_property
     def parts(self) -> "Sequence[Part]":
-        """The parts, as the family gives them."""
-        return self.design.family.parts(self.design.params)
+        """The parts, with what the design file asks of them; raises what :meth:`Design.parts` does."""
+        return self.design.parts()
 
     @cached_property
     def pose(self) -> "tuple[Motion, int]":

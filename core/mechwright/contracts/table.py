@@ -1,10 +1,11 @@
 """The contract of a table of the design file: a room that has settings of its own registers theirs."""
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 
 V = TypeVar("V")
@@ -35,6 +36,18 @@ class Table(Plugin, Generic[V]):
     @abstractmethod
     def text(self, value: V | None = None) -> list[str]:
         """The lines of the table with a comment for each key; None stands for the defaults."""
+
+    def parts(self, value: V, parts: Sequence[Part], path: Path) -> Sequence[Part]:  # noqa: ARG002
+        """The parts of the design with what the table asks of them, such as broken edges.
+
+        Solids, drawings, programs and proofs are made of these; by default they are as the family gives them.
+
+        Raises
+        ------
+        DesignError
+            What is asked cannot be done, or of a part that is not there; it begins with ``path`` and the key.
+        """
+        return parts
 
     def inputs(self, value: V, path: Path) -> Mapping[str, Path]:  # noqa: ARG002 - for tables that name files
         """The files that the table names, by the names it gives them; the manifest has their hashes."""

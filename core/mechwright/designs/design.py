@@ -13,14 +13,14 @@ A design file is data. It names a family, gives its parameters and says how the 
     work_offset = "G54"
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import check_name
+from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
 from mechwright.designs.files import read_toml
 from mechwright.designs.tables import read_table, unknown
@@ -54,6 +54,8 @@ class Design:
         SHA-256 of its bytes.
     tables
         Name to value of every table that is registered; see :meth:`table`.
+    readers
+        Those tables.
     """
 
     name: str
@@ -62,11 +64,27 @@ class Design:
     path: Path
     digest: str
     tables: Mapping[str, Any] = field(default_factory=dict)
+    readers: tuple[Table[Any], ...] = ()
 
     def table(self, contract: type[Table[V]]) -> V:
         """The value of a registered table, by the class that reads it."""
         value: V = self.tables[contract.name]
         return value
+
+    def parts(self) -> Sequence[Part]:
+        """The parts as the family gives them, with what the tables ask of them.
+
+        Raises
+        ------
+        GeometryError
+            A part cannot be made.
+        DesignError
+            What a table asks cannot be done.
+        """
+        parts: Sequence[Part] = self.family.parts(self.params)
+        for reader in self.readers:
+            parts = reader.parts(self.tables[reader.name], parts, self.path)
+        return parts
 
 
 def load(path: Path, host: Host) -> Design:
@@ -85,7 +103,8 @@ def load(path: Path, host: Host) -> Design:
     tables = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
-    return Design(name, family, params, path, digest, read_tables(content, path, host))
+    readers = tuple(entry.item for entry in tables.values())
+    return Design(name, family, params, path, digest, read_tables(content, path, host), readers)
 
 
 def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:
