@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Finding, Severity, errors
+from mechwright import Finding, Severity
+from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import (
     KEYS,
     LEAST_WIDTH,

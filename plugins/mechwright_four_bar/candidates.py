@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from mechwright import Candidate, Scalar, errors
+from mechwright import Candidate, Scalar
+from mechwright.contracts.finding import errors
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams

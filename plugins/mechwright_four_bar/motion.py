@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace, errors
+from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels

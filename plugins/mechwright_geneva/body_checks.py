@@ -3,7 +3,8 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, GeometryError, Severity, errors
+from mechwright import Finding, GeometryError, Severity
+from mechwright.contracts.finding import errors
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis, errors
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength

@@ -5,7 +5,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Scalar, Trace, errors
+from mechwright import Array, Channel, DesignError, Motion, Scalar, Trace
+from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import Mass
 from mechwright.mechanics.planar import Plane, acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels

@@ -20,8 +20,8 @@ from mechwright import (
     Scalar,
     Severity,
     Synthesis,
-    errors,
 )
+from mechwright.contracts.finding import errors
 from mechwright_spherical import checks, structural
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
 from mechwright_spherical.linkage import linkage_of

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis, errors
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_spherical import checks
 from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fourbar import FourBar

@@ -37,3 +37,11 @@ def test_the_core_imports_nothing_heavy_and_no_test_library():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert set(done.stdout.split()) & ({*HEAVY} | ALLOWED_IN_TESTING) == set()
+
+
+def test_no_public_name_is_that_of_a_module():
+    """A module that has been imported would stand in the way of the public name."""
+    modules = {item.name for item in pkgutil.iter_modules(mechwright.__path__)}
+    assert not modules & set(mechwright.__all__)
+    for name in mechwright.__all__:
+        assert getattr(mechwright, name) is not None

@@ -2,7 +2,8 @@
 
 import math
 
-from mechwright import Candidate, Finding, Scalar, Severity, Synthesis, errors
+from mechwright import Candidate, Finding, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_scotch_yoke import checks
 from mechwright_scotch_yoke.family import ScotchYokeParams, StrokeRequirement
 
