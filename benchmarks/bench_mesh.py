@@ -12,13 +12,13 @@ import time
 
 import numpy as np
 import shapely
-from mechwright.findings import errors, until_error
 
+from mechwright.contracts.finding import errors, until_error
 from mechwright.errors import MechwrightError
+from mechwright.mechanics.gearing import mesh
+from mechwright.mechanics.gearing.mesh import EDGES_PER_PITCH
 from mechwright_elliptic_gears import checks
-from mechwright_elliptic_gears.gear import offsets_that_mesh, outline_of, teeth_of
-from mechwright_elliptic_gears.kinematics import Turning, driven
-from mechwright_elliptic_gears.mesh import EDGES_PER_PITCH, mesh
+from mechwright_elliptic_gears.gear import offsets_that_mesh, outline_of, pair_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.undercut import undercut_findings
 
@@ -90,15 +90,15 @@ def near_each_other(one: shapely.Polygon, other: shapely.Polygon, margin: float)
 
 def differences(params: EllipticGearParams, points: np.ndarray) -> list[str]:
     """Compare the proof with polygons in some positions; a line for each contradiction."""
-    ellipse, pitch = teeth_of(params).ellipse, teeth_of(params).rack.pitch
-    found = mesh(points, points, ellipse, params.teeth, positions=POSITIONS, allowance=ALLOWANCE)
-    theta4 = driven(Turning.of(found.theta2, 1.0), params.eccentricity).theta
+    pair, pitch = pair_of(params), teeth_of(params).rack.pitch
+    found = mesh(points, points, pair, params.teeth, positions=POSITIONS, allowance=ALLOWANCE)
+    theta2, theta4 = found.angles
     ring = shapely.get_coordinates(shapely.segmentize(shapely.LinearRing(points), pitch / EDGES_PER_PITCH))[
         :-1
     ]
     wrong, areas = [], []
     for i in range(POSITIONS):
-        both = placed(ring, found.theta2[i], 0), placed(ring, theta4[i], 2 * ellipse.semi_major)
+        both = placed(ring, theta2[i], 0), placed(ring, theta4[i], pair.distance)
         one, other = near_each_other(*both, pitch)
         area, depth, gap = measured(one, other)
         areas.append(area)

@@ -4,9 +4,13 @@ import math
 
 import numpy as np
 
-from mechwright import TOLERANCES, Array, BSpline, Loop, Segment
+from mechwright.arrays import Array
 from mechwright.geometry.fit import fit_nets
-from mechwright_elliptic_gears.teeth import SIDES, Teeth
+from mechwright.geometry.outline import Loop
+from mechwright.geometry.segments import BSpline, Segment
+from mechwright.mechanics.gearing.rack import SIDES
+from mechwright.mechanics.gearing.teeth import Teeth
+from mechwright.tolerances import TOLERANCES
 
 FIT = 0.0001
 """Deviation of the outline from the exact curves, mm: a tenth of what an outline may have, for one degree
@@ -20,7 +24,7 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
     -------
     loop
         Counter-clockwise from the first end of tooth 0: per tooth its tip, the flank, fillet, root, fillet
-        and flank of the space behind it, tagged ``"tip"``, ``"flank"``, ``"fillet"``, ``"root"``. Part frame.
+        and flank of the space behind it, tagged ``"tip"``, ``"flank"``, ``"fillet"``, ``"root"``. Body frame.
     deviation
         Measured distance from the exact curves, mm.
 
@@ -82,30 +86,30 @@ def _tips(teeth: Teeth) -> tuple[list[Array], float]:
     first, last = teeth.tip_lands
 
     def curves(t: Array) -> Array:
-        return teeth.offset_curve(teeth.ellipse.frame(_between(first, last, t)), teeth.rack.addendum)
+        return teeth.curve.frame(_between(first, last, t)).offset(teeth.rack.addendum)
 
     return fit_nets(curves, teeth.count, FIT)
 
 
 def _roots(teeth: Teeth) -> tuple[list[Array], float]:
-    first, last = teeth.ellipse.angle(teeth.arc_centres).T
+    first, last = teeth.curve.parameter(teeth.arc_centres).T
 
     def curves(t: Array) -> Array:
-        return teeth.offset_curve(teeth.ellipse.frame(_between(first, last, t)), -teeth.rack.dedendum)
+        return teeth.curve.frame(_between(first, last, t)).offset(-teeth.rack.dedendum)
 
     return fit_nets(curves, teeth.count, FIT)
 
 
 def _flanks(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
     """Flanks of side -1 from tip to fillet, those of side +1 from fillet to tip."""
-    tip, join = teeth.tip_trim[0], teeth.ellipse.angle(teeth.join_arcs)
+    tip, join = teeth.tip_trim[0], teeth.curve.parameter(teeth.join_arcs)
     first = np.concatenate((tip[:, 0], join[:, 1]))
     last = np.concatenate((join[:, 0], tip[:, 1]))
     start = np.concatenate((teeth.flank_arcs[:, 0], teeth.flank_arcs[:, 1]))[:, None]
     side = np.repeat(SIDES, teeth.count)[:, None]
 
     def curves(t: Array) -> Array:
-        return teeth.flank(teeth.ellipse.frame(_between(first, last, t)), start, side)
+        return teeth.rack.flank(teeth.curve.frame(_between(first, last, t)), start, side)
 
     nets, error = fit_nets(curves, 2 * teeth.count, FIT)
     z = teeth.count
@@ -123,8 +127,8 @@ def _fillets(teeth: Teeth) -> tuple[list[Array], list[Array], float]:
 
     def curves(t: Array) -> Array:
         tau = reach * np.where(side < 0, 1 - t, t)
-        frame = teeth.ellipse.frame_at(centre - side * teeth.rack.arc_depth * np.sinh(tau))
-        return teeth.fillet(frame, centre)
+        frame = teeth.curve.frame_at(centre - side * teeth.rack.arc_depth * np.sinh(tau))
+        return teeth.rack.fillet(frame, centre)
 
     nets, error = fit_nets(curves, 2 * z, FIT)
     return [net[:z] for net in nets], [net[z:] for net in nets], error

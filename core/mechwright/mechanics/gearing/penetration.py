@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from mechwright import TOLERANCES, Array
-from mechwright_elliptic_gears.crossings import Ints
+from mechwright.arrays import Array
+from mechwright.mechanics.gearing.crossings import Ints
+from mechwright.tolerances import TOLERANCES
 
 
 def depths(points: Array, group: Ints, starts: Array, ends: Array, edge_group: Ints) -> Array:

@@ -1,0 +1,58 @@
+"""Two pitch curves that roll on each other about fixed axes.
+
+The driver turns about O1 = (0, 0), the driven gear about O2 = (a, 0), both angles counter-clockwise. The
+pitch point lies between the axes: at -θ1 in the driver's body frame, at π - θ2 in that of the driven gear.
+With θ2 = f(θ1), f' = dθ2/dθ1 below 0 (the pair is external), rolling without slip, f' r2 = -r1, makes
+
+    r1 = -a f'/(1 - f'),  r2 = a/(1 - f'),  r1 + r2 = a.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.mechanics.gearing.pitch_curve import PitchCurve
+
+
+@dataclass(frozen=True)
+class Pair:
+    """An external pair.
+
+    Parameters
+    ----------
+    driver, driven
+        Pitch curves; their perimeters stand to each other as the numbers of teeth.
+    distance
+        Centre distance a, mm.
+    law
+        θ2 (...), rad, and f' (...) at angles θ1 (...), rad.
+    """
+
+    driver: PitchCurve
+    driven: PitchCurve
+    distance: float
+    law: Callable[[Array], tuple[Array, Array]]
+
+    def turns(self, teeth: int) -> int:
+        """Turns of a driver with so many teeth after which the same teeth meet again."""
+        mate = round(teeth * self.driven.perimeter / self.driver.perimeter)
+        return mate // math.gcd(teeth, mate)
+
+    def angles(self, arc: Array) -> tuple[Array, Array]:
+        """θ1 and θ2 (n,), rad, with the pitch point at arcs (n,), mm, of the driver; steps are small."""
+        theta: Array = -np.unwrap(self.driver.frame_at(arc).polar_angle)
+        return theta, self.law(theta)[0]
+
+    def levers(self, arc: Array, pressure_angle: float) -> tuple[Array, Array]:
+        """Distances (...), mm, of axis O2 from the two lines of action through the pitch point.
+
+        The first belongs to the flank that stops the driven gear turning counter-clockwise, the second to the
+        other: r2 cos(ν ± α), since both pitch curves are tilted by ν. A normal play c lets the gear turn by c
+        over the lever.
+        """
+        frame = self.driver.frame_at(arc)
+        r2 = self.distance / (1 - self.law(-frame.polar_angle)[1])
+        return r2 * np.cos(frame.tilt + pressure_angle), r2 * np.cos(frame.tilt - pressure_angle)
