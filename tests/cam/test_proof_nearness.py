@@ -138,14 +138,14 @@ def test_the_wall_is_seen_at_every_height_though_each_place_is_measured_once(
     for start in lines:
         text = "".join(line for line in text.splitlines(keepends=True) if not line.startswith(start))
     measured = []
-    real = leftover._on_walls
+    real = leftover.on_walls
 
     def everywhere(reached, within, *rest):  # type: ignore[no-untyped-def]
         measured.append(within is None)
         return real(reached, None, *rest)
 
     at_once = prove(text, job)
-    monkeypatch.setattr(leftover, "_on_walls", everywhere)
+    monkeypatch.setattr(leftover, "on_walls", everywhere)
     again = prove(text, job)
     assert measured == [True, False]
     assert at_once.leftover_reachable_max_mm == pytest.approx(again.leftover_reachable_max_mm, abs=2e-4)

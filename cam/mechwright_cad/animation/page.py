@@ -1,10 +1,12 @@
-"""The page itself: one file that needs no network, no library, and no other file."""
+"""The page itself: one file that needs no network, no library, and no other file. Imports jinja2."""
 
-import html
 import json
 from collections.abc import Sequence
-from importlib.resources import files
+from pathlib import Path
 from typing import Any
+
+import jinja2
+from markupsafe import Markup
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.motion import Motion
@@ -45,19 +47,17 @@ def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *,
     GeometryError
         An instance names a body that the motion does not have, or a part cannot be made.
     """
-    folder = files(__package__)
     data = json.dumps(scene(parts, motion, solids=solids), separators=(",", ":"), allow_nan=False)
-    pieces = {
-        "NAME": html.escape(name),
-        "TITLE": html.escape(title),
-        "STYLE": (folder / "page.css").read_text(encoding="utf-8"),
-        "SCRIPT": "\n".join((folder / script).read_text(encoding="utf-8") for script in _SCRIPTS),
-        # What a name holds must not end the element that it stands in.
-        "DATA": data.replace("<", "\\u003c"),
-    }
-    page = (folder / "page.html").read_text(encoding="utf-8")
-    head, *rest = page.split("{{")
-    return head + "".join(pieces[key] + text for key, text in (part.split("}}", 1) for part in rest))
+    pages = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        keep_trailing_newline=True,
+    )
+    # What a name holds must not end the element that it stands in.
+    safe = Markup(data.replace("<", "\\u003c"))  # noqa: S704 - plain data, with nothing left that opens a tag
+    return pages.get_template("page.html").render(name=name, title=title, data=safe, scripts=_SCRIPTS)
 
 
 def page_of(

@@ -52,13 +52,8 @@ def compensation(scene: Scene) -> Check:
         if cut is not None and cut.depth > TOLERANCES.gouge:
             message = f"{words}, a cutter of that radius cuts {cut.depth:.3f} mm into the finished part"
             return scene.bad(cut.step, message, cut.depth, TOLERANCES.gouge, "mm")
-    return Check(
-        True,
-        f"walls follow D from {limit:g} mm below to {limit:g} mm above its planned radius",
-        value=worst,
-        limit=TOLERANCES.gouge,
-        unit="mm",
-    )
+    message = f"walls follow D from {limit:g} mm below to {limit:g} mm above its planned radius"
+    return Check(True, message, value=worst, limit=TOLERANCES.gouge, unit="mm")
 
 
 def _on(run: Run) -> NDArray[np.bool_]:

@@ -17,25 +17,19 @@ def path_tolerance(scene: Scene) -> Check:
     off, cuts = scene.run.of_states(lambda state: state.off_path), in_work(scene)
     step = first(scene.run.moving & np.isinf(off))
     if step is not None:
-        return scene.bad(
-            step,
+        message = (
             f"nothing bounds how far {name} leaves the path at corners, the limit is {limit:g} mm; before it "
-            f"{ADVICE}",
-            None,
-            limit,
-            "mm",
+            f"{ADVICE}"
         )
+        return scene.bad(step, message, None, limit, "mm")
     step = first(cuts & (off > limit + NEAR))
     if step is not None:
         found = float(off[step])
-        return scene.bad(
-            step,
+        message = (
             f"{name} may leave the path by {found:g} mm at corners (P and Q of G64 together), the limit is "
-            f"{limit:g} mm; {ADVICE}",
-            found,
-            limit,
-            "mm",
+            f"{limit:g} mm; {ADVICE}"
         )
+        return scene.bad(step, message, found, limit, "mm")
     if not scene.control.corners.tolerance:
         return Check(True, f"no word lets {name} leave the path further than its settings do")
     worst = float(off[cuts].max(initial=0.0))

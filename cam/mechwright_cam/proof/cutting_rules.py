@@ -47,15 +47,12 @@ def cutting_speed(scene: Scene) -> Check:
         if fast.size:
             step = int(fast[0])
             speed = math.pi * tool.diameter * float(rpm[step]) / 1000
-            return scene.bad(
-                step,
+            message = (
                 f"S{rpm[step]:g} turns T{tool.number} ({tool.name}) at {speed:.0f} m/min in "
                 f"{scene.job.part.material}, the tool library says {data.cutting_speed:g}; lower S, or set "
-                f"cutting_speed in [cam.cutting.{tool.name}]",
-                speed,
-                BEYOND * data.cutting_speed,
-                "m/min",
+                f"cutting_speed in [cam.cutting.{tool.name}]"
             )
+            return scene.bad(step, message, speed, BEYOND * data.cutting_speed, "m/min")
     return Check(True, "no edge runs much faster than the tool library says")
 
 
@@ -132,14 +129,11 @@ def pecks(scene: Scene) -> Check:
             step = int(steps[index])
             found = _in_material(scene, step)
             if found > diameters * tool.diameter:
-                return scene.bad(
-                    step,
+                message = (
                     f"T{tool.number} ({tool.name}) drills {found:.1f} mm in one go, "
-                    f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q",
-                    found,
-                    diameters * tool.diameter,
-                    "mm",
+                    f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q"
                 )
+                return scene.bad(step, message, found, diameters * tool.diameter, "mm")
     return Check(True, "no drill goes too deep in one go")
 
 

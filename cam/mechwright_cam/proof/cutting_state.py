@@ -17,10 +17,8 @@ def spindle(scene: Scene) -> Check:
     step = first(in_work(scene) & (turning != 1))
     if step is not None:
         how = f"backwards ({scene.control.m(4)})" if turning[step] == -1 else "not at all"
-        return scene.bad(
-            step,
-            f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}",
-        )
+        message = f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}"
+        return scene.bad(step, message)
     return Check(True, "the spindle turns clockwise whenever the cutter is in the work")
 
 
@@ -31,10 +29,8 @@ def coolant(scene: Scene) -> Check:
     step = first(in_work(scene) & wrong)
     if step is not None:
         word = scene.control.m({"flood": 8, "mist": 7, "off": 9}[wanted])
-        return scene.bad(
-            step,
-            f"cuts with coolant {scene.state(step).coolant}, planned is {wanted}; write {word}",
-        )
+        message = f"cuts with coolant {scene.state(step).coolant}, planned is {wanted}; write {word}"
+        return scene.bad(step, message)
     return Check(True, f"coolant is {wanted} whenever the cutter is in the work")
 
 
@@ -44,13 +40,8 @@ def arcs(scene: Scene) -> Check:
     worst = int(np.argmax(error)) if error.size else 0
     if error.size and error[worst] > limit:
         found = float(error[worst])
-        return scene.bad(
-            worst,
-            f"the arc's radii at its start and end differ by {found:.4f} mm, the limit is {limit:g} mm",
-            found,
-            limit,
-            "mm",
-        )
+        message = f"the arc's radii at its start and end differ by {found:.4f} mm, the limit is {limit:g} mm"
+        return scene.bad(worst, message, found, limit, "mm")
     return Check(True, "all arcs are consistent", value=float(error.max(initial=0.0)), limit=limit, unit="mm")
 
 
@@ -84,11 +75,6 @@ def dwells(scene: Scene) -> Check:
     step = first(scene.run.seconds > MAX_DWELL)
     if step is not None:
         found = float(scene.run.seconds[step])
-        return scene.bad(
-            step,
-            f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; P is in seconds",
-            found,
-            MAX_DWELL,
-            "s",
-        )
+        message = f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; P is in seconds"
+        return scene.bad(step, message, found, MAX_DWELL, "s")
     return Check(True, "dwells are short")

@@ -37,14 +37,8 @@ def depth(scene: Scene) -> Check:
         if low > floor + ROUNDING:
             low = _lowest(paths, paths.below(-NEAR, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
-            return Check(
-                False,
-                f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}",
-                None,
-                low,
-                floor,
-                "mm",
-            )
+            message = f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}"
+            return Check(False, message, None, low, floor, "mm")
     return Check(True, "every feature is cut to its full depth")
 
 

@@ -105,15 +105,12 @@ def depth_of_cut(scene: Scene) -> Check:
             lasting, before = (lasting if step <= before + MOVES_BETWEEN else 0.0) + length, step
             if lasting >= LASTING * tool.diameter:
                 low = -float(scene.paths.low[step])
-                return scene.bad(
-                    step,
+                message = (
                     f"T{tool.number} ({tool.name}) cuts more than {limit:g} mm of {job.part.material} at "
                     f"once, {BEYOND:g} times its step_down; cut in passes, or set step_down in "
-                    f"[cam.cutting.{tool.name}]",
-                    low,
-                    limit,
-                    "mm",
+                    f"[cam.cutting.{tool.name}]"
                 )
+                return scene.bad(step, message, low, limit, "mm")
     return Check(True, "no mill takes much more depth at once than the tool library says")
 
 

@@ -38,19 +38,14 @@ def entries(scene: Scene) -> Check:
             continue
         tool = scene.tools[int(run.tool[step])]
         if plunge[index]:
-            return scene.bad(
-                step,
-                f"T{tool.number} ({tool.name}) plunges into the stock and does not cut at its centre",
-            )
+            message = f"T{tool.number} ({tool.name}) plunges into the stock and does not cut at its centre"
+            return scene.bad(step, message)
         found = float(angle[index])
-        return scene.bad(
-            step,
+        message = (
             f"T{tool.number} ({tool.name}) ramps into the stock at {found:.1f} degrees, "
-            f"the limit is {limit:g}",
-            found,
-            limit,
-            "deg",
+            f"the limit is {limit:g}"
         )
+        return scene.bad(step, message, found, limit, "deg")
     return Check(True, "entries are ramps or plunges that the tools can do", limit=limit, unit="deg")
 
 

@@ -82,10 +82,5 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
     if room[worst] >= 0:
         return None
     advice = "" if radius is None else "; let the tool stick out further"
-    return scene.bad(
-        int(pieces.step[worst]),
-        f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}",
-        float(room[worst]),
-        0.0,
-        "mm",
-    )
+    message = f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}"
+    return scene.bad(int(pieces.step[worst]), message, float(room[worst]), 0.0, "mm")

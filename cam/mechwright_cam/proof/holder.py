@@ -40,13 +40,10 @@ def holder(scene: Scene) -> Check:
         # The deepest first: if they pass where material may still be, the others nearly always do.
         for step in steps[np.argsort(low[steps], kind="stable")].tolist():
             if scene.stock.meets(step, lift=body.lift, radius=body.radius):
-                return scene.bad(
-                    step,
+                message = (
                     f"the {body.name} of T{body.tool.number} ({body.tool.name}), {2 * body.radius:g} mm wide "
                     f"from {body.lift:g} mm above the tip, goes {-low[step]:.2f} mm deep into material; "
-                    "let the tool stick out further",
-                    float(-low[step]),
-                    0.0,
-                    "mm",
+                    "let the tool stick out further"
                 )
+                return scene.bad(step, message, float(-low[step]), 0.0, "mm")
     return Check(True, "shank and holder stay out of stock and walls")

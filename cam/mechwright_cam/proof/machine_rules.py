@@ -24,12 +24,11 @@ def program_end(scene: Scene) -> Check:
         end = f"{scene.control.m(30)} or {scene.control.m(2)}"
         return Check(False, f"{where}the program has no end; write {end}", run.lines)
     if run.beyond:
-        return Check(
-            False,
+        message = (
             f"line {run.beyond}: this stands behind the program's end and is not run; delete it, or verify "
-            "it as a program of its own",
-            run.beyond,
+            "it as a program of its own"
         )
+        return Check(False, message, run.beyond)
     moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
     if moved.size == 0 or not run.cutting.any():
         return Check(False, "the program cuts nothing", run.lines)
@@ -77,10 +76,8 @@ def stops(scene: Scene) -> Check:
     stop, halt = run.kind == Kind.STOP, scene.control.m(0)
     step = first(stop & (scene.run.of_states(lambda state: state.spindle) != 0))
     if step is not None:
-        return scene.bad(
-            step,
-            f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it",
-        )
+        message = f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it"
+        return scene.bad(step, message)
     step = first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))
     if step is not None:
         return scene.bad(step, f"{halt} stops the program with the tool down; before it {retract(scene)}")

@@ -33,13 +33,8 @@ def travel(scene: Scene) -> Check:
             # Furthest from the middle: the move that a stray coordinate belongs to.
             middle = np.nanmedian(lower)
             far = int(np.nanargmax(np.maximum(np.abs(upper - middle), np.abs(lower - middle))))
-            return scene.bad(
-                int(paths.steps[far]),
-                f"the moves span {extent:.1f} mm in {axis}, the machine travels {limit:g} mm",
-                extent,
-                limit,
-                "mm",
-            )
+            message = f"the moves span {extent:.1f} mm in {axis}, the machine travels {limit:g} mm"
+            return scene.bad(int(paths.steps[far]), message, extent, limit, "mm")
         beyond = _beyond(scene, axis, lower, upper, limit)
         if beyond is not None:
             return beyond
@@ -62,14 +57,11 @@ def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -
         return None
     worst = int(np.nanargmax(over))
     found = float(over[worst])
-    return scene.bad(
-        int(steps[worst]),
+    message = (
         f"the move leaves the travel of {axis} by {found:.1f} mm (machine {axis} {low:g} to {low + limit:g}, "
-        f"work offset at {place:g}); clamp the stock elsewhere",
-        found,
-        0.0,
-        "mm",
+        f"work offset at {place:g}); clamp the stock elsewhere"
     )
+    return scene.bad(int(steps[worst]), message, found, 0.0, "mm")
 
 
 def flutes(scene: Scene) -> Check:
@@ -80,13 +72,10 @@ def flutes(scene: Scene) -> Check:
         worst = int(np.argmax(deep)) if deep.size else 0
         if deep.size and deep[worst] > tool.flute_length + NEAR:
             found = float(deep[worst])
-            return scene.bad(
-                worst,
-                f"T{number} ({tool.name}) cuts {found:.3f} mm deep, its flutes are {tool.flute_length:g} mm",
-                found,
-                tool.flute_length,
-                "mm",
+            message = (
+                f"T{number} ({tool.name}) cuts {found:.3f} mm deep, its flutes are {tool.flute_length:g} mm"
             )
+            return scene.bad(worst, message, found, tool.flute_length, "mm")
     return Check(True, "no tool cuts deeper than its flutes")
 
 
@@ -106,14 +95,11 @@ def underside(scene: Scene) -> Check:
     if over.size and over[worst] > NEAR:
         deep = -float(low[worst]) - job.thickness
         limit, tool = deep - float(over[worst]), scene.run.tool[paths.steps[worst]]
-        return scene.bad(
-            int(paths.steps[worst]),
+        message = (
             f"T{tool} goes {deep:.2f} mm below the plate, {limit:.2f} mm at most; "
-            "set cam.breakthrough if there is room",
-            deep,
-            limit,
-            "mm",
+            "set cam.breakthrough if there is room"
         )
+        return scene.bad(int(paths.steps[worst]), message, deep, limit, "mm")
     return Check(True, "no tool goes further below the plate than cuts through it have to")
 
 
@@ -129,12 +115,9 @@ def beside(scene: Scene) -> Check:
         worst = int(np.argmax(away - limit))
         if away[worst] > limit[worst]:
             found, allowed = float(away[worst]), float(limit[worst])
-            return scene.bad(
-                int(cuts[worst]),
+            message = (
                 f"cuts {found:.1f} mm outside of the stock, {allowed:g} mm at most; the program is for "
-                "another part, place or work offset",
-                found,
-                allowed,
-                "mm",
+                "another part, place or work offset"
             )
+            return scene.bad(int(cuts[worst]), message, found, allowed, "mm")
     return Check(True, "no cut goes on far outside of the stock")

@@ -29,12 +29,8 @@ def length_offset(scene: Scene) -> Check:
             found = "Z is moved with a length written into the program (G43.1)"
         else:
             found = f"Z is moved with H{active}"
-        return scene.bad(
-            step,
-            f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}",
-            active,
-            tool,
-        )
+        message = f"{found} while T{tool} is in the spindle; write {scene.control.length_words(tool)}"
+        return scene.bad(step, message, active, tool)
     return Check(True, "every tool moves Z under its own G43 H")
 
 
@@ -51,14 +47,10 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
         stated & np.isfinite(given) & np.isfinite(measured) & (np.abs(given - measured) > LAST_DECIMAL)
     )
     if step is not None:
-        return scene.bad(
-            step,
-            f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is "
-            f"{measured[step]:g} mm",
-            float(given[step]),
-            float(measured[step]),
-            "mm",
+        message = (
+            f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm"
         )
+        return scene.bad(step, message, float(given[step]), float(measured[step]), "mm")
     # Where the operator could touch off: at a stop, or before a file starts.
     chances = np.flatnonzero(run.kind == Kind.STOP)
     changes = np.flatnonzero(run.kind == Kind.TOOL)
@@ -70,16 +62,14 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
         at = change + int(used[0])
         fresh = begun[at] != begun[before] or ((chances > change) & (chances < at)).any()
         if not fresh:
-            return scene.bad(
-                at,
+            message = (
                 f"Z is moved with T{run.tool[at]} as if it were as long as the tool before; "
                 f"stop ({scene.control.m(0)}) to touch it off"
-                + (f", or write {word} with its length" if word else ""),
+                + (f", or write {word} with its length" if word else "")
             )
-    return Check(
-        True,
-        "every tool is touched off" + (f", or has its length from {word}" if word else ""),
-    )
+            return scene.bad(at, message)
+    message = "every tool is touched off" + (f", or has its length from {word}" if word else "")
+    return Check(True, message)
 
 
 def diameter_offset(scene: Scene) -> Check:
@@ -92,11 +82,9 @@ def diameter_offset(scene: Scene) -> Check:
     step = first(run.moving & (active >= 0) & (own > 0) & (active != own))
     if step is not None:
         found, wanted = int(active[step]), int(own[step])
-        return scene.bad(
-            step,
+        message = (
             f"compensation with D{found} while T{run.tool[step]} is in the spindle; write D{wanted}, or set "
-            f"diameter_offset = {found} in the tool library",
-            found,
-            wanted,
+            f"diameter_offset = {found} in the tool library"
         )
+        return scene.bad(step, message, found, wanted)
     return Check(True, "compensation takes the D of the tool in the spindle")

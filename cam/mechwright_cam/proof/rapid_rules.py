@@ -26,13 +26,8 @@ def rapid_height(scene: Scene) -> Check:
         if over.size:
             step = int(over[0])
             z = float(paths.low[step])
-            return scene.bad(
-                step,
-                f"a sideways rapid over the stock at Z{z:g}, the clearance plane is Z{limit:g}",
-                z,
-                limit,
-                "mm",
-            )
+            message = f"a sideways rapid over the stock at Z{z:g}, the clearance plane is Z{limit:g}"
+            return scene.bad(step, message, z, limit, "mm")
     return Check(True, "sideways rapids run at the clearance plane or above", limit=limit, unit="mm")
 
 
@@ -42,13 +37,8 @@ def rapids_in_stock(scene: Scene) -> Check:
     for step in [] if found else _onto_stock(scene).tolist():
         z = float(scene.paths.end[step, 2])
         if scene.stock.meets(step, lift=-z - TOUCH, radius=float(scene.paths.radius[step])):
-            return scene.bad(
-                step,
-                f"a rapid ends {z:g} mm above the stock, less than {ABOVE:g} mm; feed the rest",
-                z,
-                ABOVE,
-                "mm",
-            )
+            message = f"a rapid ends {z:g} mm above the stock, less than {ABOVE:g} mm; feed the rest"
+            return scene.bad(step, message, z, ABOVE, "mm")
     if found:
         message = f"a rapid into the stock ({len(found)} in all); feed there"
         return scene.bad(found[0], message, float(len(found)), 0.0)

@@ -1,7 +1,7 @@
 """The rules that are built in, in the order of the report. Nothing heavy is imported before one is asked."""
 
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.rule import Rule
@@ -36,18 +36,26 @@ _HOMES = (
 """Module of this folder to the functions in it that judge a scene; a rule is called as its function is."""
 
 
-def _rule(module: str, function: str) -> type[Rule]:
+class BuiltIn(Rule):
+    """A rule of ours."""
+
+    home: ClassVar[str]
+    """Module of this folder that has its function."""
+
+
+def _rule(module: str, function: str) -> type[BuiltIn]:
     """A rule made of a function from scene to check."""
 
-    class BuiltIn(Rule):
+    class Built(BuiltIn):
         name = function.replace("_", "-")
+        home = module
 
         def check(self, scene: "Scene") -> Check:
             judge = getattr(import_module(f"mechwright_cam.proof.{module}"), function)
             found: Check = judge(scene)
             return found
 
-    return BuiltIn
+    return Built
 
 
 BUILT_IN = tuple(_rule(module, function) for module, names in _HOMES for function in names.split())

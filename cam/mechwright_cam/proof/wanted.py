@@ -74,7 +74,7 @@ class Wanted:
         return along(rest, play(self.job), self.job, self.bands[place], self.mills, level)
 
     def beside_tabs(self, place: int) -> Shape | None:
-        """Where the cutter lifts beside the tabs that a band touches, None if there is none."""
+        """Where the cutter lifts beside the tabs that a band touches: what stays there goes with them."""
         tabs, widest = self._tabs[place], max(tool.diameter for tool in self.mills)
         return shapely.union_all([grow(tab, widest, COARSE) for tab in tabs]) if tabs else None
 
