@@ -7,6 +7,7 @@ imports nothing until a name is asked for.
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -28,6 +29,7 @@ def sources() -> dict[str, Path]:
     return found
 
 
+@cache
 def imports() -> Graph:
     """The imports between the files of the project; other libraries are left out."""
     files = sources()

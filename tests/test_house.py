@@ -59,3 +59,14 @@ def test_every_room_is_in_the_picture_once():
     assert rooms <= titles.keys()
     twice = {"plugin", "testing"}  # rooms of that name stand in the core and in CAM
     assert {name for name, count in titles.items() if count > 1} == twice
+
+
+def test_the_page_on_the_rooms_names_every_room_and_only_places_that_are_there():
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`([\w./*]+)`", page))
+    rooms = {name.split(".")[1] for name in sources() if name.startswith(("mechwright.", "mechwright_cam."))}
+    assert sorted(rooms - named - {"__main__"}) == []
+    places = {name for name in named if re.match(r"(core|cam|plugins|docs|tests)/", name)}
+    assert len(places) > 10
+    imagined = {"cam/mechwright_laser", "plugins/mechwright_NAME"}
+    assert sorted(name for name in places - imagined if not list(ROOT.glob(name))) == []

@@ -116,7 +116,7 @@ def test_a_name_that_is_built_in_is_not_given_away() -> None:
 
 def test_the_example_of_the_page_on_plugins_runs() -> None:
     page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
-    _, _, section = page.partition("## A rule of your own for the proof")
+    _, _, section = page.partition("## `Rule`: a judgement of the proof")
     (example,) = re.findall(r"^```python\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)[:1]
     module = ModuleType("shop_feed")
     exec(compile(example, "plugins.md", "exec"), module.__dict__)  # noqa: S102 - the page is ours
