@@ -93,7 +93,7 @@ def test_every_member_of_a_contract_is_in_its_section():
         f"{cls.__name__}.{name}"
         for cls in contracts()
         for name in {**vars(cls), **vars(cls).get("__annotations__", {})}
-        if not (name.startswith("_") or f"`{name}`" in SECTIONS[cls.__name__] or name in COMMON)
+        if not (name.startswith("_") or re.search(rf"`{name}[`(]", SECTIONS[cls.__name__]) or name in COMMON)
     }
     assert missing == set()
     assert sorted(name for name in COMMON if f"`{name}`" not in PAGE and f"`{name}()`" not in PAGE) == []
@@ -120,6 +120,37 @@ def test_the_control_spells_and_reads_its_own_words():
     assert "\nM108\n" in made.text
     assert made.proof.ok
     assert spruce.table_words("tool.tbl") == "Copy tool.tbl into the folder of the machine."
+
+
+def test_the_operation_cuts_what_it_claims_and_its_program_is_proven():
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.machining import machine
+    from mechwright_cam.operations.contract import Operation
+    from mechwright_cam.planning import Assignments
+    from mechwright_cam.setup.lay_out import make_job
+    from mechwright_cam.shop.library import load_library
+    from mechwright_cam.shop.settings import CamSettings
+
+    square = Loop.polygon([(-20.0, -20.0), (20.0, -20.0), (20.0, 20.0), (-20.0, 20.0)])
+    hole = Loop((circle((0.0, 0.0), 3.0, clockwise=True),))
+    part = Part("plate", Outline(square, (hole,)), 4.0, "aluminium")
+    settings = CamSettings.model_validate({"operations": ["plunge"]})
+    job = make_job(part, settings, [load_library().get("mill-6")])
+    made = machine(job, LinuxCnc(), assignments=Assignments([one("Operation", Operation)]))
+    assert "bore-1: plunge" in [cut.name for section in made.program.sections for cut in section.operations]
+    assert made.proof.ok
+
+
+def test_the_rule_refuses_what_is_too_fast():
+    from mechwright import ProofError
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.machining import machine
+    from mechwright_cam.proof import Rule
+    from mechwright_cam.testing import plate_job
+
+    rule = one("Rule", Rule)
+    with pytest.raises(ProofError, match="our limit is F400; lower the feed"):
+        machine(plate_job(), LinuxCnc(), rules=[rule])
 
 
 def test_the_exporter_writes_the_contour(flywheel):
