@@ -1,4 +1,4 @@
-"""The pitch ellipse, measured along its arc.
+"""The pitch ellipse, measured along its arc, and two that roll on each other.
 
 Its parameter is the eccentric angle u, rad: the point (a cos u, b sin u) from the ellipse's centre. u = 0 is
 the far vertex, the end of the major axis that is farther from the axis of rotation. The axis is the focus
@@ -16,7 +16,8 @@ from functools import cached_property
 import numpy as np
 
 from mechwright import Array
-from mechwright.mechanics.gearing import Frame, PitchCurve
+from mechwright.mechanics.gearing import Frame, Pair, PitchCurve
+from mechwright_elliptic_gears.kinematics import Turning, driven, pitch_radii, tilt
 
 _SERIES_SAMPLES = 256
 """Terms fall like exp(-2 k arcosh(1/e)); at e = 0.9 the 43rd is below 1e-17, so 128 leave no aliasing."""
@@ -112,3 +113,27 @@ class Ellipse(PitchCurve):
         normal = np.stack((tangent[..., 1], -tangent[..., 0]), axis=-1)
         radius = a * a / b * speed**3
         return Frame(self.arc(u) if arc is None else arc, point, tangent, normal, radius)
+
+
+class EllipticPair(Pair):
+    """Two congruent ellipses that turn about foci 2a apart, in the closed forms of their kinematics."""
+
+    driver: Ellipse
+
+    @classmethod
+    def of(cls, ellipse: Ellipse) -> "EllipticPair":
+        """An ellipse and its copy."""
+        return cls(ellipse, ellipse, 2 * ellipse.semi_major)
+
+    def law(self, theta: Array) -> tuple[Array, Array]:
+        """Equations (7) and (5)."""
+        mate = driven(Turning.of(theta, 1.0), self.driver.eccentricity)
+        return mate.theta, mate.omega
+
+    def pitch_radii(self, theta: Array) -> tuple[Array, Array]:
+        """Equations (1) and (2)."""
+        return pitch_radii(Turning.of(theta), self.driver.semi_major, self.driver.eccentricity)
+
+    def tilt(self, arc: Array) -> Array:
+        """As the shafts see it."""
+        return tilt(Turning.of(self.angles(arc)[0]), self.driver.eccentricity)

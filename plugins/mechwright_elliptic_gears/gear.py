@@ -3,12 +3,11 @@
 import math
 from functools import lru_cache
 
-from mechwright import Array, GeometryError, Outline
+from mechwright import GeometryError, Outline
 from mechwright.geometry.keyway import Opening, key_of_width
-from mechwright.mechanics.gearing import Pair, Rack, Teeth, gear_loop
+from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
 from mechwright_elliptic_gears.assembly import backlash_of
-from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.kinematics import Turning, driven
+from mechwright_elliptic_gears.ellipse import Ellipse, EllipticPair
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 OFFSET_SLACK = 1e-6
@@ -28,15 +27,9 @@ def ellipse_of(params: EllipticGearParams) -> Ellipse:
     return Ellipse(math.pi * params.module * params.teeth / (4 * quarter), params.eccentricity)
 
 
-def pair_of(params: EllipticGearParams) -> Pair:
-    """A gear and the gear that it drives, axes 2a apart."""
-    ellipse = ellipse_of(params)
-
-    def law(theta: Array) -> tuple[Array, Array]:
-        gear = driven(Turning.of(theta, 1.0), ellipse.eccentricity)
-        return gear.theta, gear.omega
-
-    return Pair(ellipse, ellipse, 2 * ellipse.semi_major, law)
+def pair_of(params: EllipticGearParams) -> EllipticPair:
+    """A gear and the gear that it drives."""
+    return EllipticPair.of(ellipse_of(params))
 
 
 def rack_of(params: EllipticGearParams) -> Rack:

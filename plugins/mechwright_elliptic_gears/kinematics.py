@@ -105,16 +105,23 @@ def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[
     return s2, 2 * semi_major - s2
 
 
+def tilt(gear: Turning, eccentricity: float) -> Array:
+    """Angle ν (n,), rad, of the pitch curve against the circle about the axis, at most asin e.
+
+    With r = b² / (a (1 - e cos θ)) it is atan(e sin θ / (1 - e cos θ)). It is the same for both gears, whose
+    pitch points move along the same line.
+    """
+    e = eccentricity
+    angle: Array = np.arctan(e * np.sin(gear.theta) / (1 - e * np.cos(gear.theta)))
+    return angle
+
+
 def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: float) -> Array:
     """Angle (n,), rad, between a flank's normal and the motion of the pitch point; the larger of both flanks.
 
-    It is the rack's pressure angle and the tilt of the pitch curve against the circle about the axis.
-    With r = b² / (a (1 - e cos θ)) the tilt is atan(r'/r) = atan(e sin θ / (1 - e cos θ)), at most asin e.
-    It is the same for both gears, whose pitch points move along the same line.
+    It is the rack's pressure angle and the :func:`tilt` of the pitch curves.
     """
-    e = eccentricity
-    tilt: Array = np.arctan2(e * np.sin(gear.theta), 1 - e * np.cos(gear.theta))
-    return pressure_angle + np.abs(tilt)
+    return pressure_angle + np.abs(tilt(gear, eccentricity))
 
 
 def steepest_shaft_pressure_angle(eccentricity: float, pressure_angle: float) -> float:

@@ -44,7 +44,7 @@ def candidates(
     first, last = ((low - base) / ring).astype(np.int64), ((high - base) / ring).astype(np.int64)
     spans = last - first + 1
     edge = np.repeat(np.arange(low.size), spans)
-    key = (edge_group * rings + first)[edge] + _count_up(spans)
+    key = (edge_group * rings + first)[edge] + count_up(spans)
     key = key * sectors + sector((starts + ends) / 2, edge_group)[edge]
     order = np.argsort(key, kind="stable")
     key, edge = key[order], edge[order]
@@ -53,13 +53,13 @@ def candidates(
     begin = np.searchsorted(key, wanted - 2, "left")
     counts = np.searchsorted(key, wanted + 2, "right") - begin
     query = np.repeat(np.arange(radius.size), counts)
-    edge = edge[begin[query] + _count_up(counts)]
+    edge = edge[begin[query] + count_up(counts)]
     # Half open, so that a corner belongs to one edge only.
     cut = (low[edge] <= radius[query]) & (radius[query] < high[edge])
     return query[cut], edge[cut]
 
 
-def _count_up(counts: Ints) -> Ints:
+def count_up(counts: Ints) -> Ints:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, and so on."""
     ends = np.cumsum(counts)
     numbers: Ints = np.arange(ends[-1] if ends.size else 0) - np.repeat(ends - counts, counts)

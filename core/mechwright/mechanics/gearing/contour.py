@@ -33,14 +33,11 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
     GeometryError
         The curves do not meet, or are not smooth.
     """
-    tips, error = _tips(teeth)
-    errors = [error]
-    down, up, error = _flanks(teeth)
-    errors.append(error)
-    fall, rise, error = _fillets(teeth)
-    errors.append(error)
-    roots, error = _roots(teeth)
-    errors.append(error)
+    tips, at_tips = _offsets(teeth, *teeth.tip_lands, teeth.rack.addendum)
+    down, up, at_flanks = _flanks(teeth)
+    fall, rise, at_fillets = _fillets(teeth)
+    fallen, risen = teeth.curve.parameter(teeth.arc_centres).T
+    roots, at_roots = _offsets(teeth, fallen, risen, -teeth.rack.dedendum)
     _share(tips, np.roll(up[-1][:, -1], 1, axis=0), down[0][:, 0])
     _share(fall, down[-1][:, -1], None)
     _share(rise, None, up[0][:, 0])
@@ -65,7 +62,7 @@ def gear_loop(teeth: Teeth) -> tuple[Loop, float]:
         for pieces, tag in chains
         for piece in pieces
     ]
-    return Loop(tuple(segments)), max(errors)
+    return Loop(tuple(segments)), max(at_tips, at_flanks, at_fillets, at_roots)
 
 
 def _share(pieces: list[Array], start: Array | None, end: Array | None) -> None:
@@ -82,20 +79,11 @@ def _between(first: Array, last: Array, t: Array) -> Array:
     return values
 
 
-def _tips(teeth: Teeth) -> tuple[list[Array], float]:
-    first, last = teeth.tip_lands
+def _offsets(teeth: Teeth, first: Array, last: Array, height: float) -> tuple[list[Array], float]:
+    """Tips or roots from parameters (z,) to parameters (z,), at a height, mm, over the pitch curve."""
 
     def curves(t: Array) -> Array:
-        return teeth.curve.frame(_between(first, last, t)).offset(teeth.rack.addendum)
-
-    return fit_nets(curves, teeth.count, FIT)
-
-
-def _roots(teeth: Teeth) -> tuple[list[Array], float]:
-    first, last = teeth.curve.parameter(teeth.arc_centres).T
-
-    def curves(t: Array) -> Array:
-        return teeth.curve.frame(_between(first, last, t)).offset(-teeth.rack.dedendum)
+        return teeth.curve.frame(_between(first, last, t)).offset(height)
 
     return fit_nets(curves, teeth.count, FIT)
 

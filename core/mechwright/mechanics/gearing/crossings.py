@@ -18,8 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.candidates import Ints as Ints  # for all that knows crossings
-from mechwright.mechanics.gearing.candidates import candidates
+from mechwright.mechanics.gearing.candidates import Ints, candidates
 
 
 @dataclass(frozen=True, slots=True)

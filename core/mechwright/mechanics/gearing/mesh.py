@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.mechanics.gearing.candidates import count_up
 from mechwright.mechanics.gearing.contact import contact
 from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.zone import Envelope, Near, Rim, turned
@@ -143,8 +144,7 @@ def _cut_edges(points: Array, longest: float) -> Array:
     edge = np.roll(points, -1, axis=0) - points
     counts = np.maximum(1, np.ceil(np.hypot(*edge.T) / longest)).astype(np.int64)
     at = np.repeat(np.arange(len(points)), counts)
-    step = np.arange(at.size) - np.repeat(np.cumsum(counts) - counts, counts)
-    cut: Array = points[at] + (step / counts[at])[:, None] * edge[at]
+    cut: Array = points[at] + (count_up(counts) / counts[at])[:, None] * edge[at]
     return cut
 
 
@@ -154,10 +154,10 @@ def _near(
     """What of both gears is near contact in some positions, seen from the driven gear."""
     axis1 = -distance * np.column_stack((np.cos(theta2), -np.sin(theta2)))
     axis2 = distance * np.column_stack((np.cos(theta1), -np.sin(theta1)))
-    position, _, placed, near = rims[0].near(envelopes[1], theta1 - theta2, axis1)
-    driver = Near.of(placed, position, near)
-    position, corners, _, near = rims[1].near(envelopes[0], theta2 - theta1, axis2)
-    return driver, Near.of(corners, position, near)
+    return (
+        rims[0].near(envelopes[1], theta1 - theta2, axis1, placed=True),
+        rims[1].near(envelopes[0], theta2 - theta1, axis2, placed=False),
+    )
 
 
 def _overlap(driver: Array, driven: Array, theta1: Array, theta2: Array, distance: float) -> float:

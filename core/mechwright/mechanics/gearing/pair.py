@@ -8,7 +8,7 @@ With θ2 = f(θ1), f' = dθ2/dθ1 below 0 (the pair is external), rolling withou
 """
 
 import math
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +18,7 @@ from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 
 
 @dataclass(frozen=True)
-class Pair:
+class Pair(ABC):
     """An external pair.
 
     Parameters
@@ -27,14 +27,20 @@ class Pair:
         Pitch curves; their perimeters stand to each other as the numbers of teeth.
     distance
         Centre distance a, mm.
-    law
-        θ2 (...), rad, and f' (...) at angles θ1 (...), rad.
     """
 
     driver: PitchCurve
     driven: PitchCurve
     distance: float
-    law: Callable[[Array], tuple[Array, Array]]
+
+    @abstractmethod
+    def law(self, theta: Array) -> tuple[Array, Array]:
+        """θ2 (...), rad, and its derivative f' (...) at angles θ1 (...), rad."""
+
+    def pitch_radii(self, theta: Array) -> tuple[Array, Array]:
+        """r1 and r2 (...), mm, at angles θ1 (...), rad."""
+        r2 = self.distance / (1 - self.law(theta)[1])
+        return self.distance - r2, r2
 
     def turns(self, teeth: int) -> int:
         """Turns of a driver with so many teeth after which the same teeth meet again."""
@@ -46,13 +52,15 @@ class Pair:
         theta: Array = -np.unwrap(self.driver.frame_at(arc).polar_angle)
         return theta, self.law(theta)[0]
 
+    def tilt(self, arc: Array) -> Array:
+        """ν (n,), rad, of both pitch curves in the pitch point, at arcs as in :meth:`angles`."""
+        return self.driver.frame_at(arc).tilt
+
     def levers(self, arc: Array, pressure_angle: float) -> tuple[Array, Array]:
-        """Distances (...), mm, of axis O2 from the two lines of action through the pitch point.
+        """Distances (n,), mm, of axis O2 from the two lines of action, at arcs as in :meth:`angles`.
 
         The first belongs to the flank that stops the driven gear turning counter-clockwise, the second to the
-        other: r2 cos(ν ± α), since both pitch curves are tilted by ν. A normal play c lets the gear turn by c
-        over the lever.
+        other: r2 cos(ν ± α). A normal play c lets the gear turn by c over the lever.
         """
-        frame = self.driver.frame_at(arc)
-        r2 = self.distance / (1 - self.law(-frame.polar_angle)[1])
-        return r2 * np.cos(frame.tilt + pressure_angle), r2 * np.cos(frame.tilt - pressure_angle)
+        r2, tilt = self.pitch_radii(self.angles(arc)[0])[1], self.tilt(arc)
+        return r2 * np.cos(tilt + pressure_angle), r2 * np.cos(tilt - pressure_angle)

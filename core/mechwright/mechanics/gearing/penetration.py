@@ -3,7 +3,7 @@
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.crossings import Ints
+from mechwright.mechanics.gearing.candidates import Ints
 from mechwright.tolerances import TOLERANCES
 
 

@@ -13,16 +13,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.mechanics.gearing.crossings import Ints
+from mechwright.mechanics.gearing.candidates import Ints
 from mechwright.mechanics.gearing.pitch_curve import PitchCurve
 
-Flags = NDArray[np.bool_]
-
-_RUN = 16
-"""Edges per run: a quarter of a flank of the finest outlines."""
+_RUN = 32
+"""Edges per run: half a flank of a fine outline."""
 
 _SAMPLES = 1024
 """Corners of an envelope: it is the chords between them, so that none of what follows is approximate."""
@@ -64,6 +61,25 @@ class Envelope:
 
 
 @dataclass(frozen=True)
+class Near:
+    """The points and edges of one gear near contact.
+
+    Parameters
+    ----------
+    points, position
+        (n, 2), mm, and the position (n,) each belongs to.
+    starts, ends, edge_position
+        The edges with an end among the points: (m, 2) mm, and (m,).
+    """
+
+    points: Array
+    position: Ints
+    starts: Array
+    ends: Array
+    edge_position: Ints
+
+
+@dataclass(frozen=True)
 class Rim:
     """An outline in runs.
 
@@ -87,53 +103,20 @@ class Rim:
         centre = corners.mean(axis=1)
         return cls(corners, centre, np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1))
 
-    def near(self, mate: Envelope, turn: Array, axis: Array) -> tuple[Ints, Array, Array, Flags]:
-        """Runs that may reach into the mate's envelope.
+    def near(self, mate: Envelope, turn: Array, axis: Array, *, placed: bool) -> Near:
+        """What lies in the mate's envelope in some positions.
 
-        ``turn`` (n,), rad, and ``axis`` (n, 2), mm, place this gear in the mate's body frame in position.
-
-        Returns
-        -------
-        position
-            Of each such run (r,).
-        corners, placed
-            (r, m, 2), mm, in the body frame and in that of the mate.
-        near
-            Which of them (r, m) lie in the envelope.
+        ``turn`` (n,), rad, and ``axis`` (n, 2), mm, place this gear in the mate's body frame. Points and
+        edges are given in that frame, or, not ``placed``, in the gear's own.
         """
         centres = turned(self.centre, turn[:, None]) + axis[:, None]
         position, run = np.nonzero(mate.height(centres) < mate.steepness * self.reach)
-        corners = self.corners[run]
-        placed = turned(corners, turn[position][:, None]) + axis[position][:, None]
-        return position, corners, placed, mate.height(placed) < 0
-
-
-@dataclass(frozen=True)
-class Near:
-    """The points and edges of one gear near contact, seen from the driven gear.
-
-    Parameters
-    ----------
-    points, position
-        (n, 2), mm, and the position (n,) each belongs to.
-    starts, ends, edge_position
-        The edges with an end among the points: (m, 2) mm, and (m,).
-    """
-
-    points: Array
-    position: Ints
-    starts: Array
-    ends: Array
-    edge_position: Ints
-
-    @classmethod
-    def of(cls, corners: Array, position: Ints, near: Flags) -> "Near":
-        """Choose from runs: corners (r, m, 2), positions (r,), and whether they are near (r, m)."""
-        run, at = np.nonzero(near[:, :-1])
-        edge, start = np.nonzero(near[:, :-1] | near[:, 1:])
-        return cls(
-            corners[run, at], position[run], corners[edge, start], corners[edge, start + 1], position[edge]
-        )
+        own = self.corners[run]
+        there = turned(own, turn[position][:, None]) + axis[position][:, None]
+        inside, corners = mate.height(there) < 0, there if placed else own
+        point, edge = np.nonzero(inside[:, :-1]), np.nonzero(inside[:, :-1] | inside[:, 1:])
+        ends = corners[edge[0], edge[1] + 1]
+        return Near(corners[point], position[point[0]], corners[edge], ends, position[edge[0]])
 
 
 def turned(points: Array, angle: Array) -> Array:
