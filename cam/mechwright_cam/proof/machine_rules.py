@@ -29,7 +29,7 @@ def program_end(scene: Scene) -> Check:
             "it as a program of its own"
         )
         return Check(False, message, run.beyond)
-    moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
+    moved = np.flatnonzero(run.moving | (run.kind == Kind.HOME))
     if moved.size == 0 or not run.cutting.any():
         return Check(False, "the program cuts nothing", run.lines)
     last = int(moved[-1])

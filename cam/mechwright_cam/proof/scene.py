@@ -106,11 +106,6 @@ class Scene:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
 
-    def where(self, step: int) -> tuple[float, float, float]:
-        """End of a step."""
-        x, y, z = self.run.end[step].tolist()
-        return x, y, z
-
     def line(self, step: int) -> int:
         """Line of a step, in its file."""
         return int(self.run.line[step])
@@ -135,7 +130,8 @@ class Scene:
         at: tuple[float, float, float] | None = None,
     ) -> Check:
         """A failed check that blames one step, at its end unless another place is given."""
-        at = self.where(step) if at is None else at
+        x, y, z = self.run.end[step].tolist() if at is None else at
+        at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
         text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
         return Check(False, text, self.line(step), value, limit, unit, at)
