@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Run, State
-from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.leftover import Remains, remains
@@ -85,8 +85,8 @@ class Scene:
         paths, job = self.paths, self.job
         return _deepest(
             [
-                *details.deepest(paths, job, bands(job, details.heights(job))),
-                *(cut for fillet in fillets(job) for cut in details.deepest_in_fillet(paths, job, fillet)),
+                *deepest(paths, job, bands(job, heights(job))),
+                *(cut for fillet in fillets(job) for cut in deepest_in_fillet(paths, job, fillet)),
             ]
         )
 
