@@ -65,7 +65,7 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
 
 def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
-    # Before any rule: that a text cannot be read is no fault of theirs, and they share one stock and its sweeps.
+    # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
     run, _, _ = scene.run, scene.stock, scene.sweeps
     with ThreadPoolExecutor() as pool:  # none depends on another
         checks = list(pool.map(partial(ask, scene=scene), rules))
