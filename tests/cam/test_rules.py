@@ -5,17 +5,22 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 from by_control import LINUXCNC
+from planning_parts import bore, job, plate
 from shop import plate_job, plate_program
 
 from mechwright import Build, Host, PluginError, ProofError, Wanted, hookimpl
 from mechwright.plugins.host import host
 from mechwright_cam import plugin
-from mechwright_cam.machining import Machining
+from mechwright_cam.controls.reading import Run
+from mechwright_cam.machining import Machining, machine
 from mechwright_cam.proof import Check, Proof, Rule, Scene, prove
 from mechwright_cam.proof.rules import BUILT_IN
+from mechwright_cam.proof.simulation import simulate
+from mechwright_cam.proof.walls import wall_deviation
 
 ROOT = Path(__file__).parents[2]
 TEXT = LINUXCNC.write(plate_program())
@@ -66,6 +71,21 @@ def test_a_build_asks_the_rules_of_its_host() -> None:
     machining = Machining(Build(ROOT / "examples" / "elliptic-pair.toml", found, Wanted("cam")))
     with pytest.raises(ProofError, match=r"\[own\]: gear is not for us"):
         _ = machining.made
+
+
+def test_a_program_is_read_once_for_its_proof_and_its_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    read, runs = type(LINUXCNC).read, []
+
+    def counted(*arguments: Any, **more: Any) -> Run:
+        runs.append(read(*arguments, **more))
+        return runs[-1]
+
+    monkeypatch.setattr(type(LINUXCNC), "read", counted)
+    one = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LINUXCNC)
+    assert simulate(one.scene.paths, one.job).works
+    assert wall_deviation(one.scene.sweeps, one.job).points.size
+    assert len(runs) == 1
+    assert one.scene.run is runs[0]
 
 
 @pytest.mark.parametrize(

@@ -74,6 +74,20 @@ def element(name: str, content: str = "", /, **attributes: object) -> str:
     return f"<{name}{rows}>{content}</{name}>" if content else f"<{name}{rows}/>"
 
 
+def picture(
+    content: str, box: Sequence[float], label: str, font_family: str | None = "Helvetica, Arial, sans-serif"
+) -> str:
+    """The whole picture: least x and y as SVG sees them, width and height, and what a screen reader says."""
+    view = " ".join(map(number, box))
+    look: dict[str, object] = {
+        "viewBox": view,
+        "font_family": font_family,
+        "role": "img",
+        "aria_label": label,
+    }
+    return element("svg", content, xmlns="http://www.w3.org/2000/svg", **look)
+
+
 def text(x: float, y: float, words: str, size: float, /, **attributes: object) -> str:
     """Escaped text at a point."""
     return element("text", escape(words), x=number(x), y=number(-y), font_size=number(size), **attributes)

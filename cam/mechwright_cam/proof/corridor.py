@@ -15,15 +15,13 @@ def path_tolerance(scene: Scene) -> Check:
     """The control has a bound on how far it leaves the path, and in the work it is within that of a gouge."""
     limit, name = TOLERANCES.gouge, scene.control.title
     off, cuts = scene.run.of_states(lambda state: state.off_path), in_work(scene)
-    step = first(scene.run.moving & np.isinf(off))
-    if step is not None:
+    if (step := first(scene.run.moving & np.isinf(off))) is not None:
         message = (
             f"nothing bounds how far {name} leaves the path at corners, the limit is {limit:g} mm; before it "
             f"{ADVICE}"
         )
         return scene.bad(step, message, None, limit, "mm")
-    step = first(cuts & (off > limit + NEAR))
-    if step is not None:
+    if (step := first(cuts & (off > limit + NEAR))) is not None:
         found = float(off[step])
         message = (
             f"{name} may leave the path by {found:g} mm at corners (P and Q of G64 together), the limit is "

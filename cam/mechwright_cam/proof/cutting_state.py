@@ -14,8 +14,7 @@ MAX_DWELL = 10.0
 def spindle(scene: Scene) -> Check:
     """The spindle turns clockwise while the cutter is in the work."""
     turning = scene.run.of_states(lambda state: state.spindle if state.rpm > 0 else 0)
-    step = first(in_work(scene) & (turning != 1))
-    if step is not None:
+    if (step := first(in_work(scene) & (turning != 1))) is not None:
         how = f"backwards ({scene.control.m(4)})" if turning[step] == -1 else "not at all"
         message = f"feeds into the work while the spindle turns {how}; write S and {scene.control.m(3)}"
         return scene.bad(step, message)
@@ -26,8 +25,7 @@ def coolant(scene: Scene) -> Check:
     """Coolant runs as planned while the cutter is in the work."""
     wanted = scene.job.settings.coolant
     wrong = scene.run.of_states(lambda state: state.coolant != wanted)
-    step = first(in_work(scene) & wrong)
-    if step is not None:
+    if (step := first(in_work(scene) & wrong)) is not None:
         word = scene.control.m({"flood": 8, "mist": 7, "off": 9}[wanted])
         message = f"cuts with coolant {scene.state(step).coolant}, planned is {wanted}; write {word}"
         return scene.bad(step, message)
@@ -48,8 +46,7 @@ def arcs(scene: Scene) -> Check:
 def feeds(scene: Scene) -> Check:
     """Feeds are within the machine's limit."""
     limit = scene.job.settings.machine.max_feed
-    step = first(scene.run.feed > limit + NEAR)
-    if step is not None:
+    if (step := first(scene.run.feed > limit + NEAR)) is not None:
         found = float(scene.run.feed[step])
         return scene.bad(step, f"F{found:g} is above the machine's {limit:g} mm/min", found, limit, "mm/min")
     return Check(True, "feeds are within the machine's limit", limit=limit, unit="mm/min")
@@ -60,8 +57,7 @@ def speeds(scene: Scene) -> Check:
     machine = scene.job.settings.machine
     rpm = scene.run.of_states(lambda state: state.rpm if state.spindle else machine.spindle_min)
     wrong = (rpm > machine.spindle_max + NEAR) | (rpm < machine.spindle_min - NEAR)
-    step = first(in_work(scene) & wrong)
-    if step is not None:
+    if (step := first(in_work(scene) & wrong)) is not None:
         found = float(rpm[step])
         over = found > machine.spindle_max
         limit = machine.spindle_max if over else machine.spindle_min
@@ -72,8 +68,7 @@ def speeds(scene: Scene) -> Check:
 
 def dwells(scene: Scene) -> Check:
     """No dwell is so long that its unit must be wrong."""
-    step = first(scene.run.seconds > MAX_DWELL)
-    if step is not None:
+    if (step := first(scene.run.seconds > MAX_DWELL)) is not None:
         found = float(scene.run.seconds[step])
         message = f"waits for {found:g} s, at most {MAX_DWELL:g} s make sense; P is in seconds"
         return scene.bad(step, message, found, MAX_DWELL, "s")

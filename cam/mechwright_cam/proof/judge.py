@@ -65,7 +65,8 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
 
 def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
-    run = scene.run  # before any rule: that a text cannot be read is no fault of theirs
+    # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
+    run, _, _ = scene.run, scene.stock, scene.sweeps
     with ThreadPoolExecutor() as pool:  # none depends on another
         checks = list(pool.map(partial(ask, scene=scene), rules))
     seconds, left = step_times(run, scene.job.settings.machine), scene.remains

@@ -29,8 +29,7 @@ def machine_moves(scene: Scene) -> Check:
             f"before it {retract(scene)}"
         )
         return scene.bad(step, message, None if np.isnan(z) else z, limit, "mm")
-    step = first((run.kind == Kind.HOME) & np.isnan(end))
-    if step is not None:
+    if (step := first((run.kind == Kind.HOME) & np.isnan(end))) is not None:
         top = scene.job.settings.machine.retract_z
         message = (
             f"Z goes to a height in machine coordinates below Z{top:g}, which may be in the work; "

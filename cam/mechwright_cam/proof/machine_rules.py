@@ -29,7 +29,7 @@ def program_end(scene: Scene) -> Check:
             "it as a program of its own"
         )
         return Check(False, message, run.beyond)
-    moved = np.flatnonzero(np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)))
+    moved = np.flatnonzero(run.moving | (run.kind == Kind.HOME))
     if moved.size == 0 or not run.cutting.any():
         return Check(False, "the program cuts nothing", run.lines)
     last = int(moved[-1])
@@ -41,8 +41,7 @@ def program_end(scene: Scene) -> Check:
 
 def modes(scene: Scene) -> Check:
     """Units, distances, plane and compensation are set before the first move in work coordinates."""
-    step = first(scene.run.moving)
-    if step is not None:
+    if (step := first(scene.run.moving)) is not None:
         missing = [word for group, word in SAFE_MODES.items() if group not in scene.state(step).stated]
         if missing:
             return scene.bad(step, f"moves before {' '.join(missing)}; set the modes first")
@@ -52,8 +51,7 @@ def modes(scene: Scene) -> Check:
 def tools(scene: Scene) -> Check:
     """Every tool that moves is one of the job."""
     run = scene.run
-    step = first(run.moving & ~np.isin(run.tool, list(scene.tools)))
-    if step is not None:
+    if (step := first(run.moving & ~np.isin(run.tool, list(scene.tools)))) is not None:
         known = ", ".join(f"T{n}" for n in sorted(scene.tools)) or "none"
         number = int(run.tool[step])
         named = f"T{number} is not a tool of this job" if number else "no tool was changed to"
@@ -64,8 +62,7 @@ def tools(scene: Scene) -> Check:
 def tool_change(scene: Scene) -> Check:
     """Tools are changed at a safe height."""
     run, clearance = scene.run, scene.job.settings.clearance
-    step = first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= clearance - NEAR))
-    if step is not None:
+    if (step := first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= clearance - NEAR))) is not None:
         return scene.bad(step, f"a tool is changed without a retract; before it {retract(scene)}")
     return Check(True, "tools are changed at the machine's upper end")
 
@@ -74,12 +71,10 @@ def stops(scene: Scene) -> Check:
     """Where the program stops for the operator's hands, the spindle stands still and the tool is up."""
     run = scene.run
     stop, halt = run.kind == Kind.STOP, scene.control.m(0)
-    step = first(stop & (scene.run.of_states(lambda state: state.spindle) != 0))
-    if step is not None:
+    if (step := first(stop & (scene.run.of_states(lambda state: state.spindle) != 0))) is not None:
         message = f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it"
         return scene.bad(step, message)
-    step = first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))
-    if step is not None:
+    if (step := first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))) is not None:
         return scene.bad(step, f"{halt} stops the program with the tool down; before it {retract(scene)}")
     return Check(True, "at stops the spindle stands still and the tool is up")
 
@@ -88,8 +83,7 @@ def work_offset(scene: Scene) -> Check:
     """All moves are made in the work offset of the job."""
     wanted = scene.job.settings.work_offset
     wrong = scene.run.of_states(lambda state: state.work_offset != wanted)
-    step = first(scene.run.moving & wrong)
-    if step is not None:
+    if (step := first(scene.run.moving & wrong)) is not None:
         used = scene.state(step).work_offset or "no stated work offset"
         return scene.bad(step, f"moves in {used}; the job is set up in {wanted}")
     return Check(True, f"all moves are in {wanted}")

@@ -50,8 +50,7 @@ def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -
         return None
     length = np.zeros(steps.size)
     if axis == "Z":
-        known = {n: tool.length for n, tool in scene.tools.items() if tool.length is not None}
-        length = np.array([known.get(number, np.nan) for number in scene.run.tool[steps].tolist()])
+        length = scene.paths.of_tool(lambda tool: tool.length)[steps]
     over = np.fmax(low - (lower + place + length), upper + place + length - (low + limit))
     if np.isnan(over).all() or np.nanmax(over) <= NEAR:
         return None

@@ -20,8 +20,7 @@ def length_offset(scene: Scene) -> Check:
     if not scene.control.offsets.lengths:
         return _length_by_hand(scene, stated)
     offset = scene.run.of_states(lambda state: -2 if state.length_offset is None else state.length_offset)
-    step = first(stated & (offset != run.tool))
-    if step is not None:
+    if (step := first(stated & (offset != run.tool))) is not None:
         tool, active = int(run.tool[step]), int(offset[step])
         if active in {0, -2}:
             found = "Z is moved without a length offset"
@@ -41,12 +40,8 @@ def _length_by_hand(scene: Scene, stated: NDArray[np.bool_]) -> Check:
     """
     run, word = scene.run, scene.control.offsets.length_word
     given = scene.run.of_states(lambda state: np.nan if state.length is None else state.length)
-    known = {number: tool.length for number, tool in scene.tools.items()}
-    measured = np.array([np.nan if (n := known.get(t)) is None else n for t in run.tool.tolist()])
-    step = first(
-        stated & np.isfinite(given) & np.isfinite(measured) & (np.abs(given - measured) > LAST_DECIMAL)
-    )
-    if step is not None:
+    measured = scene.paths.of_tool(lambda tool: tool.length)
+    if (step := first(stated & (np.abs(given - measured) > LAST_DECIMAL))) is not None:
         message = (
             f"{word} Z{given[step]:g} while the measured length of T{run.tool[step]} is {measured[step]:g} mm"
         )
@@ -76,11 +71,8 @@ def diameter_offset(scene: Scene) -> Check:
     """Cutter compensation takes the D of the tool in the spindle."""
     run = scene.run
     active = scene.run.of_states(lambda state: -1 if state.diameter_offset is None else state.diameter_offset)
-    own = np.zeros(len(run), dtype=np.int64)
-    for number, tool in scene.tools.items():
-        own[run.tool == number] = tool.d_number
-    step = first(run.moving & (active >= 0) & (own > 0) & (active != own))
-    if step is not None:
+    own = scene.paths.of_tool(lambda tool: tool.d_number)
+    if (step := first(run.moving & (active >= 0) & (own > 0) & (active != own))) is not None:
         found, wanted = int(active[step]), int(own[step])
         message = (
             f"compensation with D{found} while T{run.tool[step]} is in the spindle; write D{wanted}, or set "

@@ -8,7 +8,7 @@ chain
     Pieces that follow on each other with the same tool.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -101,7 +101,7 @@ class Paths:
     @cached_property
     def radius(self) -> Array:
         """(n,) radius of the tool in the spindle, mm; NaN for an unknown one."""
-        return self._of_tool(lambda tool: tool.radius)
+        return self.of_tool(lambda tool: tool.radius)
 
     def of_kinds(self, kinds: set[ToolKind]) -> "Paths":
         """The same, with the steps of some kinds of tool only."""
@@ -114,9 +114,10 @@ class Paths:
     def cutter(self) -> Cutter:
         """The outlines (n,) of the tools in the spindle."""
         names = ("radius", "nose", "tip", "slope")
-        return Cutter(*(self._of_tool(lambda tool, name=name: getattr(cutter(tool), name)) for name in names))
+        return Cutter(*(self.of_tool(lambda tool, name=name: getattr(cutter(tool), name)) for name in names))
 
-    def _of_tool(self, value: Any) -> Array:
+    def of_tool(self, value: Callable[..., float | None]) -> Array:
+        """(n,) a value of the tool in the spindle; NaN for an unknown tool or value."""
         numbers = self.run.tool
         out = np.full(numbers.size, np.nan)
         for number, tool in self.tools.items():

@@ -115,17 +115,17 @@ class Proof:
     @property
     def tool_times_s(self) -> dict[int, float]:
         """T number to its time, s."""
-        times: dict[int, float] = {}
-        for operation in self.operations:
-            times[operation.tool] = times.get(operation.tool, 0.0) + operation.time_s
-        return times
+        return self._by_tool("time_s")
 
     @property
     def tool_cutting_s(self) -> dict[int, float]:
         """T number to its time at a feed, s: what wears its edges."""
+        return self._by_tool("cutting_s")
+
+    def _by_tool(self, name: str) -> dict[int, float]:
         times: dict[int, float] = {}
         for operation in self.operations:
-            times[operation.tool] = times.get(operation.tool, 0.0) + operation.cutting_s
+            times[operation.tool] = times.get(operation.tool, 0.0) + getattr(operation, name)
         return times
 
     def require(self) -> None:
@@ -148,12 +148,8 @@ class Proof:
         """Plain data for ``proof.json``; lengths to a tenth of a micrometre."""
         data = asdict(self)
         data["checks"] = {
-            name: {
-                key: value
-                for key, value in asdict(check).items()
-                if key != "name" and value not in (None, "")
-            }
-            for name, check in self.checks.items()
+            name: {key: value for key, value in check.items() if key != "name" and value not in (None, "")}
+            for name, check in data["checks"].items()
         }
         data["tool_times_s"] = self.tool_times_s
         data["tool_cutting_s"] = self.tool_cutting_s

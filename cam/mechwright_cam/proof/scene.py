@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Run, State
-from mechwright_cam.proof import details
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.leftover import Remains, remains
@@ -85,8 +85,8 @@ class Scene:
         paths, job = self.paths, self.job
         return _deepest(
             [
-                *details.deepest(paths, job, bands(job, details.heights(job))),
-                *(cut for fillet in fillets(job) for cut in details.deepest_in_fillet(paths, job, fillet)),
+                *deepest(paths, job, bands(job, heights(job))),
+                *(cut for fillet in fillets(job) for cut in deepest_in_fillet(paths, job, fillet)),
             ]
         )
 
@@ -105,11 +105,6 @@ class Scene:
     def remains(self) -> Remains:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
-
-    def where(self, step: int) -> tuple[float, float, float]:
-        """End of a step."""
-        x, y, z = self.run.end[step].tolist()
-        return x, y, z
 
     def line(self, step: int) -> int:
         """Line of a step, in its file."""
@@ -135,7 +130,8 @@ class Scene:
         at: tuple[float, float, float] | None = None,
     ) -> Check:
         """A failed check that blames one step, at its end unless another place is given."""
-        at = self.where(step) if at is None else at
+        x, y, z = self.run.end[step].tolist() if at is None else at
+        at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
         text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
         return Check(False, text, self.line(step), value, limit, unit, at)

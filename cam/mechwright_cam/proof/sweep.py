@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from threading import Lock
 
 import numpy as np
 import shapely
@@ -75,12 +76,14 @@ class Sweeps:
     def __init__(self, paths: Paths) -> None:
         self.paths = paths
         self._known: dict[tuple[float, float], list[Sweep]] = {}
+        self._one_by_one = Lock()
 
     def at(self, height: float, level: float) -> list[Sweep]:
         """What is cut at ``level`` by feed moves that go down to ``height``, smallest radius first."""
-        if (height, level) not in self._known:
-            self._known[height, level] = self._cut(height, level)
-        return self._known[height, level]
+        with self._one_by_one:  # rules that are asked side by side want the same ones
+            if (height, level) not in self._known:
+                self._known[height, level] = self._cut(height, level)
+            return self._known[height, level]
 
     def _cut(self, height: float, level: float) -> list[Sweep]:
         paths = self.paths

@@ -33,7 +33,7 @@ def step_times(run: Run, machine: Machine) -> Array:
     >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 2)
     2.05
     """
-    moving = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME))
+    moving = run.moving | (run.kind == Kind.HOME)
     rapid = np.isin(run.kind, (Kind.RAPID, Kind.HOME))
     length = np.where(moving, run.length, 0.0)
     unknown = moving & ~np.isfinite(length)

@@ -86,22 +86,11 @@ class Walls:
         """Plain data for ``proof.json``, mm to a tenth of a micrometre."""
 
         def rows(places: tuple[Place, ...]) -> list[dict[str, float]]:
-            return [
-                {
-                    "x": round(place.x, 4),
-                    "y": round(place.y, 4),
-                    "z": round(place.z, 4),
-                    "off_mm": round(place.off, 4),
-                }
-                for place in places
-            ]
+            names = {"x": "x", "y": "y", "z": "z", "off": "off_mm"}
+            return [{key: round(getattr(one, name), 4) for name, key in names.items()} for one in places]
 
-        return {
-            "places": len(self.off),
-            "left": rows(self.left),
-            "cut": rows(self.cut),
-            "corners": rows(self.corners),
-        }
+        worst = {"left": self.left, "cut": self.cut, "corners": self.corners}
+        return {"places": len(self.off), **{kind: rows(places) for kind, places in worst.items()}}
 
 
 def wall_deviation(sweeps: Sweeps, job: Job) -> Walls:

@@ -41,9 +41,6 @@ LEAST_GRIP = 1 / 3
 PAIRS: dict[tuple[str, str], Literal["x", "y"]] = {("front", "rear"): "x", ("left", "right"): "y"}
 """Edges that a vice grips, and the axis along which its jaws lie."""
 
-INWARD = {"front": (0, 1), "rear": (0, -1), "left": (1, 0), "right": (-1, 0)}
-"""Directions from the edges of the stock into it."""
-
 
 def can_be_clamped(part: Part) -> bool:
     """Whether the part has a bore or an opening for a clamp."""

@@ -246,15 +246,6 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
 
 
 _COLUMNS = (
-    "kind",
-    "line",
-    "start",
-    "end",
-    "centre",
-    "sweep",
-    "feed",
-    "seconds",
-    "arc_error",
-    "piece",
-    "machine_xy",
+    *("kind", "line", "start", "end", "centre", "sweep"),
+    *("feed", "seconds", "arc_error", "piece", "machine_xy"),
 )

@@ -10,7 +10,7 @@ from mechwright.contracts.sections import sections
 from mechwright.geometry.segments import Point
 from mechwright_cam.pages import svg
 from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, origin_mark
-from mechwright_cam.pages.picture.frame import DETAIL, Frame
+from mechwright_cam.pages.picture.frame import DETAIL, Frame, outline_data
 from mechwright_cam.pages.picture.paths import path_layers
 from mechwright_cam.pages.trace import Traced, trace
 from mechwright_cam.program.moves import Program
@@ -61,15 +61,7 @@ def plan_view(
     right = max([margin, *(at - x1 for at in ends_of_words(job, frame, 0))])
     above = max([margin, *(at - y1 for at in ends_of_words(job, frame, 1))])
     box = (x0 - margin, -y1 - above, x1 - x0 + margin + right, y1 - y0 + above + margin)
-    return svg.element(
-        "svg",
-        "\n".join(layer for layer in layers if layer),
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=" ".join(svg.number(value) for value in box),
-        font_family="Helvetica, Arial, sans-serif",
-        role="img",
-        aria_label=f"Plan view of {job.part.name}",
-    )
+    return svg.picture("\n".join(filter(None, layers)), box, f"Plan view of {job.part.name}")
 
 
 def _stock(job: Job) -> str:
@@ -86,11 +78,10 @@ def _thin(job: Job) -> float:
 
 
 def _part(job: Job, frame: Frame) -> str:
-    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in job.part.outlines]
-    data = "".join(svg.path(loop.flatten(DETAIL), close=True) for one in placed for loop in one.loops)
     plate = svg.element(
         "path",
-        d=data, fill="#c9d3dc", fill_rule="evenodd", stroke="#1b2733", stroke_width=0.08 * frame.letters,
+        d=outline_data(job), fill="#c9d3dc", fill_rule="evenodd",
+        stroke="#1b2733", stroke_width=0.08 * frame.letters,
     )  # fmt: skip
     return plate + _gone(job, frame) + _recesses(job, frame) + _details(job, frame)
 

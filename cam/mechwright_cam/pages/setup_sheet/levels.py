@@ -42,16 +42,8 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
         layers.append(svg.text(78, y - 1.4, words, _SIZE, fill=colour, font_weight=weight))
     layers.append(_setter(top))
     bottom = min(heights.values()) - 8
-    box = f"0 {svg.number(-top - 34)} {svg.number(_WIDTH)} {svg.number(top + 34 - bottom)}"
-    return svg.element(
-        "svg",
-        "".join(layers),
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=box,
-        font_family="Helvetica, Arial, sans-serif",
-        role="img",
-        aria_label="Heights of the job and the Z setter",
-    )
+    box = (0.0, -top - 34, _WIDTH, top + 34 - bottom)
+    return svg.picture("".join(layers), box, "Heights of the job and the Z setter")
 
 
 def _body(job: Job, heights: dict[str, float], top: float, under: float) -> str:

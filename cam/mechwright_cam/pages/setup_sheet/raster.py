@@ -32,16 +32,8 @@ def simulated_view(simulation: Simulation, job: Job) -> str:
     image[np.nan_to_num(off) < -COLOURED] = CUT_COLOUR
     x0, y0, x1, y1 = job.stock
     href = "data:image/png;base64," + base64.b64encode(_png(image[::-1].astype(np.uint8))).decode()
-    box = " ".join(svg.number(value) for value in (x0, -y1, x1 - x0, y1 - y0))
     picture = svg.element("image", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, href=href)
-    return svg.element(
-        "svg",
-        picture,
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=box,
-        role="img",
-        aria_label="The simulated stock",
-    )
+    return svg.picture(picture, (x0, -y1, x1 - x0, y1 - y0), "The simulated stock", font_family=None)
 
 
 def _png(image: NDArray[np.uint8]) -> bytes:

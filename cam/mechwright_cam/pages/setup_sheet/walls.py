@@ -11,7 +11,8 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.pages import svg
-from mechwright_cam.pages.picture import DETAIL, Frame
+from mechwright_cam.pages.picture import Frame
+from mechwright_cam.pages.picture.frame import outline_data
 from mechwright_cam.pages.setup_sheet.facts import MARKED
 from mechwright_cam.proof.walls import Place, Walls
 from mechwright_cam.setup.job import Job
@@ -41,25 +42,12 @@ def walls_view(walls: Walls, job: Job) -> str:
     margin = 0.09 * max(x1 - x0, y1 - y0)
     frame = Frame(x0 - margin, y0 - margin, x1 + margin, y1 + margin)
     factor = exaggeration(walls, frame)
-    layers = [_part(job), *_bands(walls, frame, factor), *_marks(walls, frame)]
+    part = svg.element("path", d=outline_data(job), fill=PART, fill_rule="evenodd", stroke="none")
+    layers = [part, *_bands(walls, frame, factor), *_marks(walls, frame)]
     layers.append(_scale(frame, factor))
     low = frame.y0 - 2.4 * frame.letters
     box = (frame.x0, -frame.y1, frame.x1 - frame.x0, frame.y1 - low)
-    return svg.element(
-        "svg",
-        "".join(layers),
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=" ".join(svg.number(value) for value in box),
-        font_family="Helvetica, Arial, sans-serif",
-        role="img",
-        aria_label=f"Deviation along the walls of {job.part.name}",
-    )
-
-
-def _part(job: Job) -> str:
-    placed = [outline.moved(-job.origin[0], -job.origin[1]) for outline in job.part.outlines]
-    data = "".join(svg.path(loop.flatten(DETAIL), close=True) for one in placed for loop in one.loops)
-    return svg.element("path", d=data, fill=PART, fill_rule="evenodd", stroke="none")
+    return svg.picture("".join(layers), box, f"Deviation along the walls of {job.part.name}")
 
 
 def _bands(walls: Walls, frame: Frame, factor: float) -> Iterator[str]:
