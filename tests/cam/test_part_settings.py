@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.plugins.host import host
@@ -26,6 +26,7 @@ OVERRIDES = {
     "work_offset": "G57",
     "origin": "corner",
     "tools": ["mill-3"],
+    "operations": ["adaptive"],
     "cutting": {"mill-3": {"step_down": 0.3}},
     "climb": False,
     "coolant": "off",
@@ -49,6 +50,11 @@ OVERRIDES = {
     "measured": {"lengths": {"mill-3": 60.0}},
     "stock": {"margin": 21.0},
     "hold": {"tabs": 3},
+    "deburr": 0.2,
+    "mark": "MW-25",
+    "mark_height": 3.0,
+    "mark_depth": 0.1,
+    "mark_line": 0.5,
 }
 
 
@@ -134,7 +140,7 @@ def test_mistakes_are_told_with_their_place(text, message, tmp_path):
 def test_a_name_of_no_part_lists_the_parts(command, tmp_path):
     file = design(tmp_path, '[cam.part.wheel]\norigin = "corner"\n')
     words = [command, str(file)] + (["-o", str(tmp_path / "out")] if command == "cam" else [])
-    done = CliRunner().invoke(app, words)
+    done = CliRunner().invoke(make_app(), words)
     assert done.exit_code != 0
     message = done.output + str(done.exception or "")
     assert "cam.part.wheel: no plate part has this name; there is: gear" in message
@@ -145,18 +151,18 @@ def test_the_program_is_that_of_the_part(tmp_path):
     file = design(
         tmp_path, '[cam]\nwork_offset = "G54"\n[cam.part.gear]\nwork_offset = "G56"\norigin = "corner"\n'
     )
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     program = (tmp_path / "out" / "gear.nc").read_text()
     assert "G56" in program
     assert "G54" not in program
     assert "origin: lower left corner of the stock" in program
     verified = CliRunner().invoke(
-        app, ["verify", str(tmp_path / "out" / "gear.nc"), "--design", str(file), "--part", "gear"]
+        make_app(), ["verify", str(tmp_path / "out" / "gear.nc"), "--design", str(file), "--part", "gear"]
     )
     assert verified.exit_code == 0, verified.output
 
 
 def test_a_new_design_file_shows_the_table():
-    done = CliRunner().invoke(app, ["new", "elliptic-gears"])
+    done = CliRunner().invoke(make_app(), ["new", "elliptic-gears"])
     assert "# [cam.part.NAME]" in done.output

@@ -7,15 +7,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from mechwright.designs.design import Design, load
-from mechwright.plugins.host import Host
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from mechwright.contracts.finding import Finding
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
+    from mechwright.designs.design import Design
+    from mechwright.plugins.host import Host
 
 T = TypeVar("T")
 
@@ -64,9 +63,9 @@ class Build:
     A build is closed when it is done with, so that what runs beside it ends.
     """
 
-    def __init__(self, design: Design | Path, host: Host, wanted: Wanted = Wanted()) -> None:
+    def __init__(self, design: "Design | Path", host: "Host", wanted: Wanted = Wanted()) -> None:
         self.host, self.wanted = host, wanted
-        self.path = design.path if isinstance(design, Design) else design
+        self.path = design if isinstance(design, Path) else design.path
         self.faults: list[str] = []
         """What could not be done and stops nothing, in whole sentences; a command tells it at its end."""
         self._given = design
@@ -74,9 +73,11 @@ class Build:
         self._closing = ExitStack()
 
     @cached_property
-    def design(self) -> Design:
+    def design(self) -> "Design":
         """The design; raises what :func:`mechwright.designs.design.load` does."""
-        return self._given if isinstance(self._given, Design) else load(self._given, self.host)
+        from mechwright.designs.design import load
+
+        return load(self._given, self.host) if isinstance(self._given, Path) else self._given
 
     @cached_property
     def findings(self) -> "tuple[Finding, ...]":

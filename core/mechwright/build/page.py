@@ -19,7 +19,7 @@ class Page(Plugin):
 
             def files(self, build):
                 lines = [f"{part.name},{part.thickness}" for part in build.parts]
-                return {"masses.csv": "\n".join(lines) + "\n"}
+                return {"masses.csv": "\\n".join(lines) + "\\n"}
     """
 
     kind = "page"
