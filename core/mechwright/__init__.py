@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from mechwright.build import Build, Inspection, Page, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+    from mechwright.contracts.edges import deburred
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
     from mechwright.contracts.finding import (
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
         refuse,
         until_error,
     )
+    from mechwright.contracts.holes import fitted, threaded
+    from mechwright.contracts.marking import marked
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
     from mechwright.contracts.parameters import Parameters
@@ -54,9 +57,12 @@ _HOMES = {
     "mechwright.build": "Build Inspection Page Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
+    "mechwright.contracts.edges": "deburred",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.holes": "fitted threaded",
+    "mechwright.contracts.marking": "marked",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
     "mechwright.contracts.parameters": "Parameters",
@@ -145,6 +151,10 @@ __all__ = [
     "material",
     "Colour",
     "Point",
+    "deburred",
+    "fitted",
+    "marked",
+    "threaded",
 ]
 
 

@@ -18,6 +18,7 @@ from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.finding import errors
 from mechwright.contracts.sections import volume
 from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
 from mechwright.errors import DesignError, GeometryError
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import dxf
@@ -114,6 +115,29 @@ def test_the_parts_of_a_nest_have_what_each_asks_for(tmp_path):
     (nest,) = [job.part for job in jobs if job.part.name == "nest"]
     assert [detail.name for detail in nest.details if isinstance(detail, Engraving)] == ["crank mark"]
     assert sum(isinstance(detail, Chamfer) for detail in nest.details) == 6
+
+
+def test_a_part_that_is_only_marked_stays_in_the_nest_of_its_kind(tmp_path):
+    text = "[cam.nest]\n[cam.part.crank]\nmark = 'A'\nholes.bore-2.fit = 'H7'\n"
+    found = design(tmp_path, text)
+    findings, jobs = prepare(found, [part for part in found.parts() if part.outline is not None])
+    assert not errors(findings)
+    nest = next(job.part for job in jobs if job.part.name == "nest")
+    assert "crank" in {placed.part.name for placed in nest.placed}
+    assert "crank mark" in {detail.name for detail in nest.details}
+
+
+def test_designs_that_are_found_take_what_is_asked_of_all_parts_and_of_no_single_one(tmp_path):
+    head = (
+        'format = 1\nfamily = "four-bar"\n[requirement]\nkind = "path"\npoints = [[0, 0], [10, 5], [20, 0]]\n'
+    )
+    file = tmp_path / "asked.toml"
+    file.write_text(head + "[cam]\ndeburr = 0.4\n", encoding="utf-8")
+    asked = load_requirement(file, host())
+    assert [value.cam.deburr for _, value in asked.tables] == [0.4]
+    file.write_text(head + "[cam.part.crank]\nmark = 'A'\n", encoding="utf-8")
+    with pytest.raises(DesignError, match=r"write cam\.part\.crank into the one that you take"):
+        load_requirement(file, host())
 
 
 REFUSED = {
