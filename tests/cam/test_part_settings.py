@@ -50,6 +50,11 @@ OVERRIDES = {
     "measured": {"lengths": {"mill-3": 60.0}},
     "stock": {"margin": 21.0},
     "hold": {"tabs": 3},
+    "deburr": 0.2,
+    "mark": "MW-25",
+    "mark_height": 3.0,
+    "mark_depth": 0.1,
+    "mark_line": 0.5,
 }
 
 

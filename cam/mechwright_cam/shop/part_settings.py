@@ -9,6 +9,9 @@ from mechwright.errors import DesignError
 WHOLE_JOB = ("control", "tool_library", "post", "nest")
 """Keys of ``[cam]`` that hold for the whole job: one control reads its programs, from one set of tools."""
 
+ASKED = frozenset({"deburr", "mark", "mark_height", "mark_depth", "mark_line", "holes"})
+"""Keys that change the part itself, and say nothing of how it is cut."""
+
 _EXCLUSIVE = ({"margin"}, {"length", "width"})
 """Keys of ``[cam.stock]`` of which a part's table puts out those of the other group."""
 
@@ -43,6 +46,11 @@ def split(table: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[st
                 raise DesignError(f"{path}: cam.part.{name}.{key}: holds for the whole job; set it in [cam]")
         parts[name] = _over(base, own)
     return base, parts
+
+
+def says_how(table: Mapping[str, Any]) -> bool:
+    """Whether a table of a part, as it stands in the file, says anything of how the part is cut."""
+    return not table or not ASKED.issuperset(table)
 
 
 def _over(base: Mapping[str, Any], table: Mapping[str, Any], where: str = "") -> dict[str, Any]:

@@ -13,7 +13,7 @@ from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
 from mechwright_cam.shop.machine import machine_figures
-from mechwright_cam.shop.part_settings import split
+from mechwright_cam.shop.part_settings import says_how, split
 from mechwright_cam.shop.settings import CamSettings, PartSettings
 
 _OF_ONE_PART = (
@@ -35,18 +35,22 @@ class JobSettings:
     cam
         The table ``[cam]``.
     parts
-        Part name to the settings of that part, for each table ``[cam.part.NAME]``.
+        Part name to the settings of that part, for each table ``[cam.part.NAME]`` that says how it is cut.
     tool_library
         The design's own tool library; it lies in or below the folder of the file.
+    tables
+        Part name to the settings of that part, for every such table: those that ask for nothing but edges,
+        marks and holes are no reason to cut a part by itself.
     """
 
     cam: CamSettings = field(default_factory=CamSettings)
     parts: Mapping[str, PartSettings] = field(default_factory=dict)
     tool_library: Path | None = None
+    tables: Mapping[str, PartSettings] = field(default_factory=dict)
 
     def of(self, part: str) -> CamSettings:
         """The settings that a part is made with: its own, or those of the whole job."""
-        return self.parts.get(part, self.cam)
+        return self.tables.get(part, self.cam)
 
 
 def settings_of(design: Design) -> JobSettings:
@@ -69,7 +73,8 @@ class CamTable(Table[JobSettings]):
         own = {
             name: _settings(PartSettings, table, path, f"cam.part.{name}") for name, table in parts.items()
         }
-        return JobSettings(cam, own, library)
+        cut = {name: table for name, table in own.items() if says_how(content["part"][name])}
+        return JobSettings(cam, cut, library, own)
 
     def text(self, value: JobSettings | None = None) -> list[str]:
         """The table ``[cam]``; the tables of single parts are for each design by itself."""
@@ -79,7 +84,7 @@ class CamTable(Table[JobSettings]):
         """The parts with their holes, broken edges and marks, see :mod:`mechwright_cam.shop.asked`."""
         from mechwright_cam.shop.asked import asked
 
-        return asked(value.cam, value.parts, parts, path)
+        return asked(value.cam, value.tables, parts, path)
 
     def inputs(self, value: JobSettings, path: Path) -> dict[str, Path]:
         """The tool library, and machine files."""
@@ -91,10 +96,10 @@ class CamTable(Table[JobSettings]):
 
     def carried(self, value: JobSettings, path: Path) -> tuple[JobSettings, dict[str, Path]]:
         """The same settings; the tool library and the machine file go along."""
-        if value.parts:
+        if value.tables:
             raise DesignError(
                 f"{path}: cam.part: the designs that are found share one [cam]; write "
-                f"cam.part.{min(value.parts)} into the one that you take"
+                f"cam.part.{min(value.tables)} into the one that you take"
             )
         changes: dict[str, object] = {}
         files: dict[str, Path] = {}
