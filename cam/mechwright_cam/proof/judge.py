@@ -2,12 +2,12 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from mechwright.cores import together
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.beyond import SPOTS
@@ -67,8 +67,7 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
     run, _, _ = scene.run, scene.stock, scene.sweeps
-    with ThreadPoolExecutor() as pool:  # none depends on another
-        checks = list(pool.map(partial(ask, scene=scene), rules))
+    checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine), scene.remains
     return Proof(
         part=scene.job.part.name,
