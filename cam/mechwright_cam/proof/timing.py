@@ -28,8 +28,8 @@ def step_times(run: Run, machine: Machine) -> Array:
     --------
     100 mm at 50 mm/s with 1 m/s²: two seconds of travel, and 0.05 s for speeding up and slowing down.
 
-    >>> from mechwright_cam.controls.reading import interpret
-    >>> run = interpret("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F3000\nM2")
+    >>> from mechwright_cam.controls.linuxcnc import LinuxCnc
+    >>> run = LinuxCnc().read("G21 G90\nG0 X0 Y0 Z0\nG1 X100 F3000\nM2")
     >>> round(float(step_times(run, Machine(acceleration=1.0))[1]), 2)
     2.05
     """
