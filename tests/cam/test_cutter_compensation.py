@@ -27,8 +27,8 @@ from mechwright_cam.pages.trace import trace
 from mechwright_cam.plane.contour import contour_beside
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
-from mechwright_cam.proof.compensation import planned_offsets
 from mechwright_cam.proof.paths import Paths, Pieces
+from mechwright_cam.proof.scene import planned_offsets
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.posting import Posting

@@ -26,12 +26,12 @@ COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "arc_error", "feed
 @contextmanager
 def stretches_from(lines: int) -> Iterator[None]:
     """Run stretches at once from so many lines on."""
-    before = stretch.SHORTEST
-    stretch.SHORTEST = lines
+    before = stretch.FEWEST_LINES
+    stretch.FEWEST_LINES = lines
     try:
         yield
     finally:
-        stretch.SHORTEST = before
+        stretch.FEWEST_LINES = before
 
 
 def outcome(text: str, dialect: Dialect, lines: int) -> Run | str:
