@@ -31,7 +31,7 @@ def test_without_its_stop_the_clamp_was_there_from_the_start(control: str) -> No
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_an_optional_stop_sets_no_clamp(control: str) -> None:
-    settings = {"control": control, "post": Posting(optional_stops=True), **HELD}
+    settings = {"control": control, "post": Posting(optional_stops=True, tool_change="pause"), **HELD}
     of = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
     made_of = machine(of, host().get(Control, control))
     assert made_of.text.count("\nM1\n") == 2
