@@ -25,6 +25,7 @@ from mechwright_cad.exporters import dxf
 from mechwright_cad.solids.solid import part_solid
 from mechwright_cam.machining import Machining, machine
 from mechwright_cam.planning.prepare import prepare
+from mechwright_cam.proof import prove
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FINISHED = EXAMPLES / "crank-rocker-finished.toml"
@@ -198,6 +199,23 @@ def test_tools_that_are_not_there_are_named(text, said, tmp_path):
     machining = Machining(Build(design(tmp_path, text + "\n", head), host()))
     found = errors(machining.findings)
     assert any(said in str(finding) for finding in found), [str(finding) for finding in found]
+
+
+def test_edges_of_holes_narrower_than_the_chamfer_mill_are_proven(tmp_path):
+    # Without a mark chamfer-6 is the only pointed tool; the holes are 4.9 and 6 mm wide.
+    text = (
+        "[cam]\ndeburr = 0.2\ntools = ['chamfer-6', 'spot-6', 'drill-4', 'mill-3', 'mill-6', 'thread-m6']\n"
+    )
+    found = design(tmp_path, text + "[cam.part.ground.holes]\nbore-3.thread = 'M6'\n")
+    result = made(found, "ground")
+    assert result.proof.ok
+    lines = result.text.splitlines()
+    start = next(k for k, line in enumerate(lines) if "operation: edge-bore-3" in line)
+    end = next(k for k, line in enumerate(lines[start + 1 :], start + 1) if "operation: " in line)
+    gone = lines[:start] + lines[end:]
+    control = Machining(Build(found, host())).control
+    without = prove("\n".join(gone) + "\n", result.job, control)
+    assert [check.name for check in without.failures] == ["details"]
 
 
 @cache

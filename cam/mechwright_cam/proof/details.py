@@ -4,6 +4,8 @@ A cone that runs along a chamfer touches it all over, so two heights decide: at 
 reach the edge less the chamfer, and at the chamfer's foot the edge itself. In between both are straight.
 """
 
+import math
+
 import numpy as np
 import shapely
 
@@ -32,6 +34,9 @@ FITS = 0.02
 """A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
 BESIDE_CORNER = 0.003
 """A place of a chamfer this near to what its cutter cannot reach is not asked for, mm."""
+
+BELOW = 0.3
+"""By so much a pointed tool's tip may stand below a chamfer, mm; what it leaves in corners then may stay."""
 
 
 def heights(job: Job) -> tuple[float, ...]:
@@ -125,8 +130,7 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
     else:
         frame = shapely.box(*region.bounds).buffer(4 * width + 4)
         keep = shapely.difference(frame, grow(region, width))
-    tools = [t.diameter / 2 for t in job.tools if t.kind is ToolKind.CHAMFER]
-    wall = Wall(closing(keep, min(tools, default=0.0)))
+    wall = Wall(closing(keep, _blunt(job, width)))
     points, _ = wall.at(wall.stations(EDGE_SPACING))
     near = shapely.dwithin(
         shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE_CORNER
@@ -136,6 +140,16 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
         x, y = points[near][int(np.argmax(off))] if off.size else (0.0, 0.0)
         return f"the edge is not broken to {width:g} mm at X{x:.3f} Y{y:.3f}"
     return ""
+
+
+def _blunt(job: Job, width: float) -> float:
+    """Greatest radius at the top face of a pointed tool that breaks an edge: it rounds inside corners so."""
+    cones = [
+        t.tip_diameter / 2 + (width + BELOW) * math.tan(math.radians(t.point_angle / 2))
+        for t in job.tools
+        if t.kind is ToolKind.CHAMFER
+    ]
+    return max(cones, default=0.0)
 
 
 def _engraving(paths: Paths, detail: Engraving) -> str:
