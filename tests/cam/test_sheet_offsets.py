@@ -67,7 +67,7 @@ def test_every_file_of_a_program_is_named_and_timed() -> None:
     # Each operation has its time: it is that of the tool that cuts, not of the next file's.
     table = found.partition("<h2>Operations</h2>")[2].partition("</table>")[0]
     assert "–" not in re.sub(r"<tr class=.stop.*", "", table)
-    one = page("grbl")
+    one = page("grbl", post={"tool_change": "pause"})
     assert "Load plate.nc" in one
     assert "At each stop load the tool" in one
 

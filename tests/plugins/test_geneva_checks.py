@@ -37,6 +37,9 @@ def rows(name, count=21, change=None):
 
 
 ERRORS = [
+    ("geneva.counterbore", "counterbore_depth", {"counterbore_diameter": 24, "counterbore_depth": 30}),
+    ("geneva.counterbore", "counterbore_diameter", {"counterbore_diameter": 8}),
+    ("geneva.counterbore", "counterbore_radius", {"counterbore_diameter": 24, "counterbore_radius": 5}),
     ("geneva.law", "polynomial", {"law": "polynomial", "polynomial": [0, 1]}),
     ("geneva.law", "polynomial", {"law": "polynomial", "polynomial": [0, 0, -15, 70, -90, 36]}),
     ("geneva.law", "table", {"law": "table", "table": [(0, 0), (1, 1)]}),

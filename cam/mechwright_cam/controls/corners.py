@@ -35,7 +35,8 @@ class Corners:
         LinuxCNC first merges lines into one that passes within Q (as wide as P if there is no Q), then rounds
         the corners of what it has made within P; P 0 is to it no tolerance at all.
 
-        >>> linuxcnc = Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True)
+        >>> free = float("inf")
+        >>> linuxcnc = Corners(unsaid=free, after_g64=free, tolerance=True)
         >>> linuxcnc.bound(0.002, None), linuxcnc.bound(0.002, 0.0)
         (0.004, 0.002)
         >>> linuxcnc.bound(0.0, 0.0), linuxcnc.bound(None, 0.01)
