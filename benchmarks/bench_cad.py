@@ -13,13 +13,13 @@ import numpy as np
 from harness import race, report, require
 from rack_gear import RackGear, outline
 
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import BSpline
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Instance, Part
-from mechwright_cam import solids
-from mechwright_cam.exporters import dxf, mesh, step
-from mechwright_cam.solid_check import check_plate
-from mechwright_cam.wires import extruded
+from mechwright_cad.exporters import dxf, mesh, step
+from mechwright_cad.solids import solid as solids
+from mechwright_cad.solids.solid_check import check_plate
+from mechwright_cad.solids.wires import extruded
 
 GEAR = RackGear()
 THICKNESS = 10.0
@@ -126,7 +126,7 @@ def main() -> int:
 
 def _fresh(solid: cq.Solid) -> cq.Solid:
     """The solid without the triangles that an earlier round left on it."""
-    from mechwright_cam.tessellate import forget
+    from mechwright_cad.solids.tessellate import forget
 
     forget(solid.wrapped)
     return solid

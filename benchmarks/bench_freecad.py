@@ -38,22 +38,21 @@ import shapely
 from harness import require
 from least_moves import least_moves
 
-from mechwright.design import load
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.designs.design import load
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.host import host
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.program import OPERATION_COMMENT
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import interpret
-from mechwright_cam.interpreter.run import Kind
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright.plugins.host import host
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.reading.run import Kind
+from mechwright_cam.plane.arcfit import fit
+from mechwright_cam.plane.offsets import grow
+from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import prove
-from mechwright_cam.reach import closing
-from mechwright_cam.toolpath.arcfit import fit
-from mechwright_cam.toolpath.offsets import grow
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_elliptic_gears.gear import outline_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
@@ -147,11 +146,12 @@ def ours(part, settings, tools):
     start = time.process_time()
     program = plan(job)
     seconds = time.process_time() - start
-    text = LinuxCncPost().write(program)
-    proof = prove(text, job)
+    control = LinuxCnc()
+    text = control.write(program)
+    proof = prove(text, job, control)
     if not proof.ok:
         sys.exit(f"our own proof fails: {proof.failures[0].message}")
-    run = interpret(text)
+    run = control.read(text)
     named = [r for r in run.remarks if r.text.startswith(OPERATION_COMMENT)]
     cuts = {}
     for feature, wall, bottom in (("outside", "profile", job.floor), ("recess", "pocket", -DEPTH)):
@@ -342,7 +342,7 @@ def main():
         corners = {"step": None, "points": points.tolist(), "pocket": pocket}
         kept += compared("polyline of 2,000 points", polyline, {**case, **corners}, tool, folder, 1)
         splines = gear_part(rim)
-        from mechwright_cam.exporters import step
+        from mechwright_cad.exporters import step
 
         (folder / "gear.step").write_bytes(step.part(splines))
         file = {"step": str(folder / "gear.step"), "points": None, "pocket": None}

@@ -12,7 +12,7 @@ import sys
 import numpy as np
 from harness import race, report, require
 
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.cures import walls_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.mechanism import mechanism_of

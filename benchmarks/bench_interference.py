@@ -11,9 +11,9 @@ from pathlib import Path
 
 from harness import require
 
-from mechwright.design import load
-from mechwright.host import host
-from mechwright_cam.interference import faithful_motion, interference
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+from mechwright_cad.interference import faithful_motion, interference
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 LIMITS = {"slider-crank-quick-return": 0.7, "geneva-cycloidal": 0.7, "spherical-five-bar-projected": 2.5}
@@ -34,7 +34,7 @@ def main() -> int:
         design = load(EXAMPLES / f"{name}.toml", host())
         design.family.check(design.params)
         parts = design.family.parts(design.params)
-        from mechwright_cam.solids import part_solid
+        from mechwright_cad.solids.solid import part_solid
 
         for part in parts:
             part_solid(part)

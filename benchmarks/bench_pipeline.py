@@ -11,12 +11,14 @@ from pathlib import Path
 
 from harness import child, race, report, require
 
-from mechwright.design import load
-from mechwright.host import host
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
-from mechwright_cam.pipeline import machine
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.table import settings_of
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
@@ -27,7 +29,7 @@ CAM = "import sys; sys.argv = ['mechwright', *sys.argv[1:]]; from mechwright.cli
 def forget() -> None:
     """Empty what planning and proof remember of shapes: a command cuts every part for the first time."""
     for name, module in list(sys.modules.items()):
-        if name.startswith("mechwright_cam.") and name != "mechwright_cam.library":
+        if name.startswith("mechwright_cam.") and name != "mechwright_cam.shop.library":
             for value in vars(module).values():
                 if hasattr(value, "cache_clear"):
                     value.cache_clear()
@@ -35,7 +37,7 @@ def forget() -> None:
 
 def main() -> int:
     design = load(EXAMPLE, host())
-    post = host().post(design.cam.control)
+    post = host().get(Control, settings_of(design).cam.control)
     params = design.family.Params(teeth=41, module=2, eccentricity=0.4)
     (part,) = design.family.parts(params)
     library = load_library()
@@ -48,7 +50,10 @@ def main() -> int:
 
     def job_of(which: object) -> object:
         forget()
-        return machine(make_job(which, design.cam, choose_tools(which, design.cam, library)), post).proof.ok
+        return machine(
+            make_job(which, settings_of(design).cam, choose_tools(which, settings_of(design).cam, library)),
+            post,
+        ).proof.ok
 
     with tempfile.TemporaryDirectory() as folder:
         timings = race(

@@ -13,6 +13,7 @@ import multiprocessing
 import sys
 import time
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -25,13 +26,15 @@ import golden_compensation
 import golden_operations
 import height_map
 import random_parts
+from by_control import BY_NAME, prove, read
 from mutants import FAULTS, Mutant, differences, mutant, trace
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, Dialect, Kind, Run
-from mechwright_cam.job import Job
-from mechwright_cam.proof import prove, read
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.paths import Paths
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
 
 PROCESSES = 2
 RANDOM = 2
@@ -52,8 +55,8 @@ class Source:
     text: str
 
     @property
-    def dialect(self) -> Dialect:
-        return DIALECTS[self.control]
+    def reader(self) -> Control:
+        return BY_NAME[self.control]
 
 
 @dataclass(frozen=True)
@@ -90,9 +93,9 @@ def sources() -> tuple[Source, ...]:
     return tuple(found)
 
 
-def _moves(run: Run) -> list[height_map.Move]:
+def _moves(run: Run, tools: Sequence[Tool]) -> list[height_map.Move]:
     """The run as moves of the height map."""
-    paths = Paths(run, {int(n): None for n in set(run.tool.tolist())})
+    paths = Paths(run, tools)
     steps = paths.steps
     points, owner = paths.points(paths.below(np.inf, steps=steps), 0.01)
     edges = np.flatnonzero(np.diff(owner)) + 1
@@ -130,21 +133,21 @@ def _cut(run: Run, job: Job) -> tuple[height_map.Simulation, np.ndarray]:
             return low
 
     seen = height_map.Simulation(job.stock, job.thickness, PITCH, under)
-    seen.run(_moves(run), height_map.cutters(job))
+    seen.run(_moves(run, job.tools), height_map.cutters(job))
     return seen, seen.table().reshape(-1, 10)
 
 
 @cache
 def _original(name: str) -> tuple[Run, height_map.Simulation, np.ndarray]:
     source = next(s for s in sources() if s.name == name)
-    run = read(source.text, source.job, source.dialect)
+    run = read(source.text, source.job, source.reader)
     return run, *_cut(run, source.job)
 
 
 def judge(source: Source, text: str) -> tuple[tuple[str, ...], str]:
     """In what a program differs from the proven one, and what comes of it."""
     run, before, stamps = _original(source.name)
-    other = read(text, source.job, source.dialect)
+    other = read(text, source.job, source.reader)
     differs = differences(trace(run), trace(other))
     if not differs:
         return (), "the machine does the same"
@@ -183,7 +186,7 @@ def one(case: tuple[int, Mutant]) -> Verdict:
     place, made = case
     source = sources()[place]
     try:
-        proof = prove(made.text, source.job, source.dialect)
+        proof = prove(made.text, source.job, source.reader)
     except ProgramError as error:
         said = str(error)
         line = int(said.split(":")[0].removeprefix("line ")) if said.startswith("line ") else None

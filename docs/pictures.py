@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from shapely import Polygon
 
+from mechwright.contracts.part import Pocket
 from mechwright.geometry import Loop
-from mechwright.part import Pocket
-from mechwright_cam.svg import path, place
+from mechwright_cam.pages.svg import path, place
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_geneva.family import Geneva
 

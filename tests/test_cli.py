@@ -276,8 +276,8 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "foreign").write_text("x")
-    monkeypatch.setattr("mechwright.cli.work._findings", lambda *_: pytest.fail("worked"))
-    monkeypatch.setattr("mechwright.cli.work.progress", lambda *_: pytest.fail("worked"))
+    monkeypatch.setattr("mechwright.designs.design.load", lambda *_: pytest.fail("worked"))
+    monkeypatch.setattr("mechwright.cli.perform.progress", lambda *_: pytest.fail("worked"))
     assert run("build", EXAMPLE, "-o", tmp_path)[0] == 2
 
 

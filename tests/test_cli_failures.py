@@ -3,7 +3,7 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-import mechwright.host as hosting
+import mechwright.plugins.host as hosting
 from mechwright.cli import failure
+from mechwright.contracts.family import Family
+from mechwright.contracts.motion import Channel, Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
-from mechwright.family import Family
 from mechwright.geometry import Line, Loop, Outline
-from mechwright.host import Registered
-from mechwright.motion import Channel, Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
+from mechwright.plugins.host import Registered
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 Run = Callable[..., tuple[int, str, str]]
@@ -48,13 +48,12 @@ class Odd(Family[Parameters]):
 
 
 @pytest.fixture
-def odd(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Odd]]:
+def odd(monkeypatch: pytest.MonkeyPatch) -> type[Odd]:
     found = hosting.load()
-    found.families["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
-    monkeypatch.setattr(hosting, "load", lambda: found)
-    hosting.host.cache_clear()
-    yield Odd
-    hosting.host.cache_clear()
+    found.registered.setdefault(Family, {})["odd"] = Registered(Odd(), "odd-mechanisms", "odd")
+    monkeypatch.setattr(hosting, "host", lambda: found)
+    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
+    return Odd
 
 
 @pytest.fixture

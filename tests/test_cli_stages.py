@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
+from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage, until_error
+from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, Stage, errors, of_stage, until_error
-from mechwright.part import Part
 
 Run = Callable[..., tuple[int, str, str]]
 TRAIN = tomllib.loads((Path(__file__).parents[1] / "examples" / "figure-eight-train.toml").read_text())[

@@ -2,15 +2,18 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-import mechwright.host as hosting
-from mechwright.design import load
-from mechwright.host import Registered
-from mechwright.requirement import load_requirement
+import mechwright.plugins.host as hosting
+from mechwright.contracts.family import Family
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
+from mechwright.plugins.host import Registered
+from mechwright_cam.shop.library import BUILT_IN
+from mechwright_cam.shop.table import settings_of
 
 sys.path.insert(0, str(Path(__file__).parent / "core"))
 from disc_family import Disc
@@ -19,13 +22,11 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture(autouse=True)
-def disc(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def disc(monkeypatch: pytest.MonkeyPatch) -> None:
     found = hosting.load()
-    found.families["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
-    monkeypatch.setattr(hosting, "load", lambda: found)
-    hosting.host.cache_clear()
-    yield
-    hosting.host.cache_clear()
+    found.registered.setdefault(Family, {})["disc"] = Registered(Disc(), "disc-mechanisms", "disc")
+    monkeypatch.setattr(hosting, "host", lambda: found)
+    monkeypatch.setattr("mechwright.cli.hosting.host", lambda: found)
 
 
 def requirement(folder: Path, text: str) -> Path:
@@ -48,7 +49,7 @@ def test_designs_are_written_best_first_with_their_residuals(command_line: Run, 
         rim = design.family.solve(design.params, 2).scalars["rim_speed"].value
         assert rim == pytest.approx(200, abs=1e-9)
         assert one["figures"]["rim"] == {"value": pytest.approx(200), "unit": "mm/s"}
-        assert design.cam.clearance == 7
+        assert settings_of(design).cam.clearance == 7
         assert command_line("check", tmp_path / "out" / one["design"])[0] == 0
     manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
     assert set(manifest["outputs"]) == {"wanted-1.toml", "wanted-2.toml", "synthesis.json"}
@@ -132,14 +133,14 @@ def test_a_new_requirement_file_can_be_met(command_line: Run, tmp_path: Path) ->
 
 
 def test_a_tool_library_goes_with_the_designs(command_line: Run, tmp_path: Path) -> None:
-    library = Path(hosting.__file__).parents[2] / "cam" / "mechwright_cam" / "data" / "tools.toml"
+    library = BUILT_IN
     (tmp_path / "shop").mkdir()
     (tmp_path / "shop" / "own.toml").write_text(library.read_text())
     path = requirement(tmp_path, 'family = "disc"\n[cam]\ntool_library = "shop/own.toml"\n')
     assert command_line("synthesize", path, "-o", tmp_path / "out")[0] == 0
     design = load(tmp_path / "out" / "wanted-1.toml", hosting.host())
-    assert design.tool_library is not None
-    assert design.tool_library.read_text() == library.read_text()
+    assert settings_of(design).tool_library is not None
+    assert settings_of(design).tool_library.read_text() == library.read_text()
 
 
 def test_the_families_listing_names_the_kinds(command_line: Run) -> None:

@@ -6,29 +6,47 @@ import re
 from pathlib import Path
 
 import pytest
+from imported import sources
 
-from mechwright import hookspecs
+import mechwright
+from mechwright.contracts.plugin import HOOK_API
+from mechwright.plugins import hookspecs
+from mechwright.plugins.host import COMMANDS, GROUP
+from mechwright_cam.controls.contract import Control
 
 ROOT = Path(__file__).parents[1]
+TEMPLATES = sorted((ROOT / "examples").glob("*-template"))
 TEMPLATE = ROOT / "examples" / "plugin-template"
 PLUGINS = ROOT / "docs" / "plugins.md"
 
-SKIPPED = {"node_modules", "build", "dist", "out", "__pycache__"}
+SKIPPED = {"node_modules", "dist", "out", "__pycache__"}
 """Folders that are not the project's text."""
+BUILT = ROOT / "build"
+"""What a packager leaves."""
 
 CONTRACTS = (
-    "family",
-    "output",
-    "parameters",
-    "findings",
-    "motion",
-    "part",
-    "geometry",
-    "program",
-    "errors",
-    "testing",
+    "mechwright.build",
+    "mechwright.cli.command",
+    "mechwright.contracts.exporter",
+    "mechwright.contracts.family",
+    "mechwright.contracts.finding",
+    "mechwright.contracts.motion",
+    "mechwright.contracts.parameters",
+    "mechwright.contracts.part",
+    "mechwright.contracts.plugin",
+    "mechwright.contracts.synthesis",
+    "mechwright.contracts.table",
+    "mechwright.errors",
+    "mechwright.geometry",
+    "mechwright.testing",
+    "mechwright_cam.controls.contract",
+    "mechwright_cam.program.moves",
+    "mechwright_cam.testing",
 )
 """Modules whose classes a plugin may use or has to write."""
+
+GROUPS = {"mechwright.commands"}
+"""Entry-point groups, which have the form of modules."""
 
 
 def files(*suffixes):
@@ -37,6 +55,7 @@ def files(*suffixes):
         for path in ROOT.rglob("*")
         if path.suffix in suffixes
         and path.is_file()
+        and not path.is_relative_to(BUILT)
         and not any(part in SKIPPED or part.startswith(".") for part in path.relative_to(ROOT).parts)
     )
 
@@ -50,34 +69,81 @@ QUOTES = re.findall(r'^```\w+ title="([^"]+)"\n(.*?)^```$', PLUGINS.read_text(en
 
 
 def test_every_hook_is_documented():
-    hooks = [name for name in vars(hookspecs) if name.startswith("mechwright_register_")]
-    assert len(hooks) >= 3
+    hooks = [name for name in vars(hookspecs) if name.startswith("mechwright_register")]
+    assert hooks == ["mechwright_register"]
     text = PLUGINS.read_text(encoding="utf-8")
     assert [hook for hook in hooks if f"| `{hook}` |" not in text] == []
-    assert set(re.findall(r"mechwright_register_\w+", text)) == set(hooks), "a hook that is not there"
+    assert set(re.findall(r"mechwright_register\w*", text)) == set(hooks), "a hook that is not there"
+
+
+def test_the_groups_of_entry_points_and_the_version_of_the_contracts_are_documented():
+    text = PLUGINS.read_text(encoding="utf-8")
+    assert {GROUP, COMMANDS} <= set(re.findall(r"^\| `([\w.]+)` \| .* \| .* \|$", text, re.M))
+    assert f"`HOOK_API` is the version of the contracts, {HOOK_API} in this release" in text
 
 
 def public_classes():
     for name in CONTRACTS:
-        module = importlib.import_module(f"mechwright.{name}")
-        exported = getattr(module, "__all__", vars(module))
-        for member in exported:
+        module = importlib.import_module(name)
+        for member in getattr(module, "__all__", vars(module)):
             value = getattr(module, member)
-            ours = inspect.isclass(value) and value.__module__.startswith(f"mechwright.{name}")
+            ours = inspect.isclass(value) and value.__module__.startswith(name)
             if ours and not member.startswith("_") and not getattr(value, "_is_protocol", False):
                 yield member
 
 
 def test_every_public_class_of_the_contracts_is_documented():
     names = sorted(set(public_classes()))
-    assert {"Family", "Post", "Exporter", "FamilyContract", "Outline", "Finding"} <= set(names)
+    assert {"Family", "Control", "Exporter", "Page", "FamilyContract", "Outline", "Finding"} <= set(names)
     text = PLUGINS.read_text(encoding="utf-8")
     assert [name for name in names if not re.search(rf"`{name}\b", text)] == []
 
 
+def test_every_public_name_is_documented_and_can_be_imported():
+    text = PLUGINS.read_text(encoding="utf-8")
+    names = mechwright.__all__
+    assert len(names) == len(set(names)) > 50
+    assert [name for name in names if not hasattr(mechwright, name)] == []
+    assert [name for name in names if inspect.ismodule(getattr(mechwright, name))] == [], "it hides a name"
+    assert [name for name in names if f"`{name}`" not in text] == []
+    assert [
+        name
+        for name in names
+        if (inspect.isclass(value := getattr(mechwright, name)) or inspect.isfunction(value))
+        and not inspect.getdoc(value)
+    ] == []
+
+
+@pytest.mark.parametrize("path", [path for path in DOCUMENTS if path.name != "CHANGELOG.md"], ids=relative)
+def test_every_dotted_name_leads_somewhere(path):
+    packages = {name.split(".")[0] for name in sources()}
+    named = set(re.findall(r"\b(mechwright\w*(?:\.\w+)+)", path.read_text(encoding="utf-8")))
+    assert [
+        name for name in sorted(named - GROUPS) if name.split(".")[0] in packages and not leads(name)
+    ] == []
+
+
+def leads(name):
+    """Whether a dotted name is a module, or an attribute of one."""
+    module, _, attribute = name.rpartition(".")
+    try:
+        importlib.import_module(name)
+    except ModuleNotFoundError:
+        return bool(module) and leads(module) and hasattr(importlib.import_module(module), attribute)
+    return True
+
+
+def test_names_that_lead_nowhere_are_found():
+    assert leads("mechwright.contracts.family.Family")
+    assert leads("mechwright.units")
+    assert not leads("mechwright.contracts.family.Post")
+    assert not leads("mechwright.post")
+
+
 @pytest.mark.parametrize(("name", "quote"), QUOTES, ids=[f"{n}-{name}" for n, (name, _) in enumerate(QUOTES)])
 def test_quotes_are_the_template_word_for_word(name, quote):
-    source = (TEMPLATE / name).read_text(encoding="utf-8")
+    holds = [template / name for template in TEMPLATES if (template / name).is_file()]
+    source = "\n".join(path.read_text(encoding="utf-8") for path in holds)
     assert f"\n{quote}" in f"\n{source}", f"{name} does not hold these lines:\n{quote}"
 
 
@@ -91,6 +157,13 @@ def headings(path):
     text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.M | re.S)
     titles = re.findall(r"^#+ (.+)$", text, re.M)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def test_every_member_of_a_control_is_documented():
+    text = PLUGINS.read_text(encoding="utf-8")
+    members = [name for name in {**vars(Control), **Control.__annotations__} if not name.startswith("_")]
+    assert len(members) > 15
+    assert [name for name in members if f"`{name}`" not in text] == []
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=relative)
@@ -128,7 +201,7 @@ def test_there_are_texts_to_look_at():
 
 
 def test_the_tool_library_on_the_page_on_machining_can_be_read(tmp_path):
-    from mechwright_cam.library import load_library
+    from mechwright_cam.shop.library import load_library
 
     page = (ROOT / "docs" / "machining.md").read_text(encoding="utf-8")
     (library,) = re.findall(r"^```toml\n(# my-tools.*?)^```$", page, re.M | re.S)

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.design import load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.requirement import load_requirement
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Severity
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
+from mechwright.plugins.host import host
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 REQUIREMENTS = [path for path in EXAMPLES if path.stem.endswith("-requirement")]
@@ -15,7 +16,7 @@ DESIGNS = [path for path in EXAMPLES if path not in REQUIREMENTS]
 
 
 def test_every_family_has_a_design_and_every_synthesis_a_requirement() -> None:
-    families = host().families
+    families = host().of(Family)
     assert {load(path, host()).family.name for path in DESIGNS} == set(families)
     able = {name for name, entry in families.items() if entry.item.requirements}
     assert {load_requirement(path, host()).family.name for path in REQUIREMENTS} == able

@@ -1,1 +1,1 @@
-"""From parts to proven programs: planning, posts, interpreter, proof and exporters."""
+"""From parts to proven programs: planning, controls, proof and pages."""

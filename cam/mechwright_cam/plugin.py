@@ -1,19 +1,21 @@
-"""What the CAM stage registers: posts and exporters."""
+"""What the CAM room registers: controls, the table ``[cam]``, rules, pages, and the inspection of cutters."""
 
-from mechwright.hookspecs import hookimpl
-from mechwright.output import Exporter, Post
-from mechwright_cam.exporters import DxfExporter, GlbExporter, StepExporter, StlExporter, ThreeMfExporter
-
-
-@hookimpl
-def mechwright_register_posts() -> list[type[Post]]:
-    """The controls that programs can be written for."""
-    from mechwright_cam.posts import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
-
-    return [LinuxCncPost, FanucPost, HaasPost, Mach3Post, GrblPost]
+from mechwright.contracts.plugin import Plugin
+from mechwright.plugins.hookspecs import hookimpl
 
 
 @hookimpl
-def mechwright_register_exporters() -> list[type[Exporter]]:
-    """The file formats that parts can be written in."""
-    return [StepExporter, DxfExporter, StlExporter, ThreeMfExporter, GlbExporter]
+def mechwright_register() -> list[type[Plugin]]:
+    """Imports what it gives only now: a module of plugins stays light."""
+    from mechwright_cam.controls.fanuc import Fanuc
+    from mechwright_cam.controls.grbl import Grbl
+    from mechwright_cam.controls.haas import Haas
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.controls.mach3 import Mach3
+    from mechwright_cam.inspection import Machinable
+    from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
+    from mechwright_cam.proof.rules import BUILT_IN
+    from mechwright_cam.shop.table import CamTable
+
+    controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
+    return [*controls, *BUILT_IN, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]

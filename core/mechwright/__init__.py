@@ -1,3 +1,159 @@
-"""Mechwright: from how a mechanism should move to a proven program for the mill."""
+"""Mechwright: from how a mechanism should move to a proven program for the mill.
+
+What a plugin or a script needs has its name here; each is imported when it is first asked for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from mechwright.arrays import Array
+    from mechwright.build import Build, Inspection, Page, Wanted
+    from mechwright.cli.command import Command
+    from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+    from mechwright.contracts.exporter import Exporter
+    from mechwright.contracts.family import Family
+    from mechwright.contracts.finding import (
+        Finding,
+        Severity,
+        Stage,
+        at_stage,
+        of_stage,
+        refuse,
+        until_error,
+    )
+    from mechwright.contracts.materials import MaterialName, material
+    from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
+    from mechwright.contracts.parameters import Parameters
+    from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
+    from mechwright.contracts.plugin import HOOK_API, Plugin
+    from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+    from mechwright.contracts.table import Table
+    from mechwright.designs.design import Design
+    from mechwright.errors import (
+        DesignError,
+        GeometryError,
+        KinematicsError,
+        MechwrightError,
+        OutputError,
+        PluginError,
+        ProgramError,
+        ProofError,
+        ToolError,
+    )
+    from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
+    from mechwright.geometry.segments import Point
+    from mechwright.plugins.hookspecs import hookimpl
+    from mechwright.plugins.host import Host, host
+    from mechwright.tolerances import TOLERANCES
+
+_HOMES = {
+    "mechwright.arrays": "Array",
+    "mechwright.build": "Build Inspection Page Wanted",
+    "mechwright.cli.command": "Command",
+    "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
+    "mechwright.contracts.exporter": "Exporter",
+    "mechwright.contracts.family": "Family",
+    "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.materials": "MaterialName material",
+    "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
+    "mechwright.contracts.parameters": "Parameters",
+    "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
+    "mechwright.contracts.plugin": "HOOK_API Plugin",
+    "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
+    "mechwright.contracts.table": "Table",
+    "mechwright.designs.design": "Design",
+    "mechwright.errors": (
+        "DesignError GeometryError KinematicsError MechwrightError OutputError PluginError ProgramError "
+        "ProofError ToolError"
+    ),
+    "mechwright.geometry": "Arc BSpline Line Loop Outline Segment circle",
+    "mechwright.geometry.segments": "Point",
+    "mechwright.plugins.host": "Host host",
+    "mechwright.plugins.hookspecs": "hookimpl",
+    "mechwright.tolerances": "TOLERANCES",
+}
+"""Module to the public names that come from it."""
+
+_HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
+
+__all__ = [
+    "HOOK_API",
+    "TOLERANCES",
+    "Arc",
+    "Array",
+    "BSpline",
+    "Bore",
+    "Build",
+    "Candidate",
+    "Chamfer",
+    "Channel",
+    "Colour",
+    "Command",
+    "Design",
+    "DesignError",
+    "Detail",
+    "Engraving",
+    "Exporter",
+    "Family",
+    "Feature",
+    "Finding",
+    "GeometryError",
+    "Host",
+    "Inspection",
+    "Instance",
+    "KinematicsError",
+    "Line",
+    "Loop",
+    "MaterialName",
+    "MechwrightError",
+    "Motion",
+    "OpenProfile",
+    "Outline",
+    "OutputError",
+    "Page",
+    "Parameters",
+    "Part",
+    "Plugin",
+    "PluginError",
+    "Pocket",
+    "Point",
+    "Poses",
+    "Profile",
+    "ProgramError",
+    "Progress",
+    "ProofError",
+    "Scalar",
+    "Segment",
+    "Severity",
+    "Stage",
+    "Synthesis",
+    "Table",
+    "Thread",
+    "ToolError",
+    "Trace",
+    "Wanted",
+    "__version__",
+    "at_stage",
+    "circle",
+    "hookimpl",
+    "host",
+    "material",
+    "of_stage",
+    "refuse",
+    "until_error",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'mechwright' has no attribute {name!r}")
+    value = getattr(import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -10,15 +10,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
+from signed_distances import of_four_bar, of_slider_crank
 
-from mechwright.planar import acceleration_pole
-from mechwright_four_bar.diagnostics import diagnostics as four_bar_diagnostics
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.locus import locus as four_bar_locus
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import search
-from mechwright_slider_crank.diagnostics import diagnostics
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.locus import Plane, locus
 from mechwright_slider_crank.poles_synthesis import through_poles
@@ -64,7 +63,7 @@ def equations() -> list[str]:
     c = (a + np.abs(e)) * (1.02 + rng.exponential(0.7, SAMPLES))
     linkage = SliderCrank(a, c, e, rng.uniform(-4, 4, SAMPLES), rng.choice([-1, 1], SAMPLES))
     phi = rng.uniform(-4, 4, SAMPLES)
-    rod, found = linkage.bodies(phi).rod, diagnostics(linkage, phi)
+    rod, found = linkage.bodies(phi).rod, of_slider_crank(linkage, phi)
     pole = acceleration_pole(rod)
     # Where the forms come near 0/0 they lose digits, and say nothing about their truth.
     sound = np.abs(found.cot_delta) + 1 / np.abs(np.cos(phi - linkage.direction)) < 100
@@ -196,7 +195,7 @@ def four_bar_equations() -> list[str]:
     a, c, b, f = lengths[turning][:SAMPLES].T
     bar = FourBar(a, c, b, f, rng.uniform(-4, 4, SAMPLES), rng.choice([-1, 1], SAMPLES))
     phi = rng.uniform(-4, 4, SAMPLES)
-    loop, found = close(bar, phi), four_bar_diagnostics(bar, phi)
+    loop, found = close(bar, phi), of_four_bar(bar, phi)
     lever = loop.joint_a / (1j * loop.coupler.second - loop.coupler.first**2)
     parallel = np.abs((np.exp(1j * phi) * np.conj(loop.follower.direction)).imag)
     sound = np.abs(found.cot_delta) + 1 / parallel + np.abs(a / found.g) < 100

@@ -7,10 +7,11 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import geneva_printed as printed
+import geneva_undercut as undercut
 import numpy as np
 
-from mechwright.laws import LAWS, Law
-from mechwright_geneva import printed, undercut
+from mechwright.mechanics.laws import LAWS, Law
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.motion import straight_peaks

@@ -11,13 +11,14 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
-from mechwright.motion import Array
-from mechwright_cam.svg import path as polyline
+from mechwright.arrays import Array
+from mechwright_cam.pages.svg import path as polyline
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
-from mechwright_spherical.planar import PlanarFiveBar, pairs, points
+from mechwright_spherical.planar import pairs, points
 from mechwright_spherical.planar_synthesis import CouplerPoses, Dyad, crank_dyad, rocker_dyad
 from mechwright_spherical.planar_synthesis import arm_pins as pins_of_arm
 from mechwright_spherical.projection import project
@@ -25,9 +26,7 @@ from mechwright_spherical.refine import Fit, Freedom, errors, refine
 from mechwright_spherical.refine import Path as Wanted
 from mechwright_spherical.structural import (
     PlanarDesign,
-    asymptote,
     best_centre,
-    peak,
     scaled_error,
     smallest_length,
 )
@@ -148,8 +147,8 @@ def path_tables() -> list[str]:
     ]
     path = project(TABLE_2, printed.LENGTH)
     pins = {name: project(at, printed.LENGTH) for name, at in printed.PINS.items()}
-    on_path = matches(path, printed.TABLE_3)
-    on_pins = sum(matches(pins[name], printed.TABLE_4[name]) for name in pins)
+    on_path = matches(path, TABLE_3)
+    on_pins = sum(matches(pins[name], TABLE_4[name]) for name in pins)
     lines += [
         "## Tables 3 and 4: projected path points and pins",
         "",
@@ -163,14 +162,14 @@ def path_tables() -> list[str]:
             [
                 [
                     f"p{n + 1}",
-                    numbers(printed.TABLE_3[n]),
+                    numbers(TABLE_3[n]),
                     numbers(path[n], 6),
-                    verdict(path[n], printed.TABLE_3[n]),
+                    verdict(path[n], TABLE_3[n]),
                 ]
                 for n in range(7)
             ]
             + [
-                [name, numbers(printed.TABLE_4[name]), numbers(at, 6), verdict(at, printed.TABLE_4[name])]
+                [name, numbers(TABLE_4[name]), numbers(at, 6), verdict(at, TABLE_4[name])]
                 for name, at in pins.items()
             ],
         ),

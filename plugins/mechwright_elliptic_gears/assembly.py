@@ -15,7 +15,7 @@ axis is off:
 
 import math
 
-from mechwright.tolerances import TOLERANCES
+from mechwright import TOLERANCES
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 LEFT = 2 * TOLERANCES.leftover

@@ -5,9 +5,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
-from mechwright_elliptic_gears.gear import opening_of, teeth_of
+from mechwright import Finding, Severity
+from mechwright.contracts.finding import errors
+from mechwright.geometry.keyway import (
+    KEYS,
+    LEAST_WIDTH,
+    SMALLEST_EDGE,
+    Opening,
+    key_for_bore,
+    key_of_width,
+)
+from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 LEAST_RIM = 1.0
@@ -15,12 +23,6 @@ LEAST_RIM = 1.0
 
 FULL_RIM = 1.2
 """Rim in whole tooth depths from which it no longer weakens the teeth (the backup ratio of AGMA 2001)."""
-
-LEAST_WIDTH = 0.3
-"""Smallest hole, keyway or relief, mm: there are no end mills for smaller ones."""
-
-SMALLEST_EDGE = 0.01
-"""Straight length, mm, that must stay between reliefs, and between relief and bore."""
 
 _PITCH_SAMPLES = 4096
 """Points of the pitch curve for the rim: a millionth of its size apart from the exact distance."""
@@ -131,8 +133,8 @@ def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Fin
 
 
 def _rim(params: EllipticGearParams) -> Iterator[Finding]:
-    teeth = teeth_of(params)
-    m = teeth.rack.module
+    rack = rack_of(params)
+    m = rack.module
     opening = opening_of(params)
     plain = room(params, np.zeros((1, 2))) - params.bore / 2
     rim, blame = plain, "bore" if opening else "eccentricity"
@@ -140,7 +142,7 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
         rim = min(plain, room(params, opening.loop().flatten()))
         if rim < plain:
             blame = "keyway_relief" if opening.relief and rim < _without_relief(params) else "keyway_depth"
-    full = FULL_RIM * (teeth.rack.addendum + teeth.rack.dedendum) / m
+    full = FULL_RIM * (rack.addendum + rack.dedendum) / m
     least = LEAST_RIM
     rim /= m
     if rim >= full:
@@ -173,11 +175,10 @@ def _without_relief(params: EllipticGearParams) -> float:
 
 def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
     """Least distance, mm, of points (n, 2), part frame, from the root curve; negative beyond it."""
-    teeth = teeth_of(params)
-    ellipse = teeth.ellipse
+    ellipse = ellipse_of(params)
     on_pitch = ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point
     nearest = min(float(np.hypot(*(on_pitch - point).T).min()) for point in points)
     level = ((points[:, 0] - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (
         points[:, 1] / ellipse.semi_minor
     ) ** 2
-    return (nearest if level.max() < 1 else -nearest) - teeth.rack.dedendum
+    return (nearest if level.max() < 1 else -nearest) - rack_of(params).dedendum

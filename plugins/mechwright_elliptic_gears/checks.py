@@ -8,12 +8,11 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, Stage, of_stage, until_error
-from mechwright.materials import material
+from mechwright import Finding, GeometryError, Severity, Stage, material, of_stage, until_error
 from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
+    ellipse_of,
     fillet_mill,
     offset_miss,
     offsets_that_mesh,
@@ -71,7 +70,7 @@ def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 def _rack(params: EllipticGearParams) -> Iterator[Finding]:
     """What must hold before any curve is drawn."""
-    teeth, rack = teeth_of(params), rack_of(params)
+    rack = rack_of(params)
     m = rack.module
     if m < LEAST_MODULE:
         most = math.floor(params.teeth * m / LEAST_MODULE)
@@ -124,7 +123,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             "",
             f"make dedendum at least {params.addendum + LEAST_CLEARANCE:g}, or addendum smaller",
         )
-    tightest = teeth.ellipse.least_radius
+    tightest = ellipse_of(params).least_radius
     if rack.dedendum >= tightest:
         yield Finding(
             "gear.convexity",
@@ -295,7 +294,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
 
 
 def _figures(params: EllipticGearParams) -> Iterator[Finding]:
-    teeth, outline = teeth_of(params), outline_of(params)
+    rack, ellipse, outline = rack_of(params), ellipse_of(params), outline_of(params)
     density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
     mass = outline.area * params.thickness * density
     inertia = outline.polar_moment * params.thickness * density
@@ -303,10 +302,10 @@ def _figures(params: EllipticGearParams) -> Iterator[Finding]:
         "gear.size",
         Severity.NOTE,
         "",
-        f"module {teeth.rack.module:.4f} mm, semi-axes {teeth.ellipse.semi_major:.4f} and "
-        f"{teeth.ellipse.semi_minor:.4f} mm, centre distance {2 * teeth.ellipse.semi_major:.4f} mm; each "
+        f"module {rack.module:.4f} mm, semi-axes {ellipse.semi_major:.4f} and "
+        f"{ellipse.semi_minor:.4f} mm, centre distance {2 * ellipse.semi_major:.4f} mm; each "
         f"gear {mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
-        2 * teeth.ellipse.semi_major,
+        2 * ellipse.semi_major,
         None,
         "mm",
     )

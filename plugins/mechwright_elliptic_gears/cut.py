@@ -5,9 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright import TOLERANCES, Array, Finding, Severity
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.gear_parts import Gear, gears_of
 from mechwright_elliptic_gears.params import EllipticGearParams

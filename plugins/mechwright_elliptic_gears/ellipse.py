@@ -1,14 +1,8 @@
-"""The pitch ellipse, measured along its arc.
+"""The pitch ellipse, measured along its arc, and two that roll on each other.
 
-Glossary
---------
-u
-    Eccentric angle, rad: the point (a cos u, b sin u) from the ellipse's centre. u = 0 is the far vertex,
-    the end of the major axis that is farther from the axis of rotation; u grows counter-clockwise.
-arc
-    Arc length s from the far vertex, mm, counter-clockwise. Neither wraps: u + 2π lies one perimeter on.
-part frame
-    Origin in the focus that is the axis of rotation, far vertex on +x at a (1 + e).
+Its parameter is the eccentric angle u, rad: the point (a cos u, b sin u) from the ellipse's centre. u = 0 is
+the far vertex, the end of the major axis that is farther from the axis of rotation. The axis is the focus
+that is the origin of the part frame; the far vertex lies on +x at a (1 + e).
 
 The arc length is an incomplete elliptic integral, s = a [E(u + π/2 | e²) - E(e²)]. Its integrand
 sqrt(1 - e² cos² u) is periodic and analytic, so its Fourier series converges geometrically: a few dozen terms
@@ -21,7 +15,9 @@ from functools import cached_property
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.gearing import Frame, Pair, PitchCurve
+from mechwright_elliptic_gears.kinematics import Turning, driven, pitch_radii, tilt
 
 _SERIES_SAMPLES = 256
 """Terms fall like exp(-2 k arcosh(1/e)); at e = 0.9 the 43rd is below 1e-17, so 128 leave no aliasing."""
@@ -29,36 +25,9 @@ _SERIES_SAMPLES = 256
 _SERIES_CUT = 1e-17
 """Terms below this share of the first are rounding."""
 
-_GUESSES = 513
-"""Entries of the table that inverts the arc length: 2e-5 rad wrong, which two Newton steps make rounding."""
-
-_NEWTON_STEPS = 3
-"""One more than the table's error needs."""
-
 
 @dataclass(frozen=True)
-class Frame:
-    """Moving frame of the pitch ellipse, counter-clockwise, in the part frame.
-
-    Parameters
-    ----------
-    arc
-        Arc length (...), mm.
-    point, tangent, normal
-        (..., 2); the point in mm, the tangent and the outward normal of unit length.
-    radius
-        Radius of curvature (...), mm.
-    """
-
-    arc: Array
-    point: Array
-    tangent: Array
-    normal: Array
-    radius: Array
-
-
-@dataclass(frozen=True)
-class Ellipse:
+class Ellipse(PitchCurve):
     """An ellipse given by its semi-major axis (mm, above 0) and eccentricity (0 to 0.9).
 
     Examples
@@ -125,20 +94,6 @@ class Ellipse:
         result: Array = self.semi_major * (self._terms[0] * u + one * np.sin(2 * u))
         return result
 
-    @cached_property
-    def _table(self) -> tuple[Array, Array]:
-        u = np.linspace(0, math.tau, _GUESSES)
-        return self.arc(u), u
-
-    def angle(self, arc: Array) -> Array:
-        """Eccentric angle u (...), rad, at arc lengths (...), mm: Newton's method on :meth:`arc`."""
-        turns, rest = np.divmod(np.asarray(arc, dtype=float), self.perimeter)
-        u = np.interp(rest, *self._table)
-        for _ in range(_NEWTON_STEPS):
-            u = u - (self.arc(u) - rest) / (self.semi_major * self._speed(u))
-        result: Array = u + math.tau * turns
-        return result
-
     def _speed(self, u: Array) -> Array:
         """ds/du in units of a."""
         speed: Array = np.sqrt(1 - (self.eccentricity * np.cos(u)) ** 2)
@@ -159,6 +114,26 @@ class Ellipse:
         radius = a * a / b * speed**3
         return Frame(self.arc(u) if arc is None else arc, point, tangent, normal, radius)
 
-    def frame_at(self, arc: Array) -> Frame:
-        """The moving frame at arc lengths (...), mm."""
-        return self.frame(self.angle(arc), np.asarray(arc, dtype=float))
+
+class EllipticPair(Pair):
+    """Two congruent ellipses that turn about foci 2a apart, in the closed forms of their kinematics."""
+
+    driver: Ellipse
+
+    @classmethod
+    def of(cls, ellipse: Ellipse) -> "EllipticPair":
+        """An ellipse and its copy."""
+        return cls(ellipse, ellipse, 2 * ellipse.semi_major)
+
+    def law(self, theta: Array) -> tuple[Array, Array]:
+        """Equations (7) and (5)."""
+        mate = driven(Turning.of(theta, 1.0), self.driver.eccentricity)
+        return mate.theta, mate.omega
+
+    def pitch_radii(self, theta: Array) -> tuple[Array, Array]:
+        """Equations (1) and (2)."""
+        return pitch_radii(Turning.of(theta), self.driver.semi_major, self.driver.eccentricity)
+
+    def tilt(self, arc: Array) -> Array:
+        """As the shafts see it."""
+        return tilt(Turning.of(self.angles(arc)[0]), self.driver.eccentricity)

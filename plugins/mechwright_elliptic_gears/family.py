@@ -3,18 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright.motion import Motion
-    from mechwright.part import Part
-    from mechwright.synthesis import Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis
 
 
 class EllipticGears(Family[EllipticGearParams]):

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.motion import Array, Scalar
+from mechwright import Array, Scalar
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import Turning, driven, steepest_shaft_pressure_angle, train
 from mechwright_elliptic_gears.params import EllipticGearParams

@@ -3,15 +3,12 @@
 import math
 from functools import lru_cache
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
+from mechwright import GeometryError, Outline
 from mechwright.geometry.keyway import Opening, key_of_width
+from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
 from mechwright_elliptic_gears.assembly import backlash_of
-from mechwright_elliptic_gears.contour import gear_loop
-from mechwright_elliptic_gears.ellipse import Ellipse
+from mechwright_elliptic_gears.ellipse import Ellipse, EllipticPair
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.rack import Rack
-from mechwright_elliptic_gears.teeth import Teeth
 
 OFFSET_SLACK = 1e-6
 """Pitches by which a tooth offset may miss: a micrometre in a metre, far below any backlash."""
@@ -20,6 +17,7 @@ _CACHED = 16
 """Designs whose geometry is kept: check, parts and the judging of cuts ask for the same one."""
 
 
+@lru_cache(_CACHED)
 def ellipse_of(params: EllipticGearParams) -> Ellipse:
     """The pitch ellipse: its perimeter 4 a E is z pitches, so a = π m z / (4 E)."""
     if params.semi_major is not None:
@@ -27,6 +25,11 @@ def ellipse_of(params: EllipticGearParams) -> Ellipse:
     assert params.module is not None  # noqa: S101 - the table has exactly one of both
     quarter = Ellipse(1.0, params.eccentricity).complete_integral
     return Ellipse(math.pi * params.module * params.teeth / (4 * quarter), params.eccentricity)
+
+
+def pair_of(params: EllipticGearParams) -> EllipticPair:
+    """A gear and the gear that it drives."""
+    return EllipticPair.of(ellipse_of(params))
 
 
 def rack_of(params: EllipticGearParams) -> Rack:

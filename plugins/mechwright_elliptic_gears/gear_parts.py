@@ -6,9 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.geometry import Loop, Outline, circle
-from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Colour, Feature, Instance, Part, Profile
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout

@@ -20,41 +20,13 @@ In a train gear 2 drives gear 3 as above. Gear 4 is fixed to gear 3 and drives g
 * (18) to (20) gear 4 has the speed of gear 3, (21) to (23) gear 5 that of (5) to (7) with θ4 as the input.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.planar import Turning as Turning  # for all that knows these gears
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 """Points, directions or vectors as x + i y."""
-
-
-@dataclass(frozen=True, slots=True)
-class Turning:
-    """Angle (n,) rad, and its first three time derivatives in rad/s, rad/s², rad/s³."""
-
-    theta: Array
-    omega: Array
-    alpha: Array
-    jerk: Array
-
-    @classmethod
-    def of(
-        cls, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike = 0.0, jerk: ArrayLike = 0.0
-    ) -> "Turning":
-        """Broadcast the four to one shape."""
-        arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
-        return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
-
-    def __add__(self, other: "Turning") -> "Turning":
-        return Turning(
-            self.theta + other.theta,
-            self.omega + other.omega,
-            self.alpha + other.alpha,
-            self.jerk + other.jerk,
-        )
 
 
 def ratio(cos: Array, eccentricity: Array | float) -> Array:
@@ -122,7 +94,9 @@ def train(
 
 def coupler(gear: Turning, mate: Turning) -> Turning:
     """Motion of the coupler J-K: equations (8) to (11); its angle is not reduced to one turn."""
-    return gear + mate
+    return Turning(
+        gear.theta + mate.theta, gear.omega + mate.omega, gear.alpha + mate.alpha, gear.jerk + mate.jerk
+    )
 
 
 def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[Array, Array]:
@@ -131,16 +105,23 @@ def pitch_radii(gear: Turning, semi_major: float, eccentricity: float) -> tuple[
     return s2, 2 * semi_major - s2
 
 
+def tilt(gear: Turning, eccentricity: float) -> Array:
+    """Angle ν (n,), rad, of the pitch curve against the circle about the axis, at most asin e.
+
+    With r = b² / (a (1 - e cos θ)) it is atan(e sin θ / (1 - e cos θ)). It is the same for both gears, whose
+    pitch points move along the same line.
+    """
+    e = eccentricity
+    angle: Array = np.arctan(e * np.sin(gear.theta) / (1 - e * np.cos(gear.theta)))
+    return angle
+
+
 def shaft_pressure_angle(gear: Turning, eccentricity: float, pressure_angle: float) -> Array:
     """Angle (n,), rad, between a flank's normal and the motion of the pitch point; the larger of both flanks.
 
-    It is the rack's pressure angle and the tilt of the pitch curve against the circle about the axis.
-    With r = b² / (a (1 - e cos θ)) the tilt is atan(r'/r) = atan(e sin θ / (1 - e cos θ)), at most asin e.
-    It is the same for both gears, whose pitch points move along the same line.
+    It is the rack's pressure angle and the :func:`tilt` of the pitch curves.
     """
-    e = eccentricity
-    tilt: Array = np.arctan2(e * np.sin(gear.theta), 1 - e * np.cos(gear.theta))
-    return pressure_angle + np.abs(tilt)
+    return pressure_angle + np.abs(tilt(gear, eccentricity))
 
 
 def steepest_shaft_pressure_angle(eccentricity: float, pressure_angle: float) -> float:

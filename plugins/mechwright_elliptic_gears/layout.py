@@ -14,7 +14,7 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 GAP = 2.0
 """Height of spacers, mm: chips and a little wobble of a plate on its shaft have room."""
 
-COUPLER, BASE = 6.0, 10.0
+COUPLER_THICKNESS, BASE_THICKNESS = 6.0, 10.0
 """Thickness of coupler and base plate, mm: stock sizes."""
 
 SPACER = 1.5
@@ -88,9 +88,9 @@ class Layout:
             bore,
             _or(params.gap, GAP),
             pin,
-            _or(params.coupler_thickness, COUPLER),
+            _or(params.coupler_thickness, COUPLER_THICKNESS),
             _or(params.tracer_diameter, pin),
-            _or(params.base_thickness, BASE),
+            _or(params.base_thickness, BASE_THICKNESS),
             dowel,
             _or(params.dowel_circle, math.ceil(SPACER * bore + dowel + 2 * DOWEL_GAP)),
         )

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.errors import DesignError
-from mechwright.motion import Array, Channel, Motion, Poses, Trace
+from mechwright import Array, Channel, DesignError, Motion, Poses, Trace
+from mechwright.mechanics.planar import PointMotion
+from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import (
@@ -19,7 +20,7 @@ from mechwright_elliptic_gears.kinematics import (
 )
 from mechwright_elliptic_gears.layout import DOWELS, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.point import PointMotion, place, point_of_coupler
+from mechwright_elliptic_gears.point import place, point_of_coupler
 
 
 def motion_of(params: EllipticGearParams, samples: int) -> Motion:
@@ -53,12 +54,7 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     q = point_of_coupler(first, second, a, e, place(params.point_along, params.point_across, a))
     channels = {"time": Channel(theta2 / omega, "s")}
     for number, one in turning.items():
-        channels |= {
-            f"theta{number}": Channel(one.theta, "rad"),
-            f"omega{number}": Channel(one.omega, "rad/s"),
-            f"alpha{number}": Channel(one.alpha, "rad/s^2"),
-            f"jerk{number}": Channel(one.jerk, "rad/s^3"),
-        }
+        channels |= turning_channels(one, f"theta{number}", number)
     channels["ratio"] = Channel(second.omega / omega, "")
     if phase is None:
         s2, s4 = pitch_radii(gear2, a, e)

@@ -3,18 +3,10 @@
 import math
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
-
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""

@@ -1,6 +1,6 @@
 """All parts of a design."""
 
-from mechwright.part import Part
+from mechwright import Part
 from mechwright_elliptic_gears.gear import opening_of
 from mechwright_elliptic_gears.gear_parts import gear_part, gears_of
 from mechwright_elliptic_gears.layout import Layout

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright import Array
 
 _SAMPLES = 4096
 """Grid that finds the hill: two steps on the narrowest one, that of a train with γ = 0 and e = 0.9."""

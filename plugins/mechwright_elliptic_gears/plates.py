@@ -3,9 +3,20 @@
 import math
 from collections.abc import Sequence
 
-from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.geometry.segments import Point, Segment
-from mechwright.part import Bore, Feature, Instance, Part, Profile
+from mechwright import (
+    Arc,
+    Bore,
+    Feature,
+    Instance,
+    Line,
+    Loop,
+    Outline,
+    Part,
+    Point,
+    Profile,
+    Segment,
+    circle,
+)
 from mechwright_elliptic_gears.layout import FIXING, MARGIN, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
 

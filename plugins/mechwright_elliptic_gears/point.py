@@ -9,27 +9,11 @@ A middle point (c = 1/2) runs along a hippopede whatever the phase angle, about 
 4 a² ((e² - 1/2) 2 β + sin(2 β)/2), β = arcsin e.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.planar import PointMotion
 from mechwright_elliptic_gears.kinematics import Complex, Turning, mate_pointer, ratio
-
-
-@dataclass(frozen=True, slots=True)
-class PointMotion:
-    """Position (n,) mm, velocity mm/s, acceleration mm/s², jerk mm/s³ of a point, as numbers x + i y."""
-
-    position: Complex
-    velocity: Complex
-    acceleration: Complex
-    jerk: Complex
-
-    @property
-    def speed(self) -> Array:
-        """Magnitude of the velocity (n,), mm/s."""
-        return np.abs(self.velocity)
 
 
 def place(along: float, across: float, semi_major: float) -> complex:

@@ -5,7 +5,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.parameters import Parameters
+from mechwright import Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 RADIANS_PER_SECOND = 60 / math.tau

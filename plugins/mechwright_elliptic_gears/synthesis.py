@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Array, Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.checks import findings
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill

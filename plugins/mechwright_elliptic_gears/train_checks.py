@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Array
+from mechwright import Array, Finding, Severity
+from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, Hole, gear_opening, gears_of

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
+from mechwright import Colour, Instance, Part
 from mechwright.geometry.keyway import Opening
-from mechwright.part import Colour, Instance, Part
 from mechwright_elliptic_gears.layout import (
     AXIAL_PLAY,
     DOWELS,

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright_elliptic_gears.gear import offset_miss, rack_of, teeth_of
+from mechwright import Finding, Severity
+from mechwright_elliptic_gears.gear import ellipse_of, offset_miss, rack_of, teeth_of
 from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
 
 LEAST_REGULARITY = 1e-4
@@ -54,7 +54,7 @@ def greatest_eccentricity(params: EllipticGearParams) -> float | None:
 
     def works(thousandths: int) -> bool:
         finest = params.model_copy(update={"teeth": teeth, "eccentricity": thousandths / 1000})
-        return rack_of(finest).dedendum < teeth_of(finest).ellipse.least_radius and not is_undercut(finest)
+        return rack_of(finest).dedendum < ellipse_of(finest).least_radius and not is_undercut(finest)
 
     good, bad = 0, math.ceil(params.eccentricity * 1000)
     if not works(good):
@@ -87,7 +87,7 @@ def least_teeth(params: EllipticGearParams) -> EllipticGearParams | None:
         if params.tooth_offset is not None and offset_miss(params.tooth_offset, teeth) > 0:
             continue
         candidate = params.model_copy(update={"teeth": teeth})
-        rack, ellipse = rack_of(candidate), teeth_of(candidate).ellipse
+        rack, ellipse = rack_of(candidate), ellipse_of(candidate)
         # Some flank ends within half a pitch of the far vertex, where the curve is at its tightest: a cheap
         # test that nearly all numbers of teeth fail.
         radius = float(ellipse.frame_at(np.array(rack.pitch / 2)).radius)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
+from mechwright import Array
 
 Ints = NDArray[np.int64]
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from mechwright.findings import errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate
+from mechwright import Candidate, Scalar
+from mechwright.contracts.finding import errors
+from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 
@@ -63,8 +63,6 @@ def buildable(
     found: Iterable[Found], most: int, progress: Callable[[float], None]
 ) -> tuple[list[Candidate[FourBarParams]], str]:
     """The first ``most`` linkages whose design has no error, and why the first other one was left out."""
-    from mechwright_four_bar.checks import findings
-
     candidates: list[Candidate[FourBarParams]] = []
     reason = ""
     for one in found:

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 from flint import acb, arb, ctx
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 
 BITS = 160

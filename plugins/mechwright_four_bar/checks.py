@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 
-from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, Severity, Stage, of_stage, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.peaks import peaks_of, speed_of
 from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
 
 LEAST_ROOM = 1e-6
@@ -226,8 +226,6 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
-    from mechwright_four_bar.motion import peaks_of, speed_of
-
     peaks = peaks_of(params, bar_of(params), speed_of(params))
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
     joint, pressure = max(

@@ -22,8 +22,6 @@ from enum import StrEnum
 
 import numpy as np
 
-from mechwright.motion import Array
-
 CHANGE_POINT = 1e-9
 """Part of the sum of all links by which Grashof's condition may miss equality and still be taken for it: the
 links then line up, and which branch follows is not decided by their lengths."""
@@ -166,11 +164,3 @@ class FourBar:
         if near * far <= 0:
             return math.pi / 2
         return max(math.acos(min(1.0, abs(cosine))) for cosine in (near, far))
-
-
-def diagonal_room(bar: FourBar, phi: Array) -> Array:
-    """By how much, mm, the dyad reaches over the diagonal A-B0 at crank angles (...); below 0 it is open."""
-    a, c, b, f = bar.lengths
-    diagonal = np.abs(f * np.exp(1j * bar.ground_angle) - a * np.exp(1j * phi))
-    room: Array = np.minimum(b + c - diagonal, diagonal - abs(b - c))
-    return room

@@ -3,16 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
-    from mechwright.synthesis import Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis
 
 
 class FourBars(Family[FourBarParams]):

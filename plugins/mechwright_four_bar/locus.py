@@ -25,8 +25,8 @@ import numpy as np
 from flint import fmpq, nmod_mat
 from numpy.typing import NDArray
 
-from mechwright.algebra import PlaneCurve
-from mechwright.errors import GeometryError
+from mechwright import GeometryError
+from mechwright.mechanics.algebra import PlaneCurve
 from mechwright_four_bar.exact_poles import Plane, Quadratic, exact_poles
 
 Residues = NDArray[np.int64]

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
-from mechwright.planar import BodyMotion, Plane, PointMotion, Turning
+from mechwright import Array
+from mechwright.mechanics.planar import BodyMotion, Plane, PointMotion, Turning
 from mechwright_four_bar.dimensions import FourBar
 
 

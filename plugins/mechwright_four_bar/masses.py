@@ -1,16 +1,22 @@
 """Masses of the links from their real parts, forces in the joints, and the balance of the shaking force."""
 
 import cmath
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from mechwright.linkage import Mass, cylinder_mass, plate_mass, together
-from mechwright.motion import Array
-from mechwright.planar import BodyMotion
-from mechwright.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
+from mechwright import Array
+from mechwright.mechanics.linkage import (
+    BUSHING_MATERIAL,
+    PIN_MATERIAL,
+    Mass,
+    cylinder_mass,
+    plate_mass,
+    together,
+)
+from mechwright.mechanics.planar import BodyMotion
+from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import Loop
 from mechwright_four_bar.params import FourBarParams
@@ -23,9 +29,6 @@ from mechwright_four_bar.plates import (
     stack_of,
     turning_bore,
 )
-
-PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
-"""Those of the shared turned parts."""
 
 MILLI = 1e-3
 """Forces are computed in mN, from kg, mm and s."""
@@ -127,8 +130,3 @@ def force_balance(bar: FourBar, masses: dict[str, Mass]) -> Balance:
         -coupler.mass * bar.crank * (1 - share) - crank.mass * crank.centre,
         -coupler.mass * bar.follower * share - follower.mass * follower.centre,
     )
-
-
-def degrees_of(moment: complex) -> float:
-    """Direction of a counterweight in its link's frame, deg, 0 to 360."""
-    return math.degrees(cmath.phase(moment)) % 360

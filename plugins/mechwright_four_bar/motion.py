@@ -1,27 +1,22 @@
 """The motion of a design: channels, poses and figures over one turn of the crank."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from mechwright.errors import DesignError, KinematicsError
-from mechwright.findings import Stage, errors
-from mechwright.linkage import Mass
-from mechwright.motion import Array, Channel, Motion, Scalar, Trace
-from mechwright.planar import BodyMotion, PointMotion, acceleration_pole
+from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.planar import acceleration_pole
+from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import Loop, close
+from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.peaks import peaks_of, rate_peaks, speed_of, turn
 from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
-
-PEAK_SAMPLES = 1441
-"""Positions at which peaks are sought: four a degree."""
-
-
-def speed_of(params: FourBarParams) -> float:
-    """Angular velocity of the crank, rad/s, positive counter-clockwise."""
-    return (1.0 if params.direction == "ccw" else -1.0) * params.speed * math.tau / 60
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
@@ -36,8 +31,6 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
-    from mechwright_four_bar.checks import findings
-
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     found = findings(params)
@@ -52,26 +45,16 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         "time": Channel(phi / omega, "s"),
         "omega_a": Channel(np.full(samples, omega), "rad/s"),
     }
-    for name, letter in (("coupler", "c"), ("follower", "b")):
-        turning = bodies[name].turning
-        channels |= {
-            "sigma" if letter == "c" else "psi": Channel(turning.theta, "rad"),
-            f"omega_{letter}": Channel(turning.omega, "rad/s"),
-            f"alpha_{letter}": Channel(turning.alpha, "rad/s^2"),
-            f"jerk_{letter}": Channel(turning.jerk, "rad/s^3"),
-        }
+    for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
+        channels |= turning_channels(bodies[name].turning, angle, suffix)
     cosine = (loop.coupler.direction * np.conj(loop.follower.direction)).real
     channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
     pivot = pivot_of(params)
-    if params.coupler_point is not None:
-        channels |= _point_channels("P", bodies["coupler"].point(params.coupler_point), pivot)
-    pole = acceleration_pole(bodies["coupler"])
-    channels |= {
-        "xG": Channel((pole.fixed + pivot).real, "mm"),
-        "yG": Channel((pole.fixed + pivot).imag, "mm"),
-        "xG_coupler": Channel(pole.moving.real, "mm"),
-        "yG_coupler": Channel(pole.moving.imag, "mm"),
-    }
+    point = params.coupler_point
+    if point is not None:
+        moving = bodies["coupler"].point(point)
+        channels |= point_channels("P", replace(moving, position=moving.position + pivot))
+    channels |= pole_channels(acceleration_pole(bodies["coupler"]), pivot)
     figures = _figures(bar)
     if not errors(found):
         masses = masses_of(params)
@@ -83,24 +66,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
         figures |= _mass_figures(bar, masses)
     else:
-        figures |= {f"{name}_max": value for name, value in _rate_peaks(_turn(bar, omega)[1]).items()}
-    point = params.coupler_point
+        figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
     return Motion("phi", channels, frames_of(params, bodies), figures, traces)
-
-
-def _point_channels(name: str, point: PointMotion, pivot: complex) -> dict[str, Channel]:
-    """Place, velocity, acceleration and jerk of a point, by coordinates."""
-    found = {}
-    for prefix, value, unit in (
-        ("", point.position + pivot, "mm"),
-        ("v", point.velocity, "mm/s"),
-        ("a", point.acceleration, "mm/s^2"),
-        ("j", point.jerk, "mm/s^3"),
-    ):
-        found[f"{prefix}x{name}"] = Channel(value.real, unit)
-        found[f"{prefix}y{name}"] = Channel(value.imag, unit)
-    return found
 
 
 def _figures(bar: FourBar) -> dict[str, Scalar]:
@@ -131,33 +99,3 @@ def _balance_figures(balance: Balance) -> dict[str, Scalar]:
         for name, moment in (("crank", balance.crank), ("follower", balance.follower))
         for axis, value in (("x", moment.real), ("y", moment.imag))
     }
-
-
-def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
-    """Largest sizes over a turn of rates, joint forces and drive torque."""
-    loop, bodies = _turn(bar, omega)
-    carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
-    return {
-        **_rate_peaks(bodies),
-        "drive_torque": _most(carried.drive * MICRO, "N*m"),
-        "shaking_force": _most(np.asarray(np.abs(carried.shaking)) * MILLI, "N"),
-        **{
-            f"force_{joint}": _most(np.asarray(np.abs(force)) * MILLI, "N")
-            for joint, force in carried.joints.items()
-        },
-    }
-
-
-def _turn(bar: FourBar, omega: float) -> tuple[Loop, dict[str, BodyMotion]]:
-    """The turn over which peaks are sought."""
-    loop = close(bar, np.linspace(0, math.tau, PEAK_SAMPLES))
-    return loop, loop.bodies(bar, omega)
-
-
-def _rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
-    turning = bodies["follower"].turning
-    return {"omega_b": _most(turning.omega, "rad/s"), "alpha_b": _most(turning.alpha, "rad/s^2")}
-
-
-def _most(values: Array, unit: str) -> Scalar:
-    return Scalar(float(np.abs(values).max()), unit)

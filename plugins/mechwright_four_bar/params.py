@@ -2,17 +2,10 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 """A coordinate."""

@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
-from mechwright_four_bar.compiled import compiled
+from mechwright import Array
+from mechwright.mechanics.compiled import compiled
+from mechwright.mechanics.planar import Plane
 
 SHAPE, LINEAR = 3, 6
 """Real unknowns of the shape, and of X, s and q."""
@@ -199,6 +199,66 @@ def _solve(matrix: Array, right: Array) -> bool:
 
 
 @compiled
+def _normal_equations(
+    rows: Plane, errors: Plane, damping: float, size: int, normal: Array, right: Array
+) -> None:
+    """Damped normal equations of the unknowns that all points share, into ``normal`` and ``right``."""
+    normal[:] = 0.0
+    right[:] = 0.0
+    for j in range(len(errors)):
+        for i in range(size):
+            r = rows[j, i]
+            right[i] -= r.real * errors[j].real + r.imag * errors[j].imag
+            for k in range(i + 1):
+                w = rows[j, k]
+                normal[i, k] += r.real * w.real + r.imag * w.imag
+    for i in range(size):
+        normal[i, i] += damping * normal[i, i] + 1e-300
+
+
+@compiled
+def _eliminate_angles(
+    rows: Plane,
+    errors: Plane,
+    damping: float,
+    size: int,
+    own: Array,
+    coupling: Array,
+    pull: Array,
+    normal: Array,
+    right: Array,
+) -> None:
+    """Take each point's own crank angle out of the normal equations, by its Schur complement.
+
+    ``own``, ``pull`` and ``coupling`` get the diagonal, the right side and the row of each angle.
+    """
+    for j in range(len(errors)):
+        r = rows[j, 9]
+        own[j] = (r.real * r.real + r.imag * r.imag) * (1 + damping) + 1e-300
+        pull[j] = -(r.real * errors[j].real + r.imag * errors[j].imag)
+        for i in range(size):
+            w = rows[j, i]
+            coupling[j, i] = r.real * w.real + r.imag * w.imag
+        for i in range(size):
+            share = coupling[j, i] / own[j]
+            right[i] -= share * pull[j]
+            for k in range(i + 1):
+                normal[i, k] -= share * coupling[j, k]
+
+
+@compiled
+def _turn_back(
+    change: Array, size: int, own: Array, coupling: Array, pull: Array, phi: Array, turned: Array
+) -> None:
+    """The crank angles that go with a change of the shared unknowns, into ``turned``."""
+    for j in range(len(phi)):
+        step = pull[j]
+        for i in range(size):
+            step -= coupling[j, i] * change[i]
+        turned[j] = phi[j] + step / own[j]
+
+
+@compiled
 def polish(
     targets: Plane, solution: Array, phi: Array, branch: int, timed: bool, steps: int, arrived: float
 ) -> float:
@@ -222,41 +282,16 @@ def polish(
             errors[j] = _row(solution, a, b, c, slope, branch, phi[j], rows[j]) - targets[j]
         improved = False
         while damping < MOST_DAMPING:
-            normal[:] = 0.0
-            right[:] = 0.0
-            for j in range(n):
-                for i in range(size):
-                    r = rows[j, i]
-                    right[i] -= r.real * errors[j].real + r.imag * errors[j].imag
-                    for k in range(i + 1):
-                        w = rows[j, k]
-                        normal[i, k] += r.real * w.real + r.imag * w.imag
-            for i in range(size):
-                normal[i, i] += damping * normal[i, i] + 1e-300
+            _normal_equations(rows, errors, damping, size, normal, right)
             if not timed:
-                for j in range(n):
-                    r = rows[j, 9]
-                    own[j] = (r.real * r.real + r.imag * r.imag) * (1 + damping) + 1e-300
-                    pull[j] = -(r.real * errors[j].real + r.imag * errors[j].imag)
-                    for i in range(size):
-                        w = rows[j, i]
-                        coupling[j, i] = r.real * w.real + r.imag * w.imag
-                    for i in range(size):
-                        share = coupling[j, i] / own[j]
-                        right[i] -= share * pull[j]
-                        for k in range(i + 1):
-                            normal[i, k] -= share * coupling[j, k]
+                _eliminate_angles(rows, errors, damping, size, own, coupling, pull, normal, right)
             if _solve(normal, right):
                 for i in range(9):
                     trial[i] = solution[i] + right[i]
-                for j in range(n):
-                    if timed:
-                        turned[j] = phi[j] + right[9]
-                    else:
-                        step = pull[j]
-                        for i in range(size):
-                            step -= coupling[j, i] * right[i]
-                        turned[j] = phi[j] + step / own[j]
+                if timed:
+                    turned[:] = phi + right[9]
+                else:
+                    _turn_back(right, size, own, coupling, pull, phi, turned)
                 new = _cost(targets, trial, turned, branch)
                 if new < cost:
                     solution[:], phi[:] = trial, turned

@@ -7,29 +7,21 @@ from typing import Literal
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.path_kernels import lengths, linear, polish, screen
-
-SPREAD = 100.0
-"""Starts have cranks and excess lengths of dyads up to so many ground lines, and down to so many parts."""
-
-STRETCH = 4.0
-"""Largest y in the starts: tanh(4) leaves a thousandth of the diagonal."""
-
-LEAST_EXCESS = 1e-4
-"""Least share by which the dyads of the starts are longer than the diagonal."""
+from mechwright_four_bar.pole_equations import random_shapes
 
 POLISHED, ONE_IN = 400, 50
 """Best starts of each branch and sense that are followed to the end, and at most one in so many: the global
 optimum of the benchmarks is reached by every third of them."""
 
-STEPS = 300
+PATH_STEPS = 300
 """Most steps of a start."""
 
-ARRIVED = 1e-27
+PATH_ARRIVED = 1e-27
 """Sum of squares over that of the path's size at which a start is done: rounding."""
 
 LEAST_SPAN, MOST_SPAN = math.radians(20), math.radians(355)
@@ -120,7 +112,7 @@ def search(
         for step, index in enumerate(best[np.isfinite(costs[best])]):
             phi = angles[index].copy()
             solution = linear(unit, shapes[index], phi, branch)
-            polish(unit, solution, phi, branch, turns is not None, STEPS, ARRIVED)
+            polish(unit, solution, phi, branch, turns is not None, PATH_STEPS, PATH_ARRIVED)
             one = _solution(solution, phi, branch, centre, size, targets)
             if one is not None:
                 found.append(one)
@@ -133,10 +125,7 @@ def _starts(
     unit: Plane, turns: Array | None, way: int, count: int, rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Random shapes (count, 3) and crank angles (count, n)."""
-    shapes = np.empty((count, 3))
-    shapes[:, 0] = rng.uniform(-math.log(SPREAD), math.log(SPREAD), count)
-    shapes[:, 1] = rng.uniform(math.log(LEAST_EXCESS), math.log(SPREAD), count)
-    shapes[:, 2] = rng.uniform(-STRETCH, STRETCH, count)
+    shapes = random_shapes(count, rng)
     first = rng.uniform(0, math.tau, (count, 1))
     if turns is not None:
         return shapes, first + turns

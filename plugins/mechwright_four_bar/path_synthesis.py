@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright.motion import Scalar
-from mechwright.multistart import distinct
-from mechwright.synthesis import Progress, Synthesis
+from mechwright import Finding, Progress, Scalar, Severity, Synthesis
+from mechwright.mechanics.multistart import distinct
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION
 from mechwright_four_bar.params import FourBarParams

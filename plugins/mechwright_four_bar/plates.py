@@ -11,8 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.geometry import Outline
-from mechwright.linkage import (
+from mechwright import Array, Colour, Instance, Outline, Part, Poses
+from mechwright.mechanics.linkage import (
     Boss,
     Plate,
     Spindle,
@@ -25,9 +25,7 @@ from mechwright.linkage import (
     stack,
     web_link,
 )
-from mechwright.motion import Array, Poses
-from mechwright.part import Colour, Instance, Part
-from mechwright.planar import BodyMotion, Turning
+from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams

@@ -22,8 +22,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 
 SPREAD = 100.0
@@ -34,6 +34,13 @@ LEAST_EXCESS = 1e-4
 
 STRETCH = 4.0
 """Largest y in the starts: tanh(4) leaves a thousandth of the diagonal."""
+
+
+def random_shapes(count: int, rng: np.random.Generator) -> Array:
+    """Random ln a, x and y (count, 3)."""
+    most, least = math.log(SPREAD), math.log(LEAST_EXCESS)
+    ranges = (-most, most), (least, most), (-STRETCH, STRETCH)
+    return np.column_stack([rng.uniform(low, high, count) for low, high in ranges])
 
 
 def unit_pole(a: Array, b: Array, c: Array, phi: Array, branch: int) -> Plane:
@@ -135,13 +142,8 @@ class PoleProblem:
 
     def starts(self, count: int, rng: np.random.Generator) -> Array:
         """Random unknowns (count, m), crank angles all around."""
-        most = math.log(SPREAD)
-        starts = np.empty((count, self.unknowns))
-        starts[:, 0] = rng.uniform(-most, most, count)
-        starts[:, 1] = rng.uniform(math.log(LEAST_EXCESS), most, count)
-        starts[:, 2] = rng.uniform(-STRETCH, STRETCH, count)
-        starts[:, 3:] = rng.uniform(0, math.tau, (count, self.unknowns - 3))
-        return starts
+        shapes = random_shapes(count, rng)
+        return np.column_stack((shapes, rng.uniform(0, math.tau, (count, self.unknowns - 3))))
 
     def bar(self, unknowns: Array) -> tuple[FourBar, Array] | None:
         """The linkage of unknowns (m,), and its crank angles (n,) from X, rad; None if turned inside out."""

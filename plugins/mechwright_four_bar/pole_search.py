@@ -6,9 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.multistart import distinct, least_squares
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.multistart import distinct, least_squares
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.pole_equations import PoleProblem
@@ -17,10 +16,10 @@ RESIDUAL = 1e-10
 """Certain distance, mm, from its place of every pole of a solution. What misses it is so near to a toggle
 that lengths rounded to a double move the pole that far."""
 
-STEPS = 100
+POLE_STEPS = 100
 """Steps of a start: one in a thousand of those that arrive takes more."""
 
-ARRIVED = 1e-28
+POLE_ARRIVED = 1e-28
 """Sum of squares at which a start is done: a hundredth of what RESIDUAL asks for, squared."""
 
 NEAR = 1e-14
@@ -86,7 +85,7 @@ def search(problem: PoleProblem, count: int, seed: int, progress: Callable[[floa
         def alive(part: float, number: int = number) -> None:
             progress((number + part) / 2)
 
-        unknowns, costs = least_squares(one.residual, one.starts(count, rng), STEPS, ARRIVED, alive)
+        unknowns, costs = least_squares(one.residual, one.starts(count, rng), POLE_STEPS, POLE_ARRIVED, alive)
         if costs.size:
             nearest = min(nearest, float(np.sqrt(costs.min() / problem.targets.size)) * size)
         arrived = unknowns[costs <= NEAR][np.argsort(costs[costs <= NEAR], kind="stable")]
@@ -128,11 +127,3 @@ def _features(bar: FourBar, phi: Array) -> Array:
     return np.concatenate(
         (np.log(bar.lengths), [np.cos(bar.ground_angle), np.sin(bar.ground_angle)], np.cos(phi), np.sin(phi))
     )
-
-
-def poles_of(bar: FourBar, phi: Array) -> Plane:
-    """Acceleration poles (n,) of the coupler in double precision, mm from A0."""
-    from mechwright.planar import acceleration_pole
-    from mechwright_four_bar.loop import close
-
-    return acceleration_pole(close(bar, phi).bodies(bar, 1.0)["coupler"]).fixed

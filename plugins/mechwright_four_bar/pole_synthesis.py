@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity
-from mechwright.motion import Scalar
-from mechwright.synthesis import Progress, Synthesis
+from mechwright import Finding, Progress, Scalar, Severity, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
-from mechwright_four_bar.compiled import AVAILABLE, compiled
+from mechwright import Array
+from mechwright.mechanics.compiled import compiled
 from mechwright_four_bar.dimensions import FourBar
 
 COLUMNS = ("cos_sigma", "sin_sigma", "cos_psi", "sin_psi", "omega_c", "omega_b", "alpha_c", "alpha_b")
@@ -55,7 +55,7 @@ def _fill(a: float, c: float, b: float, bx: float, by: float, branch: int, phi: 
 def rates(bar: FourBar, phi: ArrayLike) -> Array:
     """Directions, velocities and accelerations, as rows (8, n) named by :data:`COLUMNS`.
 
-    NaN where the loop cannot be closed. Where there is no compiler, numpy does the same work.
+    NaN where the loop cannot be closed.
 
     Examples
     --------
@@ -64,8 +64,6 @@ def rates(bar: FourBar, phi: ArrayLike) -> Array:
     (1.394587381, -11.67245774)
     """
     angles = np.ascontiguousarray(np.atleast_1d(np.asarray(phi, dtype=float)))
-    if not AVAILABLE:  # pragma: no cover
-        return rates_numpy(bar, angles)
     out = np.empty((len(COLUMNS), angles.size))
     a, c, b, f = (float(length) for length in bar.lengths)
     pivot = f * math.cos(bar.ground_angle), f * math.sin(bar.ground_angle)

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.parameters import Parameters
+from mechwright import Parameters
 from mechwright.units import Degrees, Millimetres, Unit
 
 Coordinate = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]

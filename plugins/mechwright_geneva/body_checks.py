@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, errors
+from mechwright import Finding, GeometryError, Severity
+from mechwright.contracts.finding import errors
+from mechwright_geneva.counterbore import counterbore_findings
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism
@@ -23,7 +24,7 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
     if not errors(found):
         found += _driver(m)
     if not errors(found):
-        found += [*_lock(m), *_hub(m), *_pin(m)]
+        found += [*_lock(m), *_hub(m), *_pin(m), *counterbore_findings(m)]
     yield from found
 
 

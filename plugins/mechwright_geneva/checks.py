@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.findings import Finding, Severity, Stage, of_stage, until_error
+from mechwright import Finding, Severity, Stage, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings

@@ -18,8 +18,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.materials import material
-from mechwright.motion import Array
+from mechwright import Array, material
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
 

@@ -2,8 +2,7 @@
 
 import math
 
-from mechwright.geometry import Arc, Line, Loop
-from mechwright.geometry.segments import Point, Segment
+from mechwright import Arc, Line, Loop, Point, Segment
 from mechwright_geneva.fixings import driver_dowels, driver_room
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.openings import driver_opening, reach

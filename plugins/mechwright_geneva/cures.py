@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_geneva.limits import FINE_SAMPLES, SWEEP_SAMPLES
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.openings import driver_opening, driver_radius, hub_radius, reach

@@ -4,8 +4,9 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from mechwright.findings import Finding, Severity, Stage, errors, of_stage
-from mechwright.laws.faults import LawFault, polynomial_faults, table_faults
+from mechwright import Finding, Severity, Stage, of_stage
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_LOCKED

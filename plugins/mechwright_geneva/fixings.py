@@ -8,8 +8,7 @@ import math
 
 import numpy as np
 
-from mechwright.geometry.segments import Point
-from mechwright.motion import Array
+from mechwright import Array, Point
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.openings import driver_opening, reach, wheel_opening
 

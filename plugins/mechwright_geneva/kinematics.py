@@ -35,8 +35,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.laws import Law
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.laws import Law
 
 Points = NDArray[np.complex128]
 """Points of the plane, mm."""
@@ -199,10 +199,3 @@ def regime(frame: Frame, law: Law) -> NDArray[np.int_]:
     # (a - b) p - b keeps its sign where the slot's bottom passes the axis.
     side: NDArray[np.int_] = np.sign(frame.bottom * p - frame.crank).astype(int)
     return side
-
-
-def alpha(run: Stroke) -> Array:
-    """α of equation (3), rad in (-π, π]: from the line crank centre - roller to the left contact."""
-    a, b, p = run.frame.axes, run.frame.crank, run.first
-    angle: Array = np.arctan2(a * p * np.sin(run.phi), (1 + p) * b - a * p * np.cos(run.phi))
-    return angle

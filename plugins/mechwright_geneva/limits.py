@@ -22,8 +22,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from mechwright.laws import Law
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, Points, Stroke, regime, stroke
 
 SWEEP_SAMPLES = 65

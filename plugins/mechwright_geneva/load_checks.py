@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.findings import Finding, Severity
+from mechwright import Finding, Severity
 from mechwright_geneva.contact import loads, strength
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.motion import peaks_of, straight_peaks

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from mechwright.laws import LAWS, Law, Polynomial
+from mechwright.mechanics.laws import LAWS, Law, Polynomial
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
 from mechwright_geneva.params import GenevaParams
@@ -230,7 +230,7 @@ def law_of(params: GenevaParams) -> Law:
         case "polynomial":
             return Polynomial(params.polynomial or ())
         case "table":
-            from mechwright.laws.table import Table
+            from mechwright.mechanics.laws.table import Table
 
             return Table(params.table or ())
         case named:

@@ -3,8 +3,7 @@
 import cmath
 from dataclasses import replace
 
-from mechwright.geometry import Arc, BSpline, Line
-from mechwright.geometry.segments import Point, Segment
+from mechwright import Arc, BSpline, Line, Point, Segment
 
 
 def mirrored(segment: Segment, angle: float) -> Segment:

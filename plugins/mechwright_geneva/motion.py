@@ -4,11 +4,10 @@ import math
 
 import numpy as np
 
-from mechwright.errors import DesignError
-from mechwright.findings import Stage, refuse
-from mechwright.laws import Peaks
-from mechwright.motion import Array, Channel, Motion, Poses, Scalar
+from mechwright import Array, Channel, DesignError, Motion, Poses, Scalar, Stage, refuse
+from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
+from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.straight import StraightSlot
@@ -49,8 +48,6 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     """
     if samples < 2:
         raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
-    from mechwright_geneva.feasible import feasibility
-
     refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60

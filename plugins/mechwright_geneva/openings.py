@@ -3,15 +3,16 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.findings import Finding, Severity
-from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
+from mechwright import Finding, Severity
+from mechwright.geometry.keyway import (
+    KEYS,
+    LEAST_WIDTH,
+    SMALLEST_EDGE,
+    Opening,
+    key_for_bore,
+    key_of_width,
+)
 from mechwright_geneva.params import GenevaParams
-
-LEAST_WIDTH = 0.3
-"""Smallest bore, keyway or relief, mm: there are no end mills for smaller ones."""
-
-SMALLEST_EDGE = 0.01
-"""Straight length, mm, that must stay between the reliefs of a keyway."""
 
 
 def wheel_opening(params: GenevaParams) -> Opening | None:

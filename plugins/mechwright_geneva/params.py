@@ -2,18 +2,11 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from mechwright.fits import HoleClass
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
+from mechwright.contracts.fits import HoleClass
 from mechwright.units import Millimetres, RevPerMin, Unit
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 LawName = Literal[
     "cycloidal",
@@ -92,6 +85,16 @@ class GenevaParams(Parameters):
     bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the wheel; 0 for none.")
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
+    )
+    counterbore_diameter: Millimetres = Field(
+        0.0, ge=0, le=300, description="Recess about the wheel's bore, for the shaft's screw; 0 for none."
+    )
+    counterbore_depth: Millimetres = Field(3.0, ge=0.2, le=100, description="Depth of that recess.")
+    counterbore_radius: Millimetres = Field(
+        0.0, ge=0, le=20, description="Fillet between floor and wall of that recess; 0 for a sharp corner."
+    )
+    counterbore_side: Literal["top", "underside"] = Field(
+        "top", description="Side of the wheel on which that recess is."
     )
     hub_diameter: Millimetres = Field(
         0.0, ge=0, le=500, description="Diameter of a hub plate under the wheel; 0 for none."

@@ -9,11 +9,10 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from mechwright.fits import Fit, hole_fit
-from mechwright.geometry import Loop, Outline, circle
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Pocket, Point, Profile, circle
+from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.geometry.keyway import Opening
-from mechwright.geometry.segments import Point
-from mechwright.part import Bore, Colour, Feature, Instance, Part, Pocket, Profile
+from mechwright_geneva.counterbore import counterbore
 from mechwright_geneva.crank import crank_loop
 from mechwright_geneva.fixings import driver_dowels, driver_room, hub_dowels, island_places, web_place
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
@@ -53,12 +52,14 @@ def _wheel(m: Mechanism) -> list[Part]:
             Pocket(f"groove-{k + 1}", loop.moved(0, 0, 2 * k * m.wheel_half), (), 0, m.groove_depth)
             for k in range(m.slots)
         ]
+        grooves += counterbore(m, depth)
         made.append(
             _plate(m, "wheel", wheel.disc(), deviation, opening, dowels, depth, WHEEL, 0, BRONZE, grooves)
         )
     elif m.construction == "through":
         loop, deviation = wheel.slotted()
-        made.append(_plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE))
+        recess = counterbore(m, depth)
+        made.append(_plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE, recess))
     else:
         made += _backed(m, wheel, opening, dowels)
     if params.hub_diameter > 0:
@@ -82,8 +83,9 @@ def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point
     body, one = wheel.slotted()
     island, two = wheel.island()
     holes = tuple(_hole(place, params.fixing) for place in own)
+    pinned, recess = [*dowels, *webs], counterbore(m, depth)
     return [
-        _plate(m, "wheel", body, one, opening, [*dowels, *webs], depth, WHEEL, params.floor, BRONZE),
+        _plate(m, "wheel", body, one, opening, pinned, depth, WHEEL, params.floor, BRONZE, recess),
         _plate(m, "backing", wheel.disc(), 0.0, opening, behind, params.floor, WHEEL, 0, GREY),
         Part(
             "island",

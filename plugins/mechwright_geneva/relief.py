@@ -28,12 +28,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Line, Loop
+from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Segment
 from mechwright.geometry.fit import fit_curves
-from mechwright.geometry.segments import Segment
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import Points
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.mirror import mirrored

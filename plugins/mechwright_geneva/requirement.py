@@ -4,9 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
 from mechwright.units import Millimetres, RevPerMin, Seconds, Unit
-from mechwright_geneva.params import MaterialName
 
 SmoothLaw = Literal["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"]
 

@@ -24,12 +24,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Line, Loop
+from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment
 from mechwright.geometry.fit import fit_curves
-from mechwright.geometry.segments import Point, Segment
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.kinematics import LEFT, RIGHT, Points
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.mirror import mirrored

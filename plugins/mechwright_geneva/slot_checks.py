@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright.findings import Finding, Severity
+from mechwright import Finding, Severity
 from mechwright_geneva.cures import greatest_roller, least_offset, walls_of
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.mechanism import Mechanism

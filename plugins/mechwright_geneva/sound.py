@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.laws import Law
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.laws import Law
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.limits import SWEEP_SAMPLES, Measures, measure
 

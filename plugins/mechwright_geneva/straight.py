@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.laws import Law, Peaks, Rates
+from mechwright.mechanics.laws import Law, Peaks, Rates
 
 
 class StraightSlot(Law):

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.laws import LAWS
-from mechwright.motion import Array, Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength
 from mechwright_geneva.kinematics import Frame, stroke

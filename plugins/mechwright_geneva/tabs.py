@@ -9,10 +9,7 @@ import math
 import numpy as np
 import shapely
 
-from mechwright.geometry import Loop
-from mechwright.geometry.segments import Point
-from mechwright.motion import Array
-from mechwright.tolerances import TOLERANCES
+from mechwright import TOLERANCES, Array, Loop, Point
 
 HARMLESS = frozenset({"rim", "relief", "crank", "hub"})
 """Tags of the stretches of an outline that touch nothing."""

@@ -4,9 +4,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Arc, Loop
-from mechwright.geometry.segments import Point, Segment
+from mechwright import Arc, GeometryError, Loop, Point, Segment
 from mechwright_geneva.kinematics import LEFT, RIGHT
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.slot import Slot

@@ -6,8 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.errors import GeometryError, MechwrightError
-from mechwright.findings import Finding, Severity, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, MechwrightError, Severity, Stage, of_stage, until_error
 from mechwright_slider_crank.figures import least_transmission_angle, limits
 from mechwright_slider_crank.forces import JointForces, balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams

@@ -1,24 +1,17 @@
 """The kinematics compiled to machine code, for sweeps over very many positions.
 
-numba takes a second to import and the first call some more to compile; the machine code is kept on disk
-beside this module where that can be written. Where numba is not installed, numpy does the same work.
-
 The sine and cosine of the C library take most of the time of a plain loop, since a call to them keeps the
 compiler from working on several positions at once. The power series here does not.
 """
 
 import math
-from collections.abc import Callable
-from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
+from mechwright.mechanics.compiled import compiled, inlined
 from mechwright_slider_crank.kinematics import SliderCrank, slide
-
-Kernel = Callable[[Array, float, float, float, float, int, Array], None]
 
 LARGEST_ANGLE = 1e5
 """Rad. Quarter turns up to 2¹⁶ times the first part of π/2, which has 33 bits, are exact in a double."""
@@ -52,29 +45,20 @@ def cos_sin(angle: float) -> tuple[float, float]:
     return cos, sin
 
 
-@cache
-def kernel() -> Kernel | None:
-    """The compiled loop, or None without numba."""
-    try:
-        from numba import njit
-    except ImportError:
-        return None
-    circle: Any = njit(inline="always")(cos_sin)
-    inner: Any = njit(inline="always")(slide)
+_circle, _slide = inlined(cos_sin), inlined(slide)
 
-    def loop(
-        phi: Array, crank: float, rod: float, offset: float, direction: float, branch: int, out: Array
-    ) -> None:
-        for k in range(phi.size):
-            cos, sin = circle(phi[k] - direction)
-            t = offset - crank * sin
-            # The root of a number below 0 is NaN here, as it is in numpy.
-            w = branch * np.sqrt(rod * rod - t * t)
-            found = inner(cos, sin, w, crank, offset)
-            out[0, k], out[1, k], out[2, k] = found[0], found[1], found[2]
 
-    compiled: Kernel = njit(cache=True, error_model="numpy")(loop)
-    return compiled
+@compiled
+def _fill(
+    phi: Array, crank: float, rod: float, offset: float, direction: float, branch: int, out: Array
+) -> None:
+    for k in range(phi.size):
+        cos, sin = _circle(phi[k] - direction)
+        t = offset - crank * sin
+        # The root of a number below 0 is NaN here, as it is in numpy.
+        w = branch * np.sqrt(rod * rod - t * t)
+        found = _slide(cos, sin, w, crank, offset)
+        out[0, k], out[1, k], out[2, k] = found[0], found[1], found[2]
 
 
 def rates(linkage: SliderCrank, phi: ArrayLike) -> Array:
@@ -88,9 +72,8 @@ def rates(linkage: SliderCrank, phi: ArrayLike) -> Array:
     True
     """
     angles = np.ascontiguousarray(np.atleast_1d(np.asarray(phi, dtype=float)))
-    fast = kernel()
-    if fast is None or not np.abs(angles).max(initial=0.0) < LARGEST_ANGLE:
+    if not np.abs(angles).max(initial=0.0) < LARGEST_ANGLE:
         return np.array(linkage.rates(angles))
     out = np.empty((3, angles.size))
-    fast(angles, linkage.crank, linkage.rod, linkage.offset, linkage.direction, linkage.branch, out)
+    _fill(angles, linkage.crank, linkage.rod, linkage.offset, linkage.direction, linkage.branch, out)
     return out

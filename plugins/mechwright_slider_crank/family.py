@@ -3,16 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
-    from mechwright.synthesis import Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import KinematicsError
-from mechwright.motion import Array
+from mechwright import Array, KinematicsError
 from mechwright_slider_crank.kinematics import SliderCrank
 
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.linkage import Mass
-from mechwright.motion import Array
-from mechwright.planar import Plane
-from mechwright.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
+from mechwright import Array
+from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.planar import Plane
+from mechwright.mechanics.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 
 MILLI = 1e-3

@@ -19,9 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import KinematicsError
-from mechwright.motion import Array
-from mechwright.planar import BodyMotion, PointMotion, Turning
+from mechwright import Array, KinematicsError
+from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
 
 
 def slide(cos: Any, sin: Any, w: Any, crank: Any, offset: Any) -> Any:

@@ -17,8 +17,8 @@ from typing import Literal
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
-from mechwright.algebra import PlaneCurve, eliminate, rational
-from mechwright.errors import GeometryError
+from mechwright import GeometryError
+from mechwright.mechanics.algebra import PlaneCurve, eliminate, rational
 
 Plane = Literal["fixed", "coupler"]
 

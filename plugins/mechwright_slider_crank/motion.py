@@ -5,11 +5,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright.errors import DesignError
-from mechwright.findings import errors
-from mechwright.linkage import Mass
-from mechwright.motion import Array, Channel, Motion, Scalar, Trace
-from mechwright.planar import Plane, acceleration_pole
+from mechwright import Array, Channel, DesignError, Motion, Scalar, Trace
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.planar import Plane, acceleration_pole
+from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
@@ -45,9 +45,9 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
         "phi": Channel(phi, "rad"),
         "omega_a": Channel(np.full(samples, omega), "rad/s"),
         **_slider(linkage, bodies),
-        **_turning(bodies),
+        **turning_channels(bodies.rod.turning, "sigma", "_c"),
         "transmission_angle": Channel(transmission_angle(linkage, phi), "rad"),
-        **_coupler_point(params, bodies),
+        **point_channels("P", bodies.rod.point(params.coupler_point)),
         **_poles(linkage, phi, bodies),
         **({} if masses is None else _forces(joint_forces(linkage, bodies, masses, params.load))),
     }
@@ -68,44 +68,12 @@ def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
     }
 
 
-def _turning(bodies: Bodies) -> dict[str, Channel]:
-    rod = bodies.rod.turning
-    return {
-        "sigma": Channel(rod.theta, "rad"),
-        "omega_c": Channel(rod.omega, "rad/s"),
-        "alpha_c": Channel(rod.alpha, "rad/s^2"),
-        "jerk_c": Channel(rod.jerk, "rad/s^3"),
-    }
-
-
-def _coupler_point(params: SliderCrankParams, bodies: Bodies) -> dict[str, Channel]:
-    point = bodies.rod.point(params.coupler_point)
-    found = {}
-    for name, values, unit in (
-        ("{}P", point.position, "mm"),
-        ("v{}P", point.velocity, "mm/s"),
-        ("a{}P", point.acceleration, "mm/s^2"),
-        ("j{}P", point.jerk, "mm/s^3"),
-    ):
-        found[name.format("x")] = Channel(values.real.copy(), unit)
-        found[name.format("y")] = Channel(values.imag.copy(), unit)
-    return found
-
-
 def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channel]:
     """The rod's acceleration pole on the ground and in the rod, for both assemblies."""
     other = SliderCrank(linkage.crank, linkage.rod, linkage.offset, linkage.direction, -linkage.branch)
-    found = {}
-    for ending, rod in (("", bodies.rod), ("_other", other.bodies(phi).rod)):
-        pole = acceleration_pole(rod)
-        for name, values in (
-            ("xG", pole.fixed.real),
-            ("yG", pole.fixed.imag),
-            ("xG_coupler", pole.moving.real),
-            ("yG_coupler", pole.moving.imag),
-        ):
-            found[name + ending] = Channel(values.copy(), "mm")
-    return found
+    return pole_channels(acceleration_pole(bodies.rod)) | pole_channels(
+        acceleration_pole(other.bodies(phi).rod), suffix="_other"
+    )
 
 
 def _forces(carried: JointForces) -> dict[str, Channel]:

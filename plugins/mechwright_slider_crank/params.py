@@ -3,18 +3,11 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 LONGEST = 2000.0
 """mm. Longer links are structures, not plates."""

@@ -10,9 +10,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.errors import GeometryError
-from mechwright.geometry import Outline
-from mechwright.linkage import (
+from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses
+from mechwright.mechanics.linkage import (
+    BUSHING_MATERIAL,
+    PIN_MATERIAL,
     Boss,
     Mass,
     Plate,
@@ -30,14 +31,10 @@ from mechwright.linkage import (
     together,
     web_link,
 )
-from mechwright.motion import Array, Poses
-from mechwright.part import Colour, Instance, Part
-from mechwright.planar import BodyMotion, Turning
+from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_slider_crank.figures import Limits, limits
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
-
-PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
 
 TURN_SAMPLES = 361
 """Positions of a turn at which the layers are judged: a degree moves a 100 mm crank by 1.7 mm."""

@@ -1,13 +1,10 @@
 """What this plugin registers."""
 
-from typing import Any
-
-from mechwright.family import Family
-from mechwright.hookspecs import hookimpl
+from mechwright import Plugin, hookimpl
 from mechwright_slider_crank.family import SliderCrankFamily
 
 
 @hookimpl
-def mechwright_register_families() -> list[type[Family[Any]]]:
-    """The mechanism families."""
+def mechwright_register() -> list[type[Plugin]]:
+    """The mechanism family."""
     return [SliderCrankFamily]

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.planar import Plane
 
 CRANKS = (3e-3, 30.0)
 """Cranks of the starts, over the farthest pole's distance: beyond that nothing can be built."""

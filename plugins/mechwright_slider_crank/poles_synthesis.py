@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from flint import acb, arb, ctx
 
-from mechwright.motion import Array
-from mechwright.multistart import distinct, least_squares
-from mechwright.planar import Plane
+from mechwright import Array
+from mechwright.mechanics.multistart import distinct, least_squares
+from mechwright.mechanics.planar import Plane
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.pole_equations import PoleProblem
 

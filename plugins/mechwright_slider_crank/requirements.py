@@ -4,7 +4,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.parameters import Parameters
+from mechwright import Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, Unit
 from mechwright_slider_crank.params import LONGEST
 

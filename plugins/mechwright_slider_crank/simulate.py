@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.errors import KinematicsError
+from mechwright import KinematicsError
 from mechwright_slider_crank.compiled import rates
 from mechwright_slider_crank.kinematics import SliderCrank
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
-from mechwright.findings import Finding, Severity
+from mechwright import Finding, Severity
 from mechwright_slider_crank.requirements import StrokeRequirement
 
 RATIOS = (1.0, 3.0)

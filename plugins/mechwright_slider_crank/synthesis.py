@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright import Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams

@@ -9,10 +9,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright.errors import GeometryError, KinematicsError, MechwrightError
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Array, Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright import (
+    Array,
+    Candidate,
+    Finding,
+    GeometryError,
+    KinematicsError,
+    MechwrightError,
+    Progress,
+    Scalar,
+    Severity,
+    Synthesis,
+)
+from mechwright.contracts.finding import errors
 from mechwright_spherical import checks, structural
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
 from mechwright_spherical.linkage import linkage_of

@@ -19,12 +19,11 @@ base
     The base plate: z along the post, the origin on its underside.
 """
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright.motion import Array, Poses
+from mechwright import Array, Poses
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train
 from mechwright_spherical.linkage import Linkage, Phase
@@ -115,8 +114,3 @@ def quaternions(rotation: Array) -> Array:
     row = np.take_along_axis(products, best[None, None, :], axis=0)[0]
     found = row / np.sqrt((row**2).sum(axis=0))
     return np.asarray(np.where(found[0] < 0, -1.0, 1.0) * found)
-
-
-def degrees(angle: float) -> str:
-    """An angle, rad, for a message."""
-    return f"{math.degrees(angle):.4g}°"

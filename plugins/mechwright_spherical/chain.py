@@ -13,7 +13,7 @@ matrix with the rows A, B, C serves all orders, and its inverse is three vector 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.jets import Jet, combination, product, total
 from mechwright_spherical.vectors import cross, dot, norm
 

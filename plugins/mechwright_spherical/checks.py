@@ -10,14 +10,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, until_error
-from mechwright.motion import Array
+from mechwright import Array, Finding, Severity, until_error
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.parts import second_size
+from mechwright_spherical.places import second_size
 from mechwright_spherical.shells import shells_of
 
 DEAD_CENTRE = 1.0

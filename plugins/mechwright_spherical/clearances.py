@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.shells import Shells

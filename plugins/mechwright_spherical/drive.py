@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.chain import third_position
 from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.params import DriveTable

@@ -3,16 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright.family import Family
-from mechwright.findings import Finding, refuse
-from mechwright.parameters import Parameters
-from mechwright.synthesis import Progress, Synthesis
+from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright.motion import Motion
-    from mechwright.part import Part
+    from mechwright import Motion, Part
 
 
 class Spherical(Family[SphericalParams]):

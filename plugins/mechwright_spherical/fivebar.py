@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.loop import Loop
 from mechwright_spherical.projection import project
 from mechwright_spherical.vectors import arc, azimuth, column, cross, norm, rotate

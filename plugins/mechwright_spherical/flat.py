@@ -9,7 +9,7 @@ lie (r + K t) δ of strip, measured on the neutral fibre. Long arcs get several 
 import math
 from dataclasses import dataclass
 
-from mechwright.geometry import Arc, Line, Loop, Outline, Segment, circle
+from mechwright import Arc, Line, Loop, Outline, Segment, circle
 from mechwright_spherical.params import FlatTable
 
 SHARPEST = math.radians(60)

@@ -9,17 +9,16 @@ and the output angle ψ is 0 where b lies on the prolongation of oc beyond c. Cl
 The sign σ of c.(a x b) stays the same on a branch.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.chain import EDGE
-from mechwright_spherical.jets import Turning, turning_about
+from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State
-from mechwright_spherical.vectors import azimuth, column, cross, dot, norm, rotate
+from mechwright_spherical.vectors import column
 
 POLE = np.array([0.0, 0.0, 1.0])
 """The input axis o."""
@@ -104,60 +103,6 @@ class FourBar:
         cos, sin = np.cos(turn), np.sin(turn)
         return np.asarray(turn + np.arctan2(y * cos - x * sin, x * cos + y * sin))
 
-    def transmission_limits(self) -> tuple[float, float]:
-        """Least and greatest transmission angle over a whole turn, rad: at θ = 0 and θ = π."""
-        found = [
-            float(self._transmission(float(np.cos(self.ground - self.input * sign)))) for sign in (1, -1)
-        ]
-        return min(found), max(found)
-
-    def _transmission(self, cos_diagonal: float) -> float:
-        a3, a4 = float(self.coupler), float(self.output)
-        share = (cos_diagonal - math.cos(a3) * math.cos(a4)) / (math.sin(a3) * math.sin(a4))
-        return math.acos(share) if abs(share) <= 1 else math.nan
-
     def at(self, turning: Turning, order: int = 3) -> State:
         """Pins and path point; the pin C of the loop is b."""
         return self.loop().at(turning, order)
-
-    def output_turning(self, state: State, theta: ArrayLike) -> Turning:
-        """ψ and its rates for a state at the input angles ``theta``."""
-        rates = turning_about(self.output_axis, state.c)
-        return Turning(self.output_angle(theta), rates.rate, rates.acceleration, rates.jerk)
-
-    def relative_rate(self, state: State, rate: ArrayLike) -> Array:
-        """ζ of ω3 = θ' o + ζ a: how fast the coupler turns about a, against the frame, rad/s."""
-        c = column(self.output_axis, state.a[0])
-        b, a = state.c[0], state.a[0]
-        bent = cross(c, b)
-        return np.asarray(-np.asarray(rate) * bent[2] / dot(a, bent))
-
-
-def of_pins(o: Array, a: Array, c: Array, b: Array, p: Array) -> tuple[FourBar, Array, float]:
-    """The four-bar with these pins, its frame (3, 3) in space, and the input angle at which it stands so.
-
-    The columns of the frame are the directions of the four-bar's own x, y and z.
-    """
-    ground, input_, coupler, output = (_arc(u, v) for u, v in ((o, c), (o, a), (a, b), (c, b)))
-    m = cross(a, b) / np.sin(coupler)
-    side = 1.0 if float(dot(c, cross(a, b))) >= 0 else -1.0
-    eta = math.asin(max(-1.0, min(1.0, float(dot(p, m)))))
-    kappa = math.atan2(float(dot(p, cross(m, a))), float(dot(p, a)))
-    normal = cross(o, c) / np.sin(ground)
-    axes = np.stack([cross(normal, o), normal, o], axis=1)
-    theta = float(azimuth(o, c, a))
-    return FourBar(ground, input_, coupler, output, side, kappa, eta), axes, theta
-
-
-def _arc(u: Array, v: Array) -> float:
-    return float(np.arctan2(norm(cross(u, v)), dot(u, v)))
-
-
-def pin_at(linkage: FourBar, psi: ArrayLike) -> Array:
-    """The pin b (3, ...) at output angles ψ (...)."""
-    c = linkage.output_axis
-    prolonged = np.asarray(linkage.ground, dtype=float) + linkage.output
-    start = np.stack([np.sin(prolonged), 0 * prolonged, np.cos(prolonged)])
-    psi = np.asarray(psi, dtype=float)
-    like = np.empty((3, *np.broadcast_shapes(psi.shape, c.shape[1:])))
-    return rotate(column(c, like), psi, column(start, like))

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Array, Scalar
-from mechwright.synthesis import Candidate, Progress, Synthesis
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_spherical import checks
+from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import linkage_of
@@ -34,14 +33,8 @@ _CURVE = 72
 _SPANS = (0.12, 0.25, 0.4, 0.6, 0.8)
 """Parts of a turn that an open path may take."""
 
-_SLOPE = 1e-6
-"""Step of central differences, rad."""
-
 _PRECISION = 1e-14
 """Tolerances of the fit: the last digits that a residual of some 1e-4 has."""
-
-_ABSURD = 10.0
-"""Residual of a linkage that cannot be assembled."""
 
 _PINCH = 0.3
 """Weight of a transmission angle below its bound against the path's error: 1 degree there is 5e-3 here."""
@@ -207,8 +200,6 @@ class _Problem:
 
     def fit(self, start: _Start) -> _Start:
         """Least squares from a start."""
-        from scipy.optimize import least_squares
-
         timing = start.angles[:1] if self._given is not None else start.angles
         sense = 1.0 if start.angles[-1] >= start.angles[0] else -1.0
         x = np.concatenate([start.shape, np.zeros(3), timing])
@@ -217,29 +208,11 @@ class _Problem:
         low[:4], high[:4] = SHORTEST, LONGEST
         low[5], high[5] = -math.pi / 2, math.pi / 2
         x = np.clip(x, low + 1e-6, high - 1e-6)
-        steps = _SLOPE * np.concatenate([np.eye(x.size), -np.eye(x.size)], axis=1)
-
-        def residuals(at: Array) -> Array:
-            return self._residuals(at, start, sense)
-
-        def jacobian(at: Array) -> Array:
-            values = residuals(at[:, None] + steps)
-            return np.asarray((values[: x.size] - values[x.size :]).T / (2 * _SLOPE))
-
-        found = least_squares(
-            lambda at: residuals(at[:, None])[0],
-            x,
-            jac=jacobian,
-            bounds=(low, high),
-            xtol=_PRECISION,
-            ftol=_PRECISION,
-            gtol=_PRECISION,
-            max_nfev=150,
-        )
-        at = found.x[:, None]
+        best = fitted(lambda at: self._residuals(at, start, sense), x, _PRECISION, 150, bounds=(low, high))
+        at = best[:, None]
         angles = self._angles(at, sense)[0]
         frame = (_rotation(at[6:9])[:, :, 0]) @ start.frame
-        return _shortest(_Start(frame, found.x[:6], start.side, angles))
+        return _shortest(_Start(frame, best[:6], start.side, angles))
 
     def _angles(self, x: Array, sense: float) -> Array:
         """Input angles (designs, n)."""
@@ -262,7 +235,7 @@ class _Problem:
             math.radians(self._wanted.least_transmission) - np.minimum(mu, np.pi - mu), 0.0
         )
         whole = np.concatenate([misses.reshape(x.shape[1], -1), pinch / math.sqrt(_SWEEP)], axis=1)
-        return np.where(np.isfinite(whole), whole, _ABSURD)
+        return assembled(whole)
 
     def _sweep(self, angles: Array, sense: float) -> Array:
         """Input angles (designs, samples) of the whole motion."""

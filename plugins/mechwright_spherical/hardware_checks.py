@@ -6,14 +6,13 @@ from itertools import combinations
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, Stage, of_stage
-from mechwright.motion import Array
+from mechwright import Array, Finding, Severity, Stage, of_stage
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.parts import gear_span, link_arcs, second_size
+from mechwright_spherical.places import gear_span, link_arcs, second_size
 from mechwright_spherical.shells import Shells, shells_of
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
 from mechwright_spherical.vectors import arc, rotate

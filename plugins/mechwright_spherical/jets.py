@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.vectors import column, cross, dot
 
 Jet = tuple[Array, ...]
@@ -47,13 +47,6 @@ class Turning:
     def scaled(self, ratio: float) -> "Turning":
         """The turning of a shaft that is geared to this one."""
         return Turning(ratio * self.angle, ratio * self.rate, ratio * self.acceleration, ratio * self.jerk)
-
-
-def fixed(v: Array, like: Array, order: int) -> Jet:
-    """The jet of a vector (3,) that stands still, shaped as ``like`` (3, ...)."""
-    still = np.broadcast_to(column(v, like), like.shape)
-    zero = np.zeros(like.shape)
-    return (still, *(zero,) * order)
 
 
 def circle(axis: Array, start: Array, turning: Turning, order: int) -> Jet:

@@ -6,8 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mechwright.errors import DesignError, GeometryError
-from mechwright.motion import Array
+from mechwright import Array, DesignError, GeometryError
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Turning
@@ -159,25 +158,17 @@ def _five_bar(table: FiveBarTable) -> Linkage:
     mechanism = AdjustableFiveBar(**pins, p1=_direction(table.point, table, "point"), ratio=table.ratio)
     if table.common_arcs:
         mechanism = mechanism.equalised()
-    phases = (
+    phases = tuple(
         Phase(
-            1,
-            mechanism.phase(1),
+            number,
+            mechanism.phase(number),
             0.0,
-            math.radians(table.start),
-            math.radians(table.travel),
-            _points(table.path, table, "path"),
-            np.radians(np.array(table.path_angles, dtype=float)),
-        ),
-        Phase(
-            2,
-            mechanism.phase(2),
-            0.0,
-            math.radians(table.start_n),
-            math.radians(table.travel_n),
-            _points(table.path_n, table, "path_n"),
-            np.radians(np.array(table.path_angles_n, dtype=float)),
-        ),
+            math.radians(getattr(table, f"start{mark}")),
+            math.radians(getattr(table, f"travel{mark}")),
+            _points(getattr(table, f"path{mark}"), table, f"path{mark}"),
+            np.radians(np.array(getattr(table, f"path_angles{mark}"), dtype=float)),
+        )
+        for number, mark in ((1, ""), (2, "_n"))
     )
     return Linkage(phases, phases[table.phase - 1], five_bar=mechanism)
 

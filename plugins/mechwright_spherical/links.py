@@ -6,13 +6,13 @@ from functools import lru_cache
 import cadquery as cq
 import numpy as np
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.parts import gear_cones, gear_span, link_arcs, pin_places, second_size
+from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size
 from mechwright_spherical.shells import Shells, Span, shells_of
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction

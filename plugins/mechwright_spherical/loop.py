@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.motion import Array
+from mechwright import Array
 from mechwright_spherical.chain import body_point, coordinates, frame, radicand, spin, third_pin
 from mechwright_spherical.jets import Jet, Turning, circle
 from mechwright_spherical.vectors import arc, cross, dot

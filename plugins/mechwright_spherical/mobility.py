@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.motion import Array
+from mechwright import Array
 
 BALANCE = 1e-9
 """rad. Sums of arcs that differ by less are equal: the linkage folds flat there, and no machine holds it

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from mechwright.errors import DesignError, KinematicsError
-from mechwright.motion import Channel, Motion, Poses, Scalar, Trace
+from mechwright import Channel, DesignError, KinematicsError, Motion, Poses, Scalar, Trace
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Jet, Turning, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
+from mechwright_spherical.mobility import mobility
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.shells import shells_of
 from mechwright_spherical.stand import base_pose
@@ -138,8 +138,6 @@ def _arcs(linkage: Linkage) -> dict[str, Scalar]:
 
 
 def _mobility(four_bar: FourBar | None) -> dict[str, Scalar]:
-    from mechwright_spherical.mobility import mobility
-
     assert four_bar is not None  # noqa: S101 - the caller looked
     t = mobility(*four_bar.arcs).t
     return {f"T{place}": Scalar(float(value), "rad") for place, value in enumerate(t, start=1)}

@@ -2,18 +2,11 @@
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from mechwright.materials import MATERIALS, material
-from mechwright.parameters import Parameters
+from mechwright import MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
-
-MaterialName = Annotated[
-    str,
-    AfterValidator(lambda name: material(name).name),
-    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
-]
 
 Coordinate = Annotated[float, Field(ge=-1000, le=1000), Unit("")]
 Pin = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=3)]

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from mechwright.part import Colour, Instance, Part
+from mechwright import Colour, Instance, Part
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size
 from mechwright_spherical.shells import Shells, shells_of
 from mechwright_spherical.stand import base_outline
-from mechwright_spherical.vectors import arc
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -28,36 +28,6 @@ COLOURS: dict[str, Colour] = {
     "gear": (0.75, 0.68, 0.45),
     "flat": (0.70, 0.70, 0.72),
 }
-
-ONE_SIZE = 0.02
-"""mm. Pins of both phases that lie nearer to one circle than this share a link: less than the play of a
-bore."""
-
-
-def link_arcs(linkage: Linkage) -> dict[str, float]:
-    """Arcs of the links with two joints, rad, those of phase 1 where phases differ."""
-    loop = linkage.phases[0].loop
-    found = {
-        "ground": float(arc(loop.a0, loop.b0)),
-        "crank": float(arc(loop.a0, loop.a1)),
-        "rocker": math.acos(float(loop.cb)),
-    }
-    if linkage.five_bar is not None:
-        found["arm"] = float(arc(loop.b0, loop.b1))
-    return found
-
-
-def second_size(linkage: Linkage, shells: Shells) -> dict[str, float]:
-    """Links that phase 2 needs in another size, and their arcs then, rad."""
-    mechanism = linkage.five_bar
-    if mechanism is None:
-        return {}
-    pairs = {"crank": mechanism.crank_arcs, "rocker": mechanism.rocker_arcs}
-    return {
-        name: float(two)
-        for name, (one, two) in pairs.items()
-        if abs(float(one) - float(two)) * shells.links[name][1] > ONE_SIZE
-    }
 
 
 def parts_of(params: SphericalParams) -> tuple[Part, ...]:
@@ -112,23 +82,6 @@ def _links(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     yield _solid("coupler", params, "coupler", "coupler")
 
 
-def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
-    """Pins and shafts by part name: the key of its span, its body, and where it stands on that, rad."""
-    linkage = linkage_of(params)
-    arcs = link_arcs(linkage)
-    if linkage.shown.number == 2:
-        arcs |= second_size(linkage, shells_of(params))
-    found = {
-        "pin-a": ("a", "crank", arcs["crank"]),
-        "pin-c": ("c", "rocker", arcs["rocker"]),
-        "shaft-a0": ("a0", "crank", 0.0),
-        "shaft-b0": ("b0", "arm" if "arm" in arcs else "rocker", 0.0),
-    }
-    if "arm" in arcs:
-        found["pin-b"] = ("b", "arm", arcs["arm"])
-    return found
-
-
 def _pins(params: SphericalParams, train: Train | None) -> Iterator[Part]:
     for name, (_, body, _) in pin_places(params).items():
         yield _solid(name, params, body, "pin")
@@ -137,25 +90,10 @@ def _pins(params: SphericalParams, train: Train | None) -> Iterator[Part]:
     yield _solid("tool", params, "coupler", "pin")
 
 
-def gear_cones(train: Train) -> dict[str, tuple[str, float]]:
-    """Gears by part name: body and half angle of the pitch cone, rad."""
-    found = {"pinion": ("pinion", train.pinion), "wheel": ("arm", train.wheel)}
-    if train.idler_axis is not None:
-        found["idler"] = ("idler", train.idler)
-    return found
-
-
 def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
     if train is not None:
         for name, (body, _) in gear_cones(train).items():
             yield _solid(name, params, body, "gear")
-
-
-def gear_span(params: SphericalParams, shells: Shells, train: Train) -> tuple[float, float]:
-    """From where to where pitch cones go, mm along them: the widest one's flat end clears the ground."""
-    widest = max(train.pinion, train.wheel, train.idler)
-    inner = (shells.outside + params.hardware.gap) / math.cos(widest)
-    return inner, inner + params.drive.face_width
 
 
 def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:

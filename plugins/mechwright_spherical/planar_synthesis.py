@@ -15,8 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import KinematicsError
-from mechwright.motion import Array
+from mechwright import Array, KinematicsError
 from mechwright_spherical.planar import Complex, points
 
 Equations = Literal["five", "seven"]

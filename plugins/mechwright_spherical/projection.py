@@ -10,8 +10,7 @@ in the plane.
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import GeometryError
-from mechwright.motion import Array
+from mechwright import Array, GeometryError
 
 HORIZON = 1e-6
 """Part of its length by which a direction must rise above the plane's horizon, z = 0: beyond a million

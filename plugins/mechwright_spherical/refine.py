@@ -12,22 +12,16 @@ from enum import Enum
 
 import numpy as np
 
-from mechwright.errors import KinematicsError
-from mechwright.motion import Array
+from mechwright import Array, KinematicsError
+from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fivebar import AdjustableFiveBar, chord, mean
-from mechwright_spherical.vectors import column, cross, dot, norm
+from mechwright_spherical.jets import Turning
+from mechwright_spherical.vectors import column, cross, dot, norm, perpendicular
 
 _AXES = ("a0", "b0", "b1")
 
-_SLOPE = 1e-6
-"""Step of central differences, rad: their error is 1e-10, and Newton's steps converge all the same."""
-
 _PRECISION = 1e-15
 """Tolerances of the solver: down to rounding."""
-
-_ABSURD = 10.0
-"""Residual of a design that cannot be assembled: five diameters of the sphere, so that no step there is
-taken."""
 
 _PENALTY_SAMPLES = 31
 """Crank angles per phase at which the transmission angle is bounded: one per degree of the published
@@ -214,12 +208,10 @@ class _Problem:
         if self._least > 0:
             found.append(self._pinched(mechanism))
         whole = np.concatenate(found, axis=1)
-        return np.where(np.isfinite(whole), whole, _ABSURD)
+        return assembled(whole)
 
     def _pinched(self, mechanism: AdjustableFiveBar) -> Array:
         """By how much the transmission angle leaves its bounds over both travels, (designs, samples), rad."""
-        from mechwright_spherical.jets import Turning
-
         found = []
         for number, angles in ((1, self._path.angles), (2, self._path.angles_n)):
             sweep = np.linspace(angles.min(), angles.max(), _PENALTY_SAMPLES)
@@ -229,30 +221,10 @@ class _Problem:
 
     def solve(self, x: Array) -> Fit:
         """Fit from one start."""
-        from scipy.optimize import least_squares
-
-        steps = _SLOPE * np.concatenate([np.eye(x.size), -np.eye(x.size)], axis=1)
-
-        def jacobian(at: Array) -> Array:
-            values = self.residuals(at[:, None] + steps)
-            return np.asarray((values[: x.size] - values[x.size :]).T / (2 * _SLOPE))
-
-        found = least_squares(
-            lambda at: self.residuals(at[:, None])[0],
-            x,
-            jac=jacobian,
-            method="lm",
-            xtol=_PRECISION,
-            ftol=_PRECISION,
-            gtol=_PRECISION,
-            max_nfev=400,
-        )
-        mechanism = self.mechanism(found.x)
+        mechanism = self.mechanism(fitted(self.residuals, x, _PRECISION, 400, method="lm"))
         return Fit(mechanism, errors(mechanism, self._path))
 
 
 def _tangents(axis: Array) -> tuple[Array, Array]:
-    from mechwright_spherical.vectors import perpendicular
-
     one = perpendicular(axis)
     return one, cross(axis, one)

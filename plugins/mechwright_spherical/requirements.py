@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.parameters import Parameters
+from mechwright import Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 from mechwright_spherical.params import MOST_POSITIONS, Direction, Pin, Point, Turn, same_length

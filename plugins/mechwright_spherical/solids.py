@@ -10,8 +10,7 @@ from dataclasses import dataclass
 import cadquery as cq
 import numpy as np
 
-from mechwright.errors import GeometryError
-from mechwright.motion import Array
+from mechwright import Array, GeometryError
 from mechwright_spherical.shells import Span
 from mechwright_spherical.vectors import arc, azimuth, cross, norm, perpendicular, rotate, vector
 

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.geometry import Arc, Line, Loop, Outline, Segment, circle
-from mechwright.motion import Array
+from mechwright import Arc, Array, Line, Loop, Outline, Segment, circle
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.linkage import Linkage
 from mechwright_spherical.params import StandTable

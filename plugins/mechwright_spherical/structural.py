@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import KinematicsError
-from mechwright.motion import Array
+from mechwright import Array, KinematicsError
 from mechwright_spherical.fivebar import chord, projected
 from mechwright_spherical.projection import project
 
@@ -35,9 +34,6 @@ _SLOPE = 1e-6
 
 _LEVEL = 1e-11
 """Part of the greatest error to which its least level is found: the centre then stands still to 1e-6."""
-
-_FIRST, _DOUBLINGS = 8.0, 4
-"""Lengths of the extrapolation: 8 to 64, where rounding grows from 1e-13 to 1e-9 of the result."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,22 +80,6 @@ def scaled_error(design: PlanarDesign, length: ArrayLike, position: int | None =
     return np.asarray(found.max(axis=-1) if position is None else found[..., position - 1])
 
 
-def peak(design: PlanarDesign, position: int | None = None) -> tuple[float, float]:
-    """Length at which the error times the length is greatest, and that value."""
-    from scipy.optimize import minimize_scalar
-
-    lengths = _grid()
-    values = scaled_error(design, lengths, position)
-    top = int(np.nanargmax(values))
-    found = minimize_scalar(
-        lambda d: -float(scaled_error(design, d, position)),
-        bounds=(lengths[max(top - 1, 0)], lengths[min(top + 1, len(lengths) - 1)]),
-        method="bounded",
-        options={"xatol": 1e-10},
-    )
-    return float(found.x), -float(found.fun)
-
-
 def smallest_length(
     design: PlanarDesign, tolerance: float, position: int | None = None, *, best: bool = False
 ) -> float:
@@ -123,7 +103,7 @@ def smallest_length(
     """
     from scipy.optimize import brentq
 
-    lengths = _grid()
+    lengths = grid()
     values = scaled_error(design, lengths, None if best else position)
     above = np.flatnonzero(~(values <= tolerance))  # also where it cannot be assembled
     if above.size == 0:
@@ -196,19 +176,7 @@ def best_centre(design: PlanarDesign, length: float, near: ArrayLike | None = No
     return (np.asarray(found.x[:2]), better) if better < value else (at, value)
 
 
-def asymptote(design: PlanarDesign) -> Array:
-    """K (n,) of error = K/d³ for long projections of exact planar targets.
-
-    The error times d³ is a series in d⁻²; doubling the length again and again takes its terms out one by one
-    (Romberg).
-    """
-    d = _FIRST * 2.0 ** np.arange(_DOUBLINGS)
-    rows = errors(design, d) * d[:, None] ** 3
-    for term in range(1, _DOUBLINGS):
-        rows = (4**term * rows[1:] - rows[:-1]) / (4**term - 1)
-    return np.asarray(rows[0])
-
-
-def _grid() -> Array:
+def grid() -> Array:
+    """Projection lengths (n,) at which the error is looked at."""
     decades = np.log10(LONGEST) + 2
     return np.logspace(-2, np.log10(LONGEST), int(decades * _PER_DECADE) + 1)

@@ -7,8 +7,7 @@ worked on row by row. Axes and pins are unit vectors; angles are in rad.
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mechwright.errors import GeometryError
-from mechwright.motion import Array
+from mechwright import Array, GeometryError
 
 LEAST_LENGTH = 1e-9
 """A vector shorter than this has no direction: what is left of numbers near 1 that cancel."""

@@ -10,10 +10,11 @@ from pathlib import Path
 from planning_parts import LIBRARY, bore, part
 
 from mechwright.geometry import Loop
-from mechwright.host import host
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.pipeline import Machined, machine
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 FOLDER = Path(__file__).parents[1] / "golden" / "compensation"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3")
@@ -34,7 +35,7 @@ def made(way: str, control: str) -> Machined:
     }
     plate = part(CORNERED, bore(10.0, (0.0, -4.0)), thickness=3.0)
     job = make_job(plate, CamSettings.model_validate(settings), [LIBRARY.get("mill-4")])
-    return machine(job, host().post(control))
+    return machine(job, host().get(Control, control))
 
 
 def texts() -> dict[str, str]:

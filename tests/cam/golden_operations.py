@@ -13,15 +13,16 @@ from pathlib import Path
 
 from planning_parts import LIBRARY, rounded_box
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
-from mechwright.findings import errors
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.host import host
-from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.pipeline import Machined, machine, second_setup
-from mechwright_cam.setups import lay_out_setups
+from mechwright.geometry.lettering import lettering
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine, second_setup
+from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.shop.settings import CamSettings
 
 FOLDER = Path(__file__).parents[1] / "golden" / "operations"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
@@ -295,7 +296,7 @@ CASES: dict[str, Case] = {
 @cache
 def made(operation: str, control: str) -> tuple[Machined, ...]:
     """The proven programs of an operation's part: one, or two where it has a second side."""
-    case, post = CASES[operation], host().post(control)
+    case, post = CASES[operation], host().get(Control, control)
     plain = {"control": control, "tools": case.tools, "floor_to_leave": 0}
     cam = CamSettings.model_validate({**plain, **case.settings})
     jobs, found = lay_out_setups(case.part(operation), cam, LIBRARY)
@@ -303,7 +304,7 @@ def made(operation: str, control: str) -> tuple[Machined, ...]:
         raise AssertionError(f"{operation}: {errors(found)[0]}")
     done: list[Machined] = []
     for place, job in enumerate(jobs):
-        done.append(machine(job if job.side == "top" else second_setup(done[-1], job, post), post, place))
+        done.append(machine(job if job.side == "top" else second_setup(done[-1], job), post, place))
     return tuple(done)
 
 

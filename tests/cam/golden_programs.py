@@ -6,10 +6,12 @@ Every text has been read line by line as a machinist would before it was kept; r
 from dataclasses import replace
 from pathlib import Path
 
-from mechwright.host import host
-from mechwright.machine import Machine
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import Measured, Posting, Tool, ToolKind
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Measured, Posting
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 FOLDER = Path(__file__).parents[1] / "golden"
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
@@ -119,10 +121,10 @@ def texts() -> dict[str, str]:
     """File name to text of everything that is kept."""
     kept = {}
     for control in CONTROLS:
-        post = host().post(control)
+        post = host().get(Control, control)
         kept[f"{control}.nc"] = post.write(every_operation())
         kept[f"{control}-options.nc"] = post.write(with_options())
-    for stem, text in host().post("grbl").files(every_operation()).items():
+    for stem, text in host().get(Control, "grbl").files(every_operation()).items():
         kept[f"grbl-{stem}.nc"] = text
     return kept
 

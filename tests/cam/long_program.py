@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from shop import MILL, plate_program
 
-from mechwright.program import Feed, Operation, Program, Rapid, ToolSection
+from mechwright_cam.program.moves import Feed, Operation, Program, Rapid, ToolSection
 
 
 def long_program(moves: int) -> Program:

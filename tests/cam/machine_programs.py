@@ -1,18 +1,18 @@
 """The plate's program for each control, and lines put into it at places that matter."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
+from by_control import BY_NAME
 from shop import DRILL, MILL, SPOT, plate_job, plate_program
 
-from mechwright.host import host
-from mechwright.machine import Machine
-from mechwright.tooling import Measured, Posting
-from mechwright_cam.interpreter import DIALECTS
-from mechwright_cam.job import Job
-from mechwright_cam.proof import Check, read
-from mechwright_cam.proof.paths import Paths
-from mechwright_cam.proof.scene import Rule, Scene
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.proof import Check, Scene
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Measured, Posting
 
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 RETRACT = -2.0
@@ -40,7 +40,7 @@ def text_of(control: str, *, measured: bool = False, work_offset: str = "G54") -
         program = replace(
             program, sections=sections, posting=Posting(offsets=True), measured=Measured(**PLACE)
         )
-    return host().post(control).write(program)
+    return host().get(Control, control).write(program)
 
 
 def in_cut(text: str, words: str) -> tuple[str, int]:
@@ -65,18 +65,16 @@ def before_the_last_retract(text: str, words: str) -> tuple[str, int]:
 
 
 def scene_of(control: str, text: str, job: Job | None = None) -> Scene:
-    """What a rule about the machine's state looks at; it asks nothing of the stock."""
-    job = job or job_of(control)
-    run = read(text, job, DIALECTS[control])
-    tools = {tool.number: tool for tool in job.tools}
-    return Scene(run, job, tools, Paths(run, tools), None, DIALECTS[control])
+    return Scene(text, job or job_of(control), BY_NAME[control])
 
 
-def judged(rule: Rule, control: str, text: str, job: Job | None = None) -> Check:
+def judged(rule: Callable[[Scene], Check], control: str, text: str, job: Job | None = None) -> Check:
     return rule(scene_of(control, text, job))
 
 
-def refused(rule: Rule, control: str, text: str, line: int, job: Job | None = None) -> Check:
+def refused(
+    rule: Callable[[Scene], Check], control: str, text: str, line: int, job: Job | None = None
+) -> Check:
     """The failed check, which has to name the line."""
     found = judged(rule, control, text, job)
     assert not found.passed

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mechwright_cam.interpreter import Kind, Run
+from mechwright_cam.controls.reading import Kind, Run
 
 Rng = np.random.Generator
 WORD = re.compile(r"([A-Z])([-+]?(?:\d+\.?\d*|\.\d+))")

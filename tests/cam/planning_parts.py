@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
+from mechwright.contracts.part import Part
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Part
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 

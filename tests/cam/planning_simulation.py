@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import Drill, Feed, FeedArc, Pause, Program, Rapid
-from mechwright.tooling import Tool, ToolKind
-from mechwright_cam.job import Job
+from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Pause, Program, Rapid
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 @dataclass(frozen=True, eq=False)

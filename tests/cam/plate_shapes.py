@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Instance, Part
 
 WAVE_RADIUS, WAVE_HEIGHT = 30.0, 2.0
 

@@ -1,18 +1,19 @@
 """A job planned, posted for LinuxCNC, proven, and looked at by the crude simulation of the planning tests."""
 
+from by_control import prove
 from planning_simulation import check_rules, gouge
 
-from mechwright.program import Program
-from mechwright_cam.job import Job
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.program.moves import Program
+from mechwright_cam.proof import Proof
+from mechwright_cam.setup.job import Job
 
 
 def proven(of: Job) -> tuple[Program, str, Proof]:
     """The program of a job, its text and its proof, none of which has anything to complain of."""
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     assert gouge(of, program) <= 0.005

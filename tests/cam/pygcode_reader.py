@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_control import BY_NAME, interpret
 
-from mechwright_cam.interpreter import DIALECTS, Kind, interpret
+from mechwright_cam.controls.reading import Kind
 
 FOLDER = os.environ.get("MECHWRIGHT_PYGCODE", "")
 needs_pygcode = pytest.mark.skipif(
@@ -64,7 +65,7 @@ def agree(texts: Sequence[str], control: str, upper_end: float) -> int:
     """How many moves both read alike, in programs without cycles."""
     seen = 0
     for text, read in zip(texts, theirs(texts), strict=True):
-        run = interpret(text, DIALECTS[control], upper_end=upper_end)
+        run = interpret(text, BY_NAME[control], upper_end=upper_end)
         for step in range(len(run)):
             moved = run.kind[step] in (Kind.FEED, Kind.ARC, Kind.RAPID)
             if not moved or not np.isfinite(run.end[step]).all():

@@ -8,23 +8,27 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from by_control import prove
 from planning_parts import LIBRARY, rounded_box
 from random_shapes import Rng, polygon, ring, slot
 
-from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.errors import MechwrightError
-from mechwright.findings import errors
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.host import host
-from mechwright.lettering import lettering
-from mechwright.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Tool, ToolKind
-from mechwright_cam.job import Job
-from mechwright_cam.library import Library
-from mechwright_cam.pipeline import Machined, dialect_of, second_setup
+from mechwright.geometry.lettering import lettering
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, second_setup
 from mechwright_cam.planning import plan
-from mechwright_cam.proof import Proof, prove
-from mechwright_cam.setups import lay_out_setups
+from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.proof import Proof, Scene
+from mechwright_cam.proof.judge import judge
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
@@ -394,7 +398,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         **drawn.settings,
         **changes,
     }
-    post = host().post(control)
+    post = host().get(Control, control)
     made: list[Machined] = []
     try:
         cam = CamSettings.model_validate(wanted)
@@ -402,12 +406,11 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         if errors(found):
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:
-            laid = job if job.side == "top" else second_setup(made[-1], job, post)
+            laid = job if job.side == "top" else second_setup(made[-1], job)
             program = plan(laid)
             text = post.write(program)
-            made.append(
-                Machined(laid, program, {program.name: text}, prove(text, laid, dialect_of(post)), text)
-            )
+            scene = Scene(text, laid, post)
+            made.append(Machined(laid, program, {program.name: text}, judge(scene), scene))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))
     return Outcome(drawn, control, made=tuple(made))
@@ -425,8 +428,8 @@ def without(outcome: Outcome, place: int, name: str) -> Proof | None:
         return None
     if not sections:
         return None
-    post = host().post(outcome.control)
-    return prove(post.write(replace(one.program, sections=tuple(sections))), one.job, dialect_of(post))
+    post = host().get(Control, outcome.control)
+    return prove(post.write(replace(one.program, sections=tuple(sections))), one.job, post)
 
 
 def named(job: Job, tools: tuple[Tool, ...]) -> set[str]:

@@ -3,16 +3,17 @@
 import math
 
 import numpy as np
+from by_control import prove
 
+from mechwright.contracts.part import Part, Pocket
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Part, Pocket
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.proof import Proof
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 MILLS = ("mill-10", "mill-8", "mill-6", "mill-5", "mill-4", "mill-3", "mill-2")
@@ -81,4 +82,4 @@ def case(seed: int, **changes: object) -> Proof | str:
         program = plan(job)
     except MechwrightError as error:
         return str(error)
-    return prove(LinuxCncPost().write(program), job)
+    return prove(LinuxCnc().write(program), job)

@@ -3,17 +3,19 @@
 import math
 
 import numpy as np
+from by_control import prove
 from height_map import Simulation, cutters, read
 from random_pockets import rounded
 
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Feature, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library, load_library
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.proof import Proof
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 WIDE, HIGH, THICK = 50.0, 36.0, 8.0
@@ -50,7 +52,7 @@ def laid(*features: Feature, tools: tuple[str, ...] = (), library: Library = LIB
 
 
 def made(job: Job) -> tuple[str, Proof]:
-    text = LinuxCncPost().write(plan(job))
+    text = LinuxCnc().write(plan(job))
     return text, prove(text, job)
 
 

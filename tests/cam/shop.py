@@ -2,11 +2,14 @@
 
 import math
 
+from mechwright.contracts.part import Bore, Part, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Part, Profile
-from mechwright.program import Drill, Feed, FeedArc, Move, Operation, Program, Rapid, ToolSection
-from mechwright.tooling import CamSettings, Hold, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Move, Operation, Program, Rapid, ToolSection
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 HALF_X, HALF_Y, CORNER, BORE, THICKNESS = 30.0, 20.0, 8.0, 12.0, 6.0
 BIAS = 0.001

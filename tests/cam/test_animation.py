@@ -13,15 +13,15 @@ import pytest
 import shapely
 from scipy.spatial.transform import Rotation
 
-from mechwright.design import load
+from mechwright.contracts.motion import Channel, Motion, Poses, Trace
+from mechwright.contracts.part import Instance, Part, Pocket
+from mechwright.designs.design import load
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.host import host
-from mechwright.motion import Channel, Motion, Poses, Trace
-from mechwright.part import Instance, Part, Pocket
-from mechwright_cam.animation import motion_html, page_of
-from mechwright_cam.animation.figures import significant
-from mechwright_cam.animation.scene import SAMPLES, scene
-from mechwright_cam.animation.space import CHORD
+from mechwright.plugins.host import host
+from mechwright_cad.animation import motion_html, page_of
+from mechwright_cad.animation.figures import significant
+from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
+from mechwright_cad.animation.space import SURFACE_CHORD
 
 EXAMPLES = sorted(
     path for path in (Path(__file__).parents[2] / "examples").glob("*.toml") if "requirement" not in path.stem
@@ -42,11 +42,11 @@ def about(axis, angle):
 def placed(found, body, points):
     """Points (k, 3) of a body at all samples, (n, k, 3), as the page places them."""
     pose = found["poses"][body]
-    columns = np.column_stack([np.broadcast_to(column, SAMPLES) for column in pose["columns"]])
+    columns = np.column_stack([np.broadcast_to(column, PAGE_SAMPLES) for column in pose["columns"]])
     if "layers" in found:
         turn = about("z", columns[:, 2])
         turn = turn @ np.diag((1.0, -1.0 if pose.get("down") else 1.0, 1.0))
-        place = np.column_stack((columns[:, :2], np.zeros(SAMPLES)))
+        place = np.column_stack((columns[:, :2], np.zeros(PAGE_SAMPLES)))
     else:
         turn = Rotation.from_quat(np.roll(columns[:, 3:], -1, axis=1)).as_matrix()
         place = columns[:, :3]
@@ -67,7 +67,7 @@ def test_every_example_has_a_page_that_agrees_with_its_motion(path):
     page = page_of(design.name, design.family, design.params, solids=False)
     assert len(page) < SIZE
     found = data_of(page)
-    motion = design.family.solve(design.params, SAMPLES)
+    motion = design.family.solve(design.params, PAGE_SAMPLES)
     parts = design.family.parts(design.params)
     assert set(found["poses"]) == {instance.body for part in parts for instance in part.instances}
     corners = np.array([(0.0, 0, 0), (60, 0, 0), (0, 60, 0), (-30, 20, 0)])
@@ -102,7 +102,7 @@ def test_families_name_the_points_whose_paths_are_drawn():
         np.testing.assert_allclose(motion.path(traced)[:, : len(channels)], wanted, atol=1e-9)
 
 
-ANGLE = np.linspace(0, math.tau, SAMPLES)
+ANGLE = np.linspace(0, math.tau, PAGE_SAMPLES)
 SQUARE = Loop.polygon([(-20, -10), (20, -10), (20, 10), (-20, 10)])
 STILL = Poses.planar(0.0, 0.0, 0 * ANGLE)
 
@@ -126,7 +126,9 @@ def test_layers_are_those_of_the_plate_from_the_bottom_up():
         (1.0, 0.0, 0.2),
         machined=(pocket,),
     )
-    turned = Poses(np.tile((30.0, 0.0, 20.0), (SAMPLES, 1)), np.tile(np.diag((1.0, -1, -1)), (SAMPLES, 1, 1)))
+    turned = Poses(
+        np.tile((30.0, 0.0, 20.0), (PAGE_SAMPLES, 1)), np.tile(np.diag((1.0, -1, -1)), (PAGE_SAMPLES, 1, 1))
+    )
     found = scene([plate("high", 2.0), low], motion_of(low=STILL, high=turned), solids=False)
     assert [(layer["body"], layer["top"]) for layer in found["layers"]] == [
         ("low", 6),
@@ -156,8 +158,8 @@ def test_the_window_holds_the_whole_motion():
 
 def test_bodies_in_space_are_meshes_and_stand_on_the_largest_plate_at_rest():
     lean = about("x", np.array([0.4]))[0]
-    base = Poses(np.zeros((SAMPLES, 3)), np.tile(lean, (SAMPLES, 1, 1)))
-    spun = Poses(np.tile((0, 0, -50.0), (SAMPLES, 1)), about("y", ANGLE))
+    base = Poses(np.zeros((PAGE_SAMPLES, 3)), np.tile(lean, (PAGE_SAMPLES, 1, 1)))
+    spun = Poses(np.tile((0, 0, -50.0), (PAGE_SAMPLES, 1)), about("y", ANGLE))
     found = scene([plate("base"), plate("flap", -4.0)], motion_of(base=base, flap=spun), solids=False)
     for mesh, z in zip(found["meshes"], (0, -4), strict=True):
         points = np.array(mesh["points"]).reshape(-1, 3)
@@ -183,7 +185,7 @@ def test_solids_are_drawn_where_they_are_made():
     assert [(layer["name"], layer["top"]) for layer in found["layers"]] == [("cone", 10), ("pin", 39)]
     wide, slim = (polygon_of(layer["path"]) for layer in found["layers"])
     assert slim.area == pytest.approx(math.pi * 16, abs=math.tau * 4 * 0.02)
-    assert wide.area == pytest.approx(math.pi * 36, abs=math.tau * 6 * (CHORD + 0.02))
+    assert wide.area == pytest.approx(math.pi * 36, abs=math.tau * 6 * (SURFACE_CHORD + 0.02))
     assert scene([cone, pin], motion_of(cone=STILL), solids=False)["missing"] == ["cone", "pin"]
 
 
@@ -259,7 +261,7 @@ def test_solve_writes_the_page_without_the_cad_kernel(tmp_path):
 )
 def test_a_browser_runs_the_page_without_a_complaint(stem, at, tmp_path):
     if stem == "none":
-        motion = Motion("phi", {"phi": Channel(ANGLE, "rad"), "x": Channel(np.full(SAMPLES, 5.0), "mm")})
+        motion = Motion("phi", {"phi": Channel(ANGLE, "rad"), "x": Channel(np.full(PAGE_SAMPLES, 5.0), "mm")})
         page = motion_html("none", "", [], motion, solids=False)
     else:
         design = load(EXAMPLES[[path.stem for path in EXAMPLES].index(stem)], host())

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 
 GEAR = """format = 1
 family = "elliptic-gears"
@@ -40,7 +40,7 @@ SLOT = r"cam\.tools: no listed end mill enters"
 def run(folder: Path, *words: str) -> tuple[int, str]:
     """Exit code and everything said; nothing is written beside what was there."""
     before = sorted(path.name for path in folder.rglob("*"))
-    done = CliRunner().invoke(app, list(words))
+    done = CliRunner().invoke(make_app(), list(words))
     assert sorted(path.name for path in folder.rglob("*")) == before
     said = done.output + (
         str(done.exception) if done.exception and not isinstance(done.exception, SystemExit) else ""

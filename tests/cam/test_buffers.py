@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from planning_parts import job, lobes, part
 from planning_simulation import motions
 
-from mechwright.part import Profile
-from mechwright_cam.buffers import THINNING, buffered
+from mechwright.contracts.part import Profile
+from mechwright_cam.plane.buffers import THINNING, buffered
 from mechwright_cam.planning import plan
 
 # An opening with a bulge; with a distance of 2.5, GEOS 3.14 leaves a ring that is 1.9 from its walls.

@@ -7,7 +7,7 @@ from typing import get_args, get_origin
 
 from pydantic import BaseModel
 
-from mechwright.tooling import CamSettings
+from mechwright_cam.shop.settings import CamSettings
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "cam-table.md").read_text(encoding="utf-8")

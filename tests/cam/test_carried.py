@@ -7,23 +7,22 @@ import height_map
 import numpy as np
 import pytest
 import shapely
+from by_control import BY_NAME, cut_away, interpret, prove, simulated
 from planning_parts import LIBRARY, bore, rounded_box
 
-from mechwright.details import Chamfer
-from mechwright.findings import errors
+from mechwright.contracts.details import Chamfer
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Outline
-from mechwright.host import host
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.job import Air
-from mechwright_cam.pipeline import machine, second_setup
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine, second_setup
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import cut_away, prove
+from mechwright_cam.planning.setups import carried, lay_out_setups, turned_shape
 from mechwright_cam.proof.carried import SWEPT
-from mechwright_cam.proof.simulation import simulate
-from mechwright_cam.setups import carried, lay_out_setups, turned_shape
+from mechwright_cam.setup.job import Air
+from mechwright_cam.shop.settings import CamSettings
 
 THICKNESS = 8.0
 RIM = rounded_box(60, 40, 6)
@@ -48,8 +47,8 @@ def made(flip="x"):
     settings = CamSettings.model_validate({"tools": tools, "second_side": {"flip": flip}})
     jobs, found = lay_out_setups(part, settings, LIBRARY)
     assert not errors(found), found
-    first = machine(jobs[0], LinuxCncPost())
-    return first, machine(second_setup(first, jobs[1], LinuxCncPost()), LinuxCncPost())
+    first = machine(jobs[0], LinuxCnc())
+    return first, machine(second_setup(first, jobs[1]), LinuxCnc())
 
 
 @cache
@@ -121,7 +120,7 @@ def test_recesses_that_meet_break_through():
     beside = turned_shape(shapely.transform(alone, lambda p: p - first.job.origin), first.job, second.job)
     assert len(below.left(beside, -THICKNESS)) > 0
     assert len(below.left(beside.buffer(-0.3), -4.98)) == 0
-    seen = simulate(interpret(second.text), second.job)
+    seen = simulated(second.text, second.job)
     x0, y0, _, _ = second.job.stock
     at = there.centroid
     assert seen.heights[int((at.y - y0) / seen.cell), int((at.x - x0) / seen.cell)] == -THICKNESS
@@ -129,7 +128,7 @@ def test_recesses_that_meet_break_through():
 
 def test_the_same_stock_stands_in_both_simulators():
     for side, seen in zip(made(), milled(), strict=True):
-        grid = simulate(interpret(side.text), side.job)
+        grid = simulated(side.text, side.job)
         x0, y0, _, _ = side.job.stock
         i = np.clip(((seen.x - x0) / grid.cell).astype(int), 0, grid.heights.shape[1] - 1)
         j = np.clip(((seen.y - y0) / grid.cell).astype(int), 0, grid.heights.shape[0] - 1)
@@ -144,9 +143,9 @@ def test_the_same_stock_stands_in_both_simulators():
 def test_the_underside_does_not_cut_air():
     _, second = made()
     blind = replace(second.job, gone=())
-    plain = LinuxCncPost().write(plan(blind))
+    plain = LinuxCnc().write(plan(blind))
     assert prove(plain, blind).ok
-    knowing, not_knowing = (simulate(interpret(text), second.job) for text in (second.text, plain))
+    knowing, not_knowing = (simulated(text, second.job) for text in (second.text, plain))
     assert knowing.feed_mm < 0.9 * not_knowing.feed_mm
     assert knowing.air_mm < 0.6 * not_knowing.air_mm
     # Without what the first side has left, the program leaves floors standing.
@@ -193,11 +192,11 @@ def test_chips_are_as_thick_as_the_stock_that_is_there():
     whole = replace(second.job, gone=())
     opened = replace(second.job, gone=(Air(shapely.box(x0, y0, x1, y1), -2.0),))
     through = replace(second.job, gone=(Air(shapely.box(x0, y0, x1, y1), 0.0),))
-    run = interpret(text)
-    rates = [simulate(run, job).works for job in (whole, opened, through)]
+    rates = [simulated(text, job).works for job in (whole, opened, through)]
     assert rates[0][0].removal == pytest.approx(3 * rates[1][0].removal, rel=0.02)
     assert rates[2] == ()
-    assert simulate(run, through).air_mm == simulate(run, through).feed_mm
+    blank = simulated(text, through)
+    assert blank.air_mm == blank.feed_mm
 
 
 def test_nothing_is_carried_from_a_program_that_cuts_nothing():
@@ -209,9 +208,9 @@ def test_nothing_is_carried_from_a_program_that_cuts_nothing():
 def test_other_controls_hand_on_the_same():
     first, _ = made()
     reference = cut_away(first.text, first.job)
-    haas = host().post("haas")
+    haas = host().get(Control, "haas")
     text = haas.write(first.program)
-    found = cut_away(text, first.job, DIALECTS["haas"])
+    found = cut_away(text, first.job, BY_NAME["haas"])
     assert [z for _, z in found] == [z for _, z in reference]
     for (one, _), (two, _) in zip(found, reference, strict=True):
         assert one.symmetric_difference(two).area < SWEPT * one.length

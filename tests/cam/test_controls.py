@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_control import BY_NAME, interpret, prove
 from golden_programs import CONTROLS, FOLDER, every_operation, texts, with_options
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,51 +16,55 @@ from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_job, plate_program
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.design import load
+from mechwright.contracts.finding import Severity
 from mechwright.errors import ProgramError
-from mechwright.findings import Finding, Severity
-from mechwright.host import host
-from mechwright.machine import Machine
-from mechwright.output import Post
-from mechwright.program import Drill, Program, Rapid
-from mechwright.testing import PostContract, sample_program
-from mechwright.tooling import CamSettings, Measured, Posting, Tool
-from mechwright_cam.interpreter import DIALECTS, Kind, Run, interpret
-from mechwright_cam.job import Job
-from mechwright_cam.pipeline import check, machine
-from mechwright_cam.posts import FanucPost, GrblPost, HaasPost, LinuxCncPost, Mach3Post
-from mechwright_cam.proof import prove
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.fanuc import Fanuc
+from mechwright_cam.controls.grbl import Grbl
+from mechwright_cam.controls.haas import Haas
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.mach3 import Mach3
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.machining import machine
+from mechwright_cam.program.moves import Drill, Program, Rapid
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.posting import Measured, Posting
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+from mechwright_cam.testing import ControlContract, sample_program
 
 
 def planned_job(**settings: object) -> Job:
     return job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings)
 
 
-def post_of(control: str) -> Post:
-    return host().post(control)
+def post_of(control: str) -> Control:
+    return host().get(Control, control)
 
 
 # -- the contract -------------------------------------------------------------------------------------------
 
 
-class TestLinuxCnc(PostContract):
-    post = LinuxCncPost
+class TestLinuxCnc(ControlContract):
+    control = LinuxCnc
 
 
-class TestFanuc(PostContract):
-    post = FanucPost
+class TestFanuc(ControlContract):
+    control = Fanuc
 
 
-class TestHaas(PostContract):
-    post = HaasPost
+class TestHaas(ControlContract):
+    control = Haas
 
 
-class TestMach3(PostContract):
-    post = Mach3Post
+class TestMach3(ControlContract):
+    control = Mach3
 
 
-class TestGrbl(PostContract):
-    post = GrblPost
+class TestGrbl(ControlContract):
+    control = Grbl
     longest_line = 79
 
     def length_offset(self, tool: Tool) -> str:
@@ -85,7 +90,7 @@ def test_no_text_is_kept_that_nothing_writes() -> None:
 
 def read(control: str, program: Program) -> Run:
     text = post_of(control).write(program)
-    return interpret(text, DIALECTS[control], upper_end=program.machine.retract_z)
+    return interpret(text, BY_NAME[control], upper_end=program.machine.retract_z)
 
 
 def cuts(run: Run) -> np.ndarray:
@@ -109,7 +114,7 @@ def test_a_program_for_any_control_is_proven_as_that_control_reads_it(control: s
     settings = {"control": control, "machine": {"retract_z": -2.0}}
     program = replace(plate_program(), machine=Machine(retract_z=-2))
     text = post_of(control).write(program)
-    proof = prove(text, plate_job(**settings), DIALECTS[control])
+    proof = prove(text, plate_job(**settings), BY_NAME[control])
     assert proof.failures == ()
 
 
@@ -117,14 +122,14 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
     texts = {control: post_of(control).write(plate_program()) for control in CONTROLS}
     job = plate_job()
     with pytest.raises(ProgramError, match=r"^line 2: "):
-        prove(texts["fanuc"], job, DIALECTS["linuxcnc"])
+        prove(texts["fanuc"], job, BY_NAME["linuxcnc"])
     with pytest.raises(ProgramError, match=r"^line 9: P means nothing in this line"):
-        prove(texts["linuxcnc"], job, DIALECTS["haas"])
+        prove(texts["linuxcnc"], job, BY_NAME["haas"])
     with pytest.raises(ProgramError, match="no decimal point"):
-        prove(texts["linuxcnc"].replace("G64 P0.002", "G64"), job, DIALECTS["haas"])
-    assert not prove(texts["grbl"], job, DIALECTS["mach3"]).checks["tools"].passed
+        prove(texts["linuxcnc"].replace("G64 P0.002", "G64"), job, BY_NAME["haas"])
+    assert not prove(texts["grbl"], job, BY_NAME["mach3"]).checks["tools"].passed
     with pytest.raises(ProgramError, match="G64 is no code that Grbl"):
-        prove(texts["mach3"], job, DIALECTS["grbl"])
+        prove(texts["mach3"], job, BY_NAME["grbl"])
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -136,7 +141,7 @@ def test_planned_programs_are_proven_for_every_control(control: str) -> None:
 
 
 def test_files_of_one_tool_each_are_proven_together() -> None:
-    settings = {"control": "grbl", "machine": {"retract_z": -2.0}}
+    settings = {"control": "grbl", "machine": {"retract_z": -2.0}, "post": {"tool_change": "files"}}
     made = machine(planned_job(**settings), post_of("grbl"))
     assert len(made.files) == len(made.program.sections) >= 3
     assert made.proof.ok
@@ -146,10 +151,10 @@ def test_files_of_one_tool_each_are_proven_together() -> None:
     files = {name + ".nc": text for name, text in made.files.items()}
     last = [*files][-1]
     broken = {**files, last: files[last].replace("S", "S9", 1)}
-    found = prove(broken, made.job, DIALECTS["grbl"]).checks["speeds"]
+    found = prove(broken, made.job, BY_NAME["grbl"]).checks["speeds"]
     assert found.message.startswith(f"{last}: line ")
     with pytest.raises(ProgramError, match=rf"^{last}: line 1: "):
-        prove({**files, last: "G1 X..2\n" + files[last]}, made.job, DIALECTS["grbl"])
+        prove({**files, last: "G1 X..2\n" + files[last]}, made.job, BY_NAME["grbl"])
 
 
 # -- Grbl's published list of words -------------------------------------------------------------------------
@@ -223,7 +228,7 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
 def test_a_long_program_is_read_and_proven_quickly(control: str) -> None:
     text = post_of(control).write(long_program(20_000))
     started = time.perf_counter()
-    assert prove(text, plate_job(), DIALECTS[control]).ok
+    assert prove(text, plate_job(), BY_NAME[control]).ok
     # 0.4 s on two busy cores; 100,000 moves are timed in benchmarks/bench_controls.py.
     assert time.perf_counter() - started < 5
 
@@ -315,7 +320,7 @@ def test_tool_tables() -> None:
     assert "2,drill-8 drill,8,82.5\n" in post_of("mach3").tool_table(measured)[1]
     assert "T1 P1 Z81.5 D6 ;spot-6 spot-drill\n" in post_of("linuxcnc").tool_table(measured)[1]
     assert post_of("grbl").tool_table(measured) == ("", "")
-    fanuc = interpret(post_of("fanuc").tool_table(measured)[1], DIALECTS["fanuc"])
+    fanuc = interpret(post_of("fanuc").tool_table(measured)[1], BY_NAME["fanuc"])
     assert fanuc.ended
 
 
@@ -343,13 +348,13 @@ HEAD = {"fanuc": "%\nO1234 (ANY)\n", "haas": "%\nO1234\n", "grbl": "", "mach3": 
         ("grbl", "(wait!)", "obeys '!'"),
         ("grbl", "%", "% stands in a line"),
         ("grbl", "G0 X1 Y2 " + "Z3." + "0" * 80, "reads at most 80"),
-        ("grbl", "G2 X10.02 Y0 I5 J0 F9", "Grbl refuses it"),
+        ("grbl", "G2 X10.02 Y0 I5 J0 F9", "Grbl 1.1 refuses it"),
     ],
 )
 def test_what_a_control_would_refuse_is_refused(control: str, line: str, message: str) -> None:
     start = HEAD[control] + "G17 G21 G90 G94\nG0 X0. Y0. Z0.\n"
     with pytest.raises(ProgramError, match=rf"^line {start.count(chr(10)) + 1}: .*{message}"):
-        interpret(start + line + "\n", DIALECTS[control])
+        interpret(start + line + "\n", BY_NAME[control])
 
 
 def test_dwells_are_read_in_the_control_s_unit() -> None:
@@ -362,17 +367,17 @@ def test_dwells_are_read_in_the_control_s_unit() -> None:
         ("haas", "G82 X1. Y1. Z-1. R1. P250 F90.", 0.25),
         ("grbl", "G4 P0.2", 0.2),
     ):
-        run = interpret(start + line + "\n", DIALECTS[control])
+        run = interpret(start + line + "\n", BY_NAME[control])
         assert run.seconds.sum() == pytest.approx(seconds), line
 
 
 def test_a_tool_that_nobody_measured_is_noticed() -> None:
     job = plate_job(control="grbl")
     text = post_of("grbl").write(plate_program())
-    assert prove(text, job, DIALECTS["grbl"]).ok
+    assert prove(text, job, BY_NAME["grbl"]).ok
     at = text.index("M0\n", text.index("\nT2\n"))
     silent = text[:at] + text[at + 3 :]
-    found = prove(silent, job, DIALECTS["grbl"]).checks["length-offset"]
+    found = prove(silent, job, BY_NAME["grbl"]).checks["length-offset"]
     assert not found.passed
     assert "as if it were as long as the tool before" in found.message
 
@@ -385,8 +390,8 @@ def test_a_length_that_was_not_measured_so_is_noticed() -> None:
     )
     text = post_of("grbl").write(replace(program, sections=sections))
     job = plate_job(control="grbl", tools=tools)
-    assert prove(text, job, DIALECTS["grbl"]).ok
-    found = prove(text.replace("G43.1 Z52", "G43.1 Z53"), job, DIALECTS["grbl"]).checks["length-offset"]
+    assert prove(text, job, BY_NAME["grbl"]).ok
+    found = prove(text.replace("G43.1 Z52", "G43.1 Z53"), job, BY_NAME["grbl"]).checks["length-offset"]
     assert "G43.1 Z53 while the measured length of T2 is 52 mm" in found.message
 
 
@@ -411,12 +416,12 @@ def test_a_retract_is_advised_as_the_control_and_the_machine_do_it(control, retr
     mill = made.settings.machine.model_copy(update={"retract_z": retract_z})
     made = replace(made, settings=made.settings.model_copy(update={"machine": mill}))
     text = post_of(control).write(replace(plate_program(), machine=mill))
-    assert prove(text, made, DIALECTS[control]).checks["positions"].passed
+    assert prove(text, made, BY_NAME[control]).checks["positions"].passed
     retract = (
         "G91 G28 Z0.\nG90\n" if control == "fanuc" else words.removeprefix("retract with ").split(",")[0]
     )
     assert retract in text  # it is what the post writes
-    found = prove(text.replace(retract, ""), made, DIALECTS[control]).checks["positions"]
+    found = prove(text.replace(retract, ""), made, BY_NAME[control]).checks["positions"]
     assert not found.passed
     assert f"{words}, at X" in found.message
 
@@ -425,7 +430,7 @@ def test_whoever_touches_off_leaves_the_tool_low() -> None:
     text = post_of("grbl").write(plate_program())
     careless = text.replace("M0\nG53 G0 Z0\n", "M0\n")
     assert careless != text
-    assert not prove(careless, plate_job(control="grbl"), DIALECTS["grbl"]).checks["positions"].passed
+    assert not prove(careless, plate_job(control="grbl"), BY_NAME["grbl"]).checks["positions"].passed
 
 
 # -- rounding to three decimals -----------------------------------------------------------------------------
@@ -444,7 +449,7 @@ def test_whoever_touches_off_leaves_the_tool_low() -> None:
 def test_three_decimals_keep_arcs_consistent(arcs) -> None:
     from math import cos, sin
 
-    from mechwright.program import Feed, FeedArc, Operation, ToolSection
+    from mechwright_cam.program.moves import Feed, FeedArc, Operation, ToolSection
 
     moves = [Rapid(0.0, 0.0, 1.0)]
     for x, y, radius, start, sweep in arcs:
@@ -460,7 +465,7 @@ def test_three_decimals_keep_arcs_consistent(arcs) -> None:
 
 
 def test_through_cuts_stay_through_when_rounded() -> None:
-    from mechwright_cam.posts.writer import Writer
+    from mechwright_cam.controls.writing.writer import Writer
 
     out = Writer(every_operation(), 3, False)
     assert out.height(-6.00004) == "-6.001"
@@ -483,34 +488,3 @@ def test_a_peck_with_a_dwell_is_written_out() -> None:
         run = read(control, one)
         assert run.seconds.sum() == pytest.approx(0.3)
         assert run.end[run.kind == Kind.FEED][:, 2].tolist() == [-1, -3, -5]
-
-
-def test_one_file_on_grbl_is_written_if_asked_for_with_a_warning_until_all_lengths_are_known(
-    tmp_path,
-) -> None:
-    def found(more: str) -> list[Finding]:
-        path = tmp_path / "d.toml"
-        path.write_text(f'format = 1\nfamily = "geneva"\nname = "g"\n[cam]\ncontrol = "grbl"\n{more}')
-        return [finding for finding in check(load(path, host()), host()) if finding.code == "cam.tool-change"]
-
-    assert found("") == found('[cam.post]\ntool_change = "files"\n') == []
-    asked = '[cam.post]\ntool_change = "pause"\n'
-    warnings = found(asked)
-    assert {(one.severity, one.parameter) for one in warnings} == {(Severity.WARNING, "cam.post.tool_change")}
-    names = set()
-    for one in warnings:
-        listed = re.fullmatch(
-            r"at a stop .* can neither jog nor probe, so (.*) cannot be touched off there", one.message
-        )
-        assert listed, one.message
-        names |= set(listed[1].split(", "))
-    assert len(names) >= 3
-    first, *rest = sorted(names)
-    lengths = "[cam.measured.lengths]\n" + "".join(f'"{name}" = 80\n' for name in rest)
-    assert {one.message.partition(" so ")[2] for one in found(asked + lengths)} == {
-        f"{first} cannot be touched off there"
-    }
-    assert found(f'{asked}{lengths}"{first}" = 80\n') == []
-    job = planned_job(control="grbl", post={"tool_change": "pause"})
-    assert len(machine(job, post_of("grbl")).files) == 1
-    assert post_of("mach3").check_tools(job.settings, job.tools) == ()

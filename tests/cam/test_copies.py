@@ -5,19 +5,20 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from engagement import engagements
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, part, rounded_box
 
+from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Pocket, Profile
-from mechwright_cam.planning import adaptive, plan
-from mechwright_cam.planning.adaptive import clear
-from mechwright_cam.planning.congruent import Copies, Turn, same, turn_between
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
-from mechwright_cam.toolpath.offsets import ROUGH
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.operations import engagement
+from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
+from mechwright_cam.operations.engagement import clear
+from mechwright_cam.plane.offsets import ROUGH
+from mechwright_cam.planning import plan
 
 MILL = LIBRARY.get("mill-6")
 HOOK = [(6.0, -4.0), (18.0, -4.0), (18.0, 9.0), (10.0, 9.0), (10.0, 4.0), (6.0, 4.0)]
@@ -105,9 +106,9 @@ def planned(monkeypatch):
 
     def counted(area, *rest):
         areas.append(area)
-        return adaptive.clear(area, *rest)
+        return engagement.clear(area, *rest)
 
-    monkeypatch.setattr("mechwright_cam.planning.congruent.clear", counted)
+    monkeypatch.setattr("mechwright_cam.operations.congruent.clear", counted)
     return areas
 
 
@@ -117,7 +118,7 @@ def test_five_slots_are_planned_once_and_proven(planned):
     assert len(planned) == 1
     names = [o.name for s in program.sections for o in s.operations]
     assert [name for name in names if name.endswith("clear")] == [f"slot-{i}: clear" for i in range(5)]
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 
@@ -126,17 +127,17 @@ def test_a_slot_that_runs_into_another_feature_has_a_plan_of_its_own(planned):
     of = wheel(4, (crossing,))
     program = plan(of)
     assert len(planned) >= 2
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 
-def test_another_mill_or_no_feature_means_another_plan(planned):
+def test_another_mill_means_another_plan(planned):
     area, one = shapely.Polygon(rounded_box(13, 12, 4).flatten()), pocket(HOOK)
     copies = Copies()
-    asked = ((one, MILL), (one, LIBRARY.get("mill-4")), (None, MILL), (one, MILL))
+    asked = ((one, MILL), (one, LIBRARY.get("mill-4")), (one, MILL))
     found = [copies.clear(feature, area, mill, ANGLE, True) for feature, mill in asked]
-    assert len(planned) == 3
-    assert [len(cavities) for cavities in found] == [1, 1, 1, 1]
+    assert len(planned) == 2
+    assert [len(cavities) for cavities in found] == [1, 1, 1]
 
 
 def test_shapes_that_all_but_touch_stay_valid_when_they_are_moved():

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import BY_NAME, LINUXCNC, prove, read, setup_html, summary_html
 from golden_compensation import CONTROLS, FOLDER, WAYS, made, texts
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
@@ -18,23 +19,21 @@ from rs274 import needs_rs274, run_rs274
 from test_rs274 import distinct
 
 from mechwright.errors import MechwrightError, ProgramError, ToolError
-from mechwright.host import host
-from mechwright.tooling import CamSettings, Posting
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.job import Job
-from mechwright_cam.library import Library
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.operations.entry import bore_lead, enters, lead_to, offsets_of
+from mechwright_cam.pages.trace import trace
+from mechwright_cam.plane.contour import contour_beside
+from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.entry import bore_lead, enters, lead_to, offsets_of
-from mechwright_cam.posts.offsets import d_offset
-from mechwright_cam.proof import prove, read
-from mechwright_cam.proof.compensation import planned_offsets
 from mechwright_cam.proof.paths import Paths, Pieces
-from mechwright_cam.setup_sheet import setup_html, summary_html
-from mechwright_cam.toolpath.contour import contour_beside
-from mechwright_cam.toolpath.offsets import BIAS, FIT, grow, rings
-from mechwright_cam.trace import trace
+from mechwright_cam.proof.scene import planned_offsets
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.posting import Posting
+from mechwright_cam.shop.settings import CamSettings
 
-LINUXCNC = host().post("linuxcnc")
 TABS = {"method": "tabs", "tabs": 2}
 
 
@@ -44,21 +43,19 @@ def sample(way: str, **more: object) -> Job:
 
 
 def text_of(one: Job, control: str = "linuxcnc") -> str:
-    return host().post(control).write(plan(one))
+    return host().get(Control, control).write(plan(one))
 
 
-def dialect(control: str = "linuxcnc"):
-    from mechwright_cam.interpreter import DIALECTS
-
-    return DIALECTS[control]
+def reader(control: str = "linuxcnc"):
+    return BY_NAME[control]
 
 
 def contours(text: str, one: Job, more: float = 0.0) -> shapely.Geometry:
     """The ways of the cutter's centre with compensation on, leads aside."""
-    run = read(text, one, dialect(), more)
+    run = read(text, one, reader(), more)
     on = np.array([state.side != 0 for state in run.states])[run.state]
     steps = np.flatnonzero(on & np.isin(run.kind, (Kind.FEED, Kind.ARC)))
-    paths = Paths(run, {tool.number: tool for tool in one.tools})
+    paths = Paths(run, one.tools)
     zeros = np.zeros(steps.size)
     ways: shapely.Geometry = shapely.geometrycollections(paths.lines(Pieces(steps, zeros, zeros + 1, zeros)))
     return ways
@@ -94,7 +91,7 @@ def test_the_proof_passes_and_says_what_it_has_seen(way: str, climb: bool) -> No
     text = text_of(one)
     assert ("G41" in text) == climb
     assert ("G42" in text) != climb
-    proof = prove(text, one, dialect())
+    proof = prove(text, one, reader())
     proof.require()
     assert "from 0.1 mm below to 0.1 mm above" in proof.checks["compensation"].message
     assert proof.checks["compensation"].value < 0.001
@@ -103,7 +100,7 @@ def test_the_proof_passes_and_says_what_it_has_seen(way: str, climb: bool) -> No
 def test_without_compensation_nothing_changes() -> None:
     text = text_of(sample("computer"))
     assert not re.search(r"G4[12]|D\d", re.sub(r"\(.*\)", "", text))
-    assert prove(text, sample("computer"), dialect()).checks["compensation"].passed
+    assert prove(text, sample("computer"), reader()).checks["compensation"].passed
 
 
 # -- the proof does not trust the plan ----------------------------------------------------------------------
@@ -111,14 +108,14 @@ def test_without_compensation_nothing_changes() -> None:
 
 def test_a_d_that_the_entry_is_too_short_for_fails() -> None:
     text = text_of(sample("control", wear_limit=0.1))
-    check = prove(text, sample("control", wear_limit=0.5), dialect()).checks["compensation"]
+    check = prove(text, sample("control", wear_limit=0.5), reader()).checks["compensation"]
     assert not check.passed
     assert "with D 0.5 mm larger: line" in check.message
 
 
 def test_the_wrong_side_fails() -> None:
     one = sample("control")
-    proof = prove(text_of(one).replace("G41", "G42"), one, dialect())
+    proof = prove(text_of(one).replace("G41", "G42"), one, reader())
     assert not proof.ok
 
 
@@ -130,7 +127,7 @@ def test_a_wall_without_compensation_among_others_is_not_taken_for_one_that_foll
     x, y = (float(v) for v in re.findall(r"[XY](-?[\d.]+)", lines[at]))
     lines[at] = re.sub(r"X.*Y\S+", f"X{x + 0.4:.4f} Y{y - 0.3:.4f}", lines[at])
     try:
-        proof = prove("\n".join(lines), one, dialect())
+        proof = prove("\n".join(lines), one, reader())
     except ProgramError:
         return
     assert not proof.ok
@@ -143,7 +140,7 @@ def test_an_inside_arc_as_narrow_as_the_planned_d_fails() -> None:
         "G17 G21 G40 G49 G80 G90 G94\nG54\nT24 M6\nS3000 M3\nG0 X-60 Y40\nG43 H24 Z5\nM8\nZ1\nG1 Z0.5 F100\n"
         "G41 D24 X-50 Y40\nX-40\nG3 X-36.96 Y43.04 I0 J3.04\nG1 Y60\nG40 Y70\nG0 Z5\nM9\nM5\nG53 G0 Z0\nM30\n"
     )
-    check = prove(text, one, dialect()).checks["compensation"]
+    check = prove(text, one, reader()).checks["compensation"]
     assert not check.passed
     assert (
         "with D 0.1 mm larger: line 12: the tool of radius 3.1 mm does not fit into an arc" in check.message
@@ -253,7 +250,7 @@ def test_random_plates_are_proven_or_refused(loop, way, mill, wear, climb, contr
         event(f"refused: {str(error)[:40]}")
         return
     event("proven")
-    prove(text, one, dialect(control)).require()
+    prove(text, one, reader(control)).require()
 
 
 @given(plates(), st.sampled_from([(3.0, 0.0), (3.0, 3.0), (1.5, 0.0)]), st.sampled_from([1, -1]))
@@ -296,7 +293,7 @@ def test_linuxcnc_goes_the_same_way(way: str, more: float) -> None:
     with tempfile.TemporaryDirectory() as folder:
         canon = run_rs274(text, Path(folder), rows)
     assert canon.ok, canon.error
-    run = read(text, one, dialect(), more)
+    run = read(text, one, reader(), more)
     moves = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC, Kind.HOME)) & ~run.piece
     ends = np.nan_to_num(run.end[moves], posinf=0.0)
     # The first moves and retracts are where offsets are unknown to us; LinuxCNC takes them for 0.
@@ -306,10 +303,10 @@ def test_linuxcnc_goes_the_same_way(way: str, more: float) -> None:
 
 
 def test_grbl_refuses_and_names_the_key() -> None:
-    found = host().post("grbl").check(CamSettings(control="grbl", compensation="wear"))
+    found = host().get(Control, "grbl").check(CamSettings(control="grbl", compensation="wear"))
     assert any(f.code == "cam.compensation" and f.parameter == "cam.compensation" for f in found)
     with pytest.raises(ProgramError, match="no cutter compensation"):
-        host().post("grbl").write(plan(sample("wear")))
+        host().get(Control, "grbl").write(plan(sample("wear")))
 
 
 @pytest.mark.parametrize(
@@ -325,7 +322,9 @@ def test_grbl_refuses_and_names_the_key() -> None:
 )
 def test_the_table_holds_what_d_is(control: str, value: str, way: str, line: str) -> None:
     cam = CamSettings(control=control, compensation=way, post=Posting(d_value=value))
-    name, text = host().post(control).offset_table([LIBRARY.get("mill-6"), LIBRARY.get("drill-8")], cam)
+    name, text = (
+        host().get(Control, control).offset_table([LIBRARY.get("mill-6"), LIBRARY.get("drill-8")], cam)
+    )
     assert name
     assert line in text
 
@@ -338,7 +337,7 @@ def test_a_d_number_of_its_own() -> None:
     assert "G41 D74" in text
     assert "G41 D24" not in text
     assert "D74 holds the diameter of T24: 6 as planned, at most 0.2 more or less" in text
-    prove(text, one, dialect()).require()
+    prove(text, one, reader()).require()
     _, table = LINUXCNC.offset_table([mine], one.settings)
     assert "T24 P24 Z0 D6 ;mill-6 end-mill\n" in table
     assert "T74 P74 Z0 D6 ;" in table
@@ -355,7 +354,7 @@ def test_the_sheet_says_what_to_type(way: str) -> None:
     assert "Set D, and bring the part to size" in page
     low, high = ("5.800", "6.200") if way == "control" else ("−0.200", "0.200")
     assert f"From {low} to {high} is proven" in page
-    offset = d_offset(LIBRARY.get("mill-6"), "haas", Posting(), way, 0.1)
+    offset = BY_NAME["haas"].offsets.d_offset(LIBRARY.get("mill-6"), Posting(), way, 0.1)
     assert (offset.quantity, offset.limit) == ("radius", 0.1)
 
 
@@ -389,7 +388,7 @@ def test_pictures_and_reach_follow_the_centre_of_the_cutter() -> None:
     one = sample("control")
     program = plan(one)
     strokes = [s for item in trace(program) for s in item.strokes if s.feed > 0]
-    run = read(LINUXCNC.write(program), one, dialect())
+    run = read(LINUXCNC.write(program), one, reader())
     theirs = run.end[run.cutting]
     assert len(strokes) == len(theirs)
     np.testing.assert_allclose([s.end for s in strokes], theirs, atol=2e-4, rtol=0)
@@ -405,7 +404,7 @@ def test_restart_points_and_line_numbers_are_outside_of_compensation() -> None:
         if "restart point" in line:
             assert not on
         on = ("G41" in line or on) and "G40" not in line
-    prove(text, sample("control"), dialect()).require()
+    prove(text, sample("control"), reader()).require()
 
 
 def test_a_larger_wear_limit_leaves_more_in_corners() -> None:

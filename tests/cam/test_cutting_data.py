@@ -2,12 +2,12 @@
 
 import pytest
 
-from mechwright.design import load
+from mechwright.designs.design import load
 from mechwright.errors import ToolError
-from mechwright.host import host
-from mechwright.tooling import CuttingChange
-from mechwright_cam.library import built_in
-from mechwright_cam.pipeline import prepare
+from mechwright.plugins.host import host
+from mechwright_cam.planning.prepare import prepare
+from mechwright_cam.shop.library import built_in
+from mechwright_cam.shop.tool import CuttingChange
 
 HEAD = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\nmodule = 3\n'
 TOOLS = '[cam]\ntools = ["mill-6", "mill-3", "mill-2", "drill-8", "spot-6"]\n'

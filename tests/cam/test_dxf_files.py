@@ -14,11 +14,11 @@ import pytest
 import shapely
 from plate_shapes import PLATES, wavy, wavy_part
 
+from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline
-from mechwright.part import Part
-from mechwright_cam.exporters import DxfExporter
-from mechwright_cam.exporters.curves import cubic, vertices
+from mechwright_cad.exporters import DxfExporter
+from mechwright_cad.exporters.curves import cubic, vertices
 
 CURVES = ("spline", "spline3", "arc", "polyline")
 CUTTING = {"OUTLINE", "BORE", "OPENING"}
@@ -28,7 +28,7 @@ NEEDS_GDAL = pytest.mark.skipif(
 
 WRITE = """
 import hashlib, sys
-from mechwright_cam.exporters import DxfExporter
+from mechwright_cad.exporters import DxfExporter
 from plate_shapes import wavy_part
 digests = [hashlib.sha256(DxfExporter(c).part(wavy_part())).hexdigest() for c in sys.argv[1:]]
 assert not {"cadquery", "OCP"} & set(sys.modules), "a drawing needs no CAD kernel"

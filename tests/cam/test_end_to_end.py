@@ -9,26 +9,35 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret, prove
 from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
+from step_read import read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.design import Design, load
+from mechwright.build import Build
+from mechwright.contracts.finding import errors
+from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
-from mechwright.findings import errors
-from mechwright.host import host
-from mechwright_cam import pipeline
-from mechwright_cam.exporters import StepExporter
-from mechwright_cam.exporters.step_read import read_step_outline
-from mechwright_cam.interpreter import interpret
-from mechwright_cam.pipeline import Machined
+from mechwright.plugins.host import host
+from mechwright_cad.exporters import StepExporter
+from mechwright_cam.commands.verify import proof_of
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, Machining, machine
+from mechwright_cam.planning.prepare import prepare
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import CamTable, JobSettings, settings_of
 from mechwright_elliptic_gears.proof import prove_outlines
 
 READ_ALLOWANCE = 4e-4
 """Fit and chords of two outlines read back, 0.1 µm each, mm."""
 EXAMPLE = Path(__file__).parents[2] / "examples" / "elliptic-pair.toml"
+
+
+def with_cam(design: Design, cam: CamSettings) -> Design:
+    return replace(design, tables={**design.tables, CamTable.name: JobSettings(cam)})
 
 
 def design_of(text: str) -> Design:
@@ -40,10 +49,10 @@ def design_of(text: str) -> Design:
 
 def machined(design: Design) -> Machined:
     assert not errors(design.family.check(design.params))
-    findings, jobs = pipeline.prepare(design, design.family.parts(design.params))
+    findings, jobs = prepare(design, design.family.parts(design.params))
     assert not errors(findings), findings
     (job,) = jobs
-    return pipeline.machine(job, host().post(design.cam.control))
+    return machine(job, host().get(Control, settings_of(design).cam.control))
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +74,7 @@ tools = ["spot-6", "drill-8", "mill-8", "{mill}"]
 
 def test_the_example_builds_without_a_warning_and_is_proven(example: Machined) -> None:
     design = load(EXAMPLE, host())
-    findings = [*design.family.check(design.params), *pipeline.check(design, host())]
+    findings = [*design.family.check(design.params), *Build(design, host()).made(Machining).findings]
     assert {finding.severity.value for finding in findings} == {"note"}
     proof = example.proof
     assert proof.ok
@@ -83,7 +92,7 @@ def test_the_page_on_machining_lists_just_the_checks_that_are_made(example: Mach
 
 @needs_rs274
 def test_linuxcnc_accepts_the_program_and_reads_what_we_read(example: Machined, tmp_path: Path) -> None:
-    post = host().post("linuxcnc")
+    post = host().get(Control, "linuxcnc")
     canon = run_rs274(example.text, tmp_path, post.tool_table(example.program.tools)[1])
     assert canon.ok, canon.error
     assert len(canon.ends) > 1000
@@ -102,7 +111,7 @@ def test_a_two_millimetre_mill_leaves_22_micrometres_in_the_fillets() -> None:
 def test_a_mill_of_two_and_a_half_is_refused_because_the_pair_would_collide() -> None:
     design = design_of(REFERENCE.format(mill="mill-2.5"))
     assert not errors(design.family.check(design.params))
-    found = errors(pipeline.check(design, host()))
+    found = errors(Build(design, host()).made(Machining).findings)
     assert [finding.parameter for finding in found] == ["cam.tools"]
     assert "collide" in found[0].message or "overlap" in found[0].message
     assert found[0].remedy
@@ -112,9 +121,11 @@ def test_a_mill_of_two_and_a_half_is_refused_because_the_pair_would_collide() ->
 def test_a_machine_too_small_for_the_part_is_found_by_the_check(axis: str) -> None:
     design = load(EXAMPLE, host())
     for travel, parameters in ((400.0, []), (60.0, [f"cam.machine.travel_{axis}"])):
-        machine = design.cam.machine.model_copy(update={f"travel_{axis}": travel})
-        small = replace(design, cam=design.cam.model_copy(update={"machine": machine}))
-        assert [finding.parameter for finding in errors(pipeline.check(small, host()))] == parameters
+        machine = settings_of(design).cam.machine.model_copy(update={f"travel_{axis}": travel})
+        small = with_cam(design, settings_of(design).cam.model_copy(update={"machine": machine}))
+        assert [
+            finding.parameter for finding in errors(Build(small, host()).made(Machining).findings)
+        ] == parameters
 
 
 def test_the_pair_read_back_from_its_step_files_meshes() -> None:
@@ -163,7 +174,7 @@ def test_a_planted_defect_is_found_under_its_own_name(
 ) -> None:
     text = spoil(example.text)
     assert text != example.text
-    proof = pipeline.verify(load(EXAMPLE, host()), example.job.part, text)
+    proof = proof_of(Build(EXAMPLE, host()), example.job.part.name, text)
     failed = {failure.name for failure in proof.failures}
     assert check in failed
     assert all(failure.message and "\n" not in failure.message for failure in proof.failures)
@@ -174,15 +185,15 @@ def test_a_gouge_of_20_micrometres_is_found_and_one_of_none_is_not(example: Mach
     finisher = example.program.sections[-1].tool
     thicker = finisher.model_copy(update={"diameter": finisher.diameter + 0.04})
     tools = tuple(thicker if tool.name == finisher.name else tool for tool in example.job.tools)
-    proof = pipeline.prove(example.text, replace(example.job, tools=tools))
+    proof = prove(example.text, replace(example.job, tools=tools))
     assert {failure.name for failure in proof.failures} >= {"gouge"}
     assert proof.gouge_max_mm == pytest.approx(0.02, abs=0.004)
-    assert pipeline.prove(example.text, example.job).ok
+    assert prove(example.text, example.job).ok
 
 
 def test_a_program_that_cannot_be_read_is_refused_with_its_line(example: Machined) -> None:
     with pytest.raises(ProgramError, match="line 3"):
-        pipeline.verify(load(EXAMPLE, host()), example.job.part, "G21\nG90\nG1 X1..2 F100\nM30\n")
+        proof_of(Build(EXAMPLE, host()), example.job.part.name, "G21\nG90\nG1 X1..2 F100\nM30\n")
 
 
 # Random designs are built with a proof that passes, or refused by name; nothing else happens.
@@ -257,16 +268,16 @@ def test_a_random_design_is_proven_or_refused_by_name(parameters: dict, cam: dic
     family = host().family("elliptic-gears")
     params = family.Params.model_validate(parameters)
     base = load(EXAMPLE, host())
-    design = replace(base, params=params, cam=type(base.cam).model_validate(cam))
+    design = with_cam(replace(base, params=params), CamSettings.model_validate(cam))
     found = errors(family.check(params))
     if found:
         with pytest.raises(MechwrightError):
             family.parts(params)
     else:
-        findings, jobs = pipeline.prepare(design, family.parts(params))
+        findings, jobs = prepare(design, family.parts(params))
         found = errors(findings)
         if not found:
-            made = pipeline.machine(jobs[0], host().post("linuxcnc"))
+            made = machine(jobs[0], host().get(Control, "linuxcnc"))
             assert made.proof.ok
             event("proven")
             return

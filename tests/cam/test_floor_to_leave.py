@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from by_control import prove
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -11,14 +12,13 @@ from planning_parts import bore, job, part, plate, rounded_box
 from planning_simulation import check_rules, leftover, motions
 from random_pockets import HIGH, LIBRARY, THICK, WIDE, random_pocket
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 RECESS = Pocket("recess", rounded_box(34, 24, 3), (), 0, 2.0)
@@ -35,7 +35,7 @@ def lowest(program):
 
 def proven(of):
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text
@@ -72,7 +72,7 @@ def test_a_shallow_recess_keeps_half_of_its_depth_for_roughing():
 def test_cuts_through_the_plate_have_no_floor():
     opening = Profile("opening", rounded_box(30, 20, 4), "inside", 0, 6.0)
     through = plate(rounded_box(30, 20, 4, clockwise=True), machined=(opening, OUTSIDE))
-    texts = [LinuxCncPost().write(plan(job(through, "mill-6", floor_to_leave=leave))) for leave in (0.0, 0.5)]
+    texts = [LinuxCnc().write(plan(job(through, "mill-6", floor_to_leave=leave))) for leave in (0.0, 0.5)]
     assert texts[0] == texts[1]
 
 
@@ -99,7 +99,7 @@ def test_the_floor_of_a_blind_bore(tools):
     assert all(z < -1.75 for z in ends[first:])
     assert ends[first:] == sorted(ends[first:], reverse=True)
     assert ends[-1] == -2.0
-    without = LinuxCncPost().write(plan(job(seat, *tools, floor_to_leave=0.0)))
+    without = LinuxCnc().write(plan(job(seat, *tools, floor_to_leave=0.0)))
     assert without != text
 
 
@@ -107,7 +107,7 @@ def test_the_floor_pass_meets_what_was_left_and_no_more():
     of = job(
         part(rounded_box(60, 40, 6), machined=(RECESS,)), "mill-6", stock={"margin": 0}, floor_to_leave=0.3
     )
-    moves = read(LinuxCncPost().write(plan(of)))
+    moves = read(LinuxCnc().write(plan(of)))
     seen = Simulation(of.stock, of.thickness, pitch=0.2)
     rough = [m for m in moves if m.operation == "recess: rough"]
     seen.run(rough, cutters(of))
@@ -146,7 +146,7 @@ def test_any_recess_with_any_allowance_is_cut_or_refused(seed, leave, clearing, 
     except MechwrightError as error:
         assert str(error).startswith(("cam.", "part plate: pocket takes nothing"))  # noqa: PT017
         return
-    proof = prove(LinuxCncPost().write(program), made)
+    proof = prove(LinuxCnc().write(program), made)
     assert proof.ok, [check.message for check in proof.failures]
     check_rules(made, program)
     low = lowest(program)

@@ -4,12 +4,13 @@ import difflib
 
 import numpy as np
 import pytest
+from by_control import interpret
 from golden_operations import CASES, CONTROLS, FOLDER, made, texts
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.host import host
-from mechwright_cam.interpreter import interpret
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
 
 
 @pytest.mark.parametrize("operation", CASES)
@@ -41,7 +42,7 @@ def test_the_part_shows_the_operation(operation: str) -> None:
 @needs_rs274
 @pytest.mark.parametrize("operation", CASES)
 def test_linuxcnc_reads_its_own(operation: str, tmp_path) -> None:
-    post = host().post("linuxcnc")
+    post = host().get(Control, "linuxcnc")
     for one in made(operation, "linuxcnc"):
         canon = run_rs274(one.text, tmp_path, post.tool_table(one.program.tools)[1])
         assert canon.ok, canon.error

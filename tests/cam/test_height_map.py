@@ -9,12 +9,13 @@ from height_map import Simulation, cutters, read
 from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate, rounded_box
 from planning_simulation import keep_at
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.job import make_job
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 PITCH = 0.15
 BOX = rounded_box(44, 28, 6)
@@ -44,7 +45,7 @@ def cut(request):
     of, changes = CASES[request.param]
     settings = CamSettings.model_validate(changes)
     job = make_job(of, settings, choose_tools(of, settings, LIBRARY))
-    moves = read(LinuxCncPost().write(plan(job)))
+    moves = read(LinuxCnc().write(plan(job)))
     simulation = Simulation(job.stock, job.thickness, PITCH)
     simulation.run(moves, cutters(job))
     return job, moves, simulation

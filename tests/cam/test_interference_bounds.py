@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from mechwright_cam.interference.boxes import Boxes, stay_apart
-from mechwright_cam.interference.instants import SAG, Poses, second
-from mechwright_cam.interference.path import Path, space_path
-from mechwright_cam.interference.separation import gap_along
+from mechwright_cad.interference.boxes import Boxes, stay_apart
+from mechwright_cad.interference.instants import SAG, Poses, second
+from mechwright_cad.interference.path import Path, space_path
+from mechwright_cad.interference.separation import gap_along
 
 N = 181
 TURN = np.linspace(0, math.tau, N)

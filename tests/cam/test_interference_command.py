@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Loop, Outline
-from mechwright.host import host
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Instance, Part
+from mechwright.plugins.host import host
 from mechwright.testing import commands
-from mechwright_cam.interference import check as module
-from mechwright_cam.interference import faithful_motion, interference, report, slabs, surface
+from mechwright_cad.interference import check as module
+from mechwright_cad.interference import faithful_motion, interference, report, slabs, surface
 
 PAGE = Path(__file__).parents[2] / "docs" / "interference.md"
 DESIGN = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
@@ -41,10 +41,10 @@ def test_a_collision_stops_every_command_and_names_the_bodies(command, design, t
     family = type(host().family("elliptic-gears"))
     solve = family.solve
     monkeypatch.setattr(family, "solve", lambda self, params, samples: twisted(self, params, samples, solve))
-    monkeypatch.setattr("mechwright.cli.solids.cores", lambda: 1)  # a second process would not be twisted
+    monkeypatch.setattr("mechwright_cad.making.cores", lambda: 1)  # a second process would not be twisted
     folder = tmp_path / "out"
     words = [command, str(design)] + ([] if command == "check" else ["-o", str(folder)])
-    done = CliRunner().invoke(app, words)
+    done = CliRunner().invoke(make_app(), words)
     assert done.exit_code == 1
     assert re.search(
         r"error \[interference.collision\] gear-2 and gear-4 stand in each other, \d\.\d{3} mm deep at "
@@ -55,7 +55,7 @@ def test_a_collision_stops_every_command_and_names_the_bodies(command, design, t
 
 
 def test_the_elliptic_pair_is_clear(design):
-    done = CliRunner().invoke(app, ["check", str(design)])
+    done = CliRunner().invoke(make_app(), ["check", str(design)])
     assert done.exit_code == 0, done.output
     assert (
         "note [interference.clear] no two bodies collide over the whole motion (one pair compared)"
@@ -81,10 +81,10 @@ def test_samples_are_added_until_the_motion_is_smooth_between_them():
             return Motion("t", {"t": Channel(t, "rad")}, {"a": Poses.planar(50 * np.sin(9 * t), 0.0, 9 * t)})
 
     motion = faithful_motion(Jerky(), None, [])
-    assert asked[0] == module.SAMPLES
-    assert motion.samples == asked[-1] > module.SAMPLES
+    assert asked[0] == module.FEWEST_SAMPLES
+    assert motion.samples == asked[-1] > module.FEWEST_SAMPLES
     # Half-way between two samples the cubic is as near as is promised.
-    from mechwright_cam.interference.path import space_path
+    from mechwright_cad.interference.path import space_path
 
     poses = motion.poses["a"]
     path = space_path(poses.rotation, poses.position)
@@ -113,6 +113,6 @@ def test_the_page_lists_every_finding_and_the_limits():
     assert set(re.findall(r"\| `(interference\.[a-z]+)`", text)) == set(
         re.findall(r'"(interference\.[a-z]+)"', source)
     )
-    assert f"| plates | up to {slabs.TOUCH:.3f} mm | deeper than {slabs.SURE:.3f} mm |" in text
-    assert f"| solids | up to {surface.SKIN:.3f} mm | deeper than {surface.SURE:.3f} mm |" in text
+    assert f"| plates | up to {slabs.TOUCH:.3f} mm | deeper than {slabs.SURE_IN_PLAN:.3f} mm |" in text
+    assert f"| solids | up to {surface.SKIN:.3f} mm | deeper than {surface.SURE_IN_SPACE:.3f} mm |" in text
     assert f"{module.FAITHFUL:g} mm, at most {module.MOST_SAMPLES} a turn" in text

@@ -8,12 +8,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
-from mechwright_cam.interference import interference
-from mechwright_cam.interference.slabs import SURE, TOUCH
+from mechwright_cad.interference import interference
+from mechwright_cad.interference.slabs import SURE_IN_PLAN, TOUCH
 
 TURN = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))
@@ -265,8 +265,8 @@ def test_random_plates_agree_with_brute_force(one, two, first, second):
         assert shapely.intersects(a, b).all()
         assert hit.depth > 0
         return
-    # A circle of SURE inside the overlap would be a collision that nobody may miss.
-    thick = shapely.buffer(common, -SURE)
+    # A circle of SURE_IN_PLAN inside the overlap would be a collision that nobody may miss.
+    thick = shapely.buffer(common, -SURE_IN_PLAN)
     assert shapely.is_empty(thick).all()
     if report.closest is not None:
         at = np.array([report.closest.instant.value])

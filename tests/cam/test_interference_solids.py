@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from step_read import parts_from_step
 
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.host import host
-from mechwright.motion import Channel, Motion, Poses
-from mechwright.part import Instance, Part
-from mechwright_cam.exporters.step import part as step_of
-from mechwright_cam.interference import faithful_motion, interference
-from mechwright_cam.interference.meshes import meetings
-from mechwright_cam.interference.nearest import Nearest, nearest_to_origin
-from mechwright_cam.interference.path import Path, relative, space_path
-from mechwright_cam.interference.prisms import prisms_of
-from mechwright_cam.interference.readback import parts_from_step
-from mechwright_cam.interference.surface import SKIN, SURE, Surface
+from mechwright.plugins.host import host
+from mechwright_cad.exporters.step import part as step_of
+from mechwright_cad.interference import faithful_motion, interference
+from mechwright_cad.interference.meshes import meetings
+from mechwright_cad.interference.nearest import Nearest, nearest_to_origin
+from mechwright_cad.interference.path import Path, relative, space_path
+from mechwright_cad.interference.prisms import prisms_of
+from mechwright_cad.interference.surface import SKIN, SURE_IN_SPACE, Surface
 
 N = 181
 TURN = np.linspace(0, math.tau, N)
@@ -246,7 +246,7 @@ def test_random_solids_agree_with_booleans(one, two, first, second):
     for overlap in common:
         if not overlap.is_empty():
             # Of a thicker overlap volume and surface would say so.
-            assert 2 * overlap.volume() / overlap.surface_area() < SURE
+            assert 2 * overlap.volume() / overlap.surface_area() < SURE_IN_SPACE
 
 
 def test_a_path_in_space_is_followed_between_samples():

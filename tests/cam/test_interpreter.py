@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_control import LINUXCNC, interpret
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import LINUXCNC, Kind, interpret
+from mechwright_cam.controls.reading import Kind
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
 
@@ -77,7 +78,7 @@ def test_arc_error_is_the_difference_of_the_radii() -> None:
 
 def test_cycles_expand_into_moves() -> None:
     z = [end[2] for end in ends("G98 G83 X3 Y4 Z-3 R2 Q2 F50")]
-    gap = LINUXCNC.peck_clearance
+    gap = LINUXCNC.dialect.peck_clearance
     assert z == pytest.approx([5, 2, 0, 2, gap, -2, 2, -2 + gap, -3, 5])
     z = [end[2] for end in ends("G99 G73 X3 Y4 Z-3 R2 Q2 F50")]
     assert z == pytest.approx([5, 2, 0, gap, -2, -2 + gap, -3, 2])
@@ -194,7 +195,7 @@ def test_bad_text_is_refused_with_its_line(text: str, message: str) -> None:
 
 
 def test_a_dialect_changes_the_meaning() -> None:
-    milliseconds = replace(LINUXCNC, name="other", dwell_unit=0.001, absolute_centres=True)
+    milliseconds = replace(LINUXCNC.dialect, name="other", dwell_unit=0.001, absolute_centres=True)
     run = interpret(START + "G4 P500\nG2 X10 Y0 I5 J0 F9", milliseconds)
     assert run.seconds.sum() == 0.5
     assert run.centre[-1].tolist() == [5, 0]

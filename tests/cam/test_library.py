@@ -3,10 +3,10 @@ import re
 
 import pytest
 
+from mechwright.contracts.materials import MATERIALS
 from mechwright.errors import DesignError, OutputError, ToolError
-from mechwright.materials import MATERIALS
-from mechwright.tooling import ToolKind
-from mechwright_cam.library import built_in, load_library
+from mechwright_cam.shop.library import built_in, load_library
+from mechwright_cam.shop.tool import ToolKind
 
 TOOL = """
 [[tool]]

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import (
@@ -19,7 +20,6 @@ from machine_programs import (
 )
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.machine_moves import machine_moves
 from mechwright_cam.proof.machine_rules import positions
@@ -49,7 +49,7 @@ def test_with_the_tool_up_they_go_anywhere(control: str, words: str) -> None:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_program_may_end_far_away(control: str) -> None:
     text = at_the_end(text_of(control), "G53 G0 X0. Y0.\nG91 G28 X0. Y0. Z0.\nG90")[0]
-    assert prove(text, job_of(control), DIALECTS[control]).ok
+    assert prove(text, job_of(control), BY_NAME[control]).ok
 
 
 @pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
@@ -64,7 +64,7 @@ def test_a_reference_move_without_an_axis_is_one_of_all(control: str) -> None:
     text, line = in_cut(text_of(control), "G28")
     if control == "fanuc":
         with pytest.raises(ProgramError, match=f"^line {line}: G28 without an axis sends none home"):
-            scene_of(control, text)
+            _ = scene_of(control, text).run
         return
     refused(machine_moves, control, text, line)
     assert judged(machine_moves, control, at_the_end(text_of(control), "G28")[0]).passed
@@ -101,7 +101,7 @@ def test_machine_coordinates_are_no_distances(control: str) -> None:
     """LinuxCNC refuses G53 with G91, Fanuc skips it: a retract that does not happen."""
     text, line = in_cut(text_of(control), "G91 G53 G0 Z0.")
     with pytest.raises(ProgramError, match=rf"^line {line}: G53 with distances \(G91\).* write G90 before"):
-        scene_of(control, text)
+        _ = scene_of(control, text).run
 
 
 def test_a_reference_move_does_not_end_compensation() -> None:

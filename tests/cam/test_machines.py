@@ -3,21 +3,24 @@
 from pathlib import Path
 
 import pytest
+from by_control import prove
 from planning_parts import LIBRARY, bore, job, plate
 from shop import plate_job, plate_program
 
-from mechwright.design import load, read_toml
+from mechwright.contracts.finding import Severity
+from mechwright.designs.design import load
+from mechwright.designs.files import read_toml
 from mechwright.errors import MechwrightError
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.machine import MACHINES, Machine
-from mechwright.tooling import MILLS, CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.limits import check_machine
-from mechwright_cam.pipeline import machine as build
+from mechwright.plugins.host import host
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine as build
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.setup.limits import check_machine
+from mechwright_cam.shop.machine import MACHINES, Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
+from mechwright_cam.shop.tool import MILLS
 
 HEAD = 'family = "elliptic-gears"\n'
 KNOWN = read_toml(MACHINES)[0]
@@ -26,7 +29,7 @@ KNOWN = read_toml(MACHINES)[0]
 def machine_of(folder: Path, text: str) -> Machine:
     path = folder / "design.toml"
     path.write_text(HEAD + text)
-    return load(path, host()).cam.machine
+    return settings_of(load(path, host())).cam.machine
 
 
 @pytest.mark.parametrize("name", KNOWN)
@@ -77,7 +80,7 @@ def test_a_mistake_names_file_and_key(tmp_path: Path, file: str, cam: str, said:
 
 def test_the_limits_of_the_machine_are_in_the_program() -> None:
     slow = {"spindle_max": 3000, "max_feed": 333}
-    made = build(job(plate(bore(12.0)), "drill-8", "mill-6", machine=slow), LinuxCncPost())
+    made = build(job(plate(bore(12.0)), "drill-8", "mill-6", machine=slow), LinuxCnc())
     speeds = {section.spindle for section in made.program.sections}
     assert max(speeds) <= 3000
     assert max(float(w[1:]) for w in made.text.split() if w[0] == "F" and w[1:2].isdigit()) == 333
@@ -135,7 +138,7 @@ def test_every_move_is_within_the_travel_as_the_stock_is_clamped(measured, axis,
     placed = plate_job(machine=ends, measured=measured)
     tools = tuple(tool.model_copy(update={"length": 0.0}) for tool in placed.tools)
     placed = plate_job(machine=ends, measured=measured, tools=tools)
-    found = prove(LinuxCncPost().write(plate_program()), placed).checks["travel"]
+    found = prove(LinuxCnc().write(plate_program()), placed).checks["travel"]
     assert found.passed == (axis is None)
     if axis:
         assert f"leaves the travel of {axis} by" in found.message

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import distinct
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.interpreter.expressions import Reader
+from mechwright_cam.controls.reading.expressions import Reader
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -142,7 +142,7 @@ def test_mistakes_name_their_line(lines: str, said: str) -> None:
 
 
 def test_an_endless_loop_and_an_endless_descent_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mechwright_cam.interpreter.macros.MOST_LINES", 5_000)
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 5_000)
     with pytest.raises(ProgramError, match="nested more than 10 deep"):
         interpret("O1 sub\nO1 call\nO1 endsub\nO1 call\nM2")
     with pytest.raises(ProgramError, match="does a loop not end"):
@@ -154,11 +154,11 @@ def test_a_place_that_nothing_stated_has_no_value() -> None:
         interpret("G21 G90\nG0 X[#5420 + 1]")
 
 
-@pytest.mark.parametrize("control", [name for name in DIALECTS if name != "linuxcnc"])
+@pytest.mark.parametrize("control", [name for name in BY_NAME if name != "linuxcnc"])
 @pytest.mark.parametrize("line", ["G0 X#5", "G0 X[1+2]", "#1=5", "O<one> SUB"])
 def test_other_controls_programs_are_read_without_macros(control: str, line: str) -> None:
     with pytest.raises(ProgramError, match=r"^line 2: .*(O-words|starts no word)"):
-        interpret("G21\n" + line, DIALECTS[control])
+        interpret("G21\n" + line, BY_NAME[control])
 
 
 def test_the_angle_of_polar_coordinates() -> None:

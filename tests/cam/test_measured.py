@@ -3,8 +3,8 @@
 import pytest
 from planning_parts import bore, job, part, plate, rounded_box
 
-from mechwright.findings import Severity
-from mechwright_cam.measured import check_measured
+from mechwright.contracts.finding import Severity
+from mechwright_cam.setup.measured import check_measured
 
 PLACE = {"x": -300.0, "y": -200.0, "z": -380.0}
 

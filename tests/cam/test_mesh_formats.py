@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from plate_shapes import PLATES, Part, turning, wavy_part
 
-from mechwright_cam import tessellate
-from mechwright_cam.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
-from mechwright_cam.solids import part_solid
+from mechwright_cad.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
+from mechwright_cad.solids import tessellate
+from mechwright_cad.solids.solid import part_solid
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
@@ -132,8 +132,8 @@ def test_glb_assembly_stands_in_its_poses(part):
 
 def test_listing_the_formats_imports_nothing_heavy():
     code = (
-        "import sys, mechwright_cam.plugin as p\n"
-        "names = [e.name for e in p.mechwright_register_exporters()]\n"
+        "import sys, mechwright_cad.plugin as p; from mechwright import Exporter\n"
+        "names = [e.name for e in p.mechwright_register() if issubclass(e, Exporter)]\n"
         "heavy = {'numpy', 'scipy', 'shapely', 'cadquery', 'OCP', 'ezdxf', 'jinja2'} & set(sys.modules)\n"
         "print(names, sorted(heavy))"
     )

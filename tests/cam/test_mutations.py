@@ -9,17 +9,18 @@ import golden_compensation
 import golden_operations
 import numpy as np
 import pytest
+from by_control import BY_NAME, prove, read
 from golden_operations import SHARP
 from mutants import differences, mutant, trace
 from planning_parts import LIBRARY, job, part, rounded_box
 
+from mechwright.contracts.part import Pocket
 from mechwright.errors import ProgramError
-from mechwright.host import host
-from mechwright.part import Pocket
-from mechwright_cam.interpreter import DIALECTS
-from mechwright_cam.job import Job
-from mechwright_cam.pipeline import Machined, machine
-from mechwright_cam.proof import Check, prove, read
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine
+from mechwright_cam.proof import Check
+from mechwright_cam.setup.job import Job
 
 
 def made(operation: str, control: str = "linuxcnc") -> Machined:
@@ -33,7 +34,7 @@ def refused(
 ) -> Check:
     """The failed check of a program in which some text is another; the text has to be there."""
     assert old in one.text
-    found = prove(one.text.replace(old, new, count), one.job, DIALECTS[control]).checks[check]
+    found = prove(one.text.replace(old, new, count), one.job, BY_NAME[control]).checks[check]
     assert not found.passed
     assert found.message.startswith(f"line {found.line}: ")
     return found
@@ -42,7 +43,7 @@ def refused(
 def unread(one: Machined, old: str, new: str, control: str) -> str:
     assert old in one.text
     with pytest.raises(ProgramError, match=r"^line \d+: ") as error:
-        prove(one.text.replace(old, new, 1), one.job, DIALECTS[control])
+        prove(one.text.replace(old, new, 1), one.job, BY_NAME[control])
     return str(error.value)
 
 
@@ -67,7 +68,7 @@ def test_a_d_or_h_that_is_not_written_is_the_last_one_on_fanuc_and_haas(control:
 @pytest.mark.parametrize("control", ["fanuc", "haas"])
 def test_the_end_of_the_tape_ends_no_program_on_fanuc_and_haas(control: str) -> None:
     one = made("slot", control)
-    found = prove(one.text.replace("M30", "M0"), one.job, DIALECTS[control]).checks["program-end"]
+    found = prove(one.text.replace("M30", "M0"), one.job, BY_NAME[control]).checks["program-end"]
     assert "the program has no end" in found.message
 
 
@@ -76,7 +77,7 @@ def test_hands_reach_in_only_when_the_spindle_stands_still(control: str) -> None
     one = made("profile-outside", control)
     at = one.text.lower().index("(operation: clamp)")
     late = replace(one, files={"": one.text[:at] + one.text[at:].replace("M5\n", "", 1)})
-    found = prove(late.text, one.job, DIALECTS[control]).checks["stops"]
+    found = prove(late.text, one.job, BY_NAME[control]).checks["stops"]
     assert "while the spindle turns; write M5 before it" in found.message
     assert late.text.splitlines()[found.line - 1] == "M0"
 
@@ -145,7 +146,7 @@ def deep() -> tuple[Job, str]:
     recess = Pocket("recess", rounded_box(30, 20, 4), (), 0, 11)
     settings = {"stock": {"margin": 0}, "floor_to_leave": 0, "ramp_angle": 3}
     of = job(part(SHARP, thickness=14, machined=(recess,)), "mill-6", **settings)
-    return of, machine(of, host().post("linuxcnc")).text
+    return of, machine(of, host().get(Control, "linuxcnc")).text
 
 
 def operation_of(text: str, name: str) -> tuple[int, int]:
@@ -182,10 +183,10 @@ def test_nothing_goes_far_below_the_plate(control: str) -> None:
     lines = one.text.splitlines()
     at = max(k for k, line in enumerate(lines) if "Z-19.20" in line)
     lines[at] = lines[at].replace("Z-19.20", "Z-29.20")
-    found = prove("\n".join(lines), one.job, DIALECTS[control]).checks["underside"]
+    found = prove("\n".join(lines), one.job, BY_NAME[control]).checks["underside"]
     assert re.match(rf"line {at + 1}: T4 goes 11.20 mm below the plate", found.message)
     shallow = one.text.replace("Z-19.20", "Z-20.10")
-    assert prove(shallow, one.job, DIALECTS[control]).checks["underside"].passed
+    assert prove(shallow, one.job, BY_NAME[control]).checks["underside"].passed
 
 
 def test_lines_that_a_switch_skips_are_proven_both_ways() -> None:
@@ -242,7 +243,7 @@ EACH = 3
 def verdict(text: str, one: Machined, control: str) -> tuple[bool, str]:
     """Whether a program is refused, and what is said of it."""
     try:
-        failures = prove(text, one.job, DIALECTS[control]).failures
+        failures = prove(text, one.job, BY_NAME[control]).failures
     except ProgramError as error:
         return True, str(error)
     return bool(failures), "; ".join(check.message for check in failures)
@@ -254,7 +255,7 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
     tried = 0
     for place in rng.permutation(len(SOURCES)).tolist():
         operation, control = SOURCES[place]
-        one, dialect = made(operation, control), DIALECTS[control]
+        one, reader = made(operation, control), BY_NAME[control]
         wrong = mutant(one.text, kind, rng)
         if wrong is None or tried == EACH:
             continue
@@ -263,7 +264,7 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
         if is_refused:
             assert re.search(r"\bline \d+: ", said), said
         else:
-            before, after = (trace(read(text, one.job, dialect)) for text in (one.text, wrong.text))
+            before, after = (trace(read(text, one.job, reader)) for text in (one.text, wrong.text))
             assert not differences(before, after), f"{operation} {control}, {wrong.line}: {wrong.change}"
     assert tried
 
@@ -271,7 +272,7 @@ def test_a_fault_that_changes_anything_is_refused(kind: str) -> None:
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "grbl"])
 def test_what_stands_behind_the_end_is_not_taken_for_proven(control: str) -> None:
     one = made("profile-outside", control)
-    assert prove(one.text + "(spare)\n\nwritten by hand\n", one.job, DIALECTS[control]).ok
+    assert prove(one.text + "(spare)\n\nwritten by hand\n", one.job, BY_NAME[control]).ok
     rest = "M30\n(once more)\nG0 X0 Y0\nM30\n"
     found = refused(one, "M30\n", rest, "program-end", control)
     line = one.text[: one.text.index("M30\n")].count("\n") + 3

@@ -8,31 +8,34 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, rounded_box
 from rs274 import needs_rs274, run_rs274
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
-from mechwright.design import load
-from mechwright.details import Chamfer, Engraving, Thread, moved
+from mechwright.cli.app import make_app
+from mechwright.contracts.details import Chamfer, Engraving, Thread, moved
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.designs.design import load
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop, Outline
-from mechwright.host import host
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings
-from mechwright_cam import pipeline
-from mechwright_cam.job import make_job
-from mechwright_cam.nest import Nest, Placed, make_nest, moved_feature
-from mechwright_cam.nesting import arranged, channel_of, nest_of
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.reach import cut_outlines
+from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
+from mechwright_cam.planning.prepare import parts_as_cut, plates, prepare
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
+from mechwright_cam.shop.settings import CamSettings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAIR = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
-POST = host().post("linuxcnc")
+POST = host().get(Control, "linuxcnc")
 
 
 def box(name, width, height, count=1):
@@ -108,7 +111,7 @@ def test_random_nests_are_planned_and_proven(seed):
     gap = 2 * channel_of(parts, wanted, LIBRARY) + 3.0
     nest = nest_of("nest", parts, wanted, gap)
     job = make_job(nest, wanted, choose_tools(nest, wanted, LIBRARY))
-    made = pipeline.machine(job, POST)
+    made = machine(job, POST)
     assert made.proof.gouge_max_mm <= TOLERANCES.gouge
     assert made.proof.leftover_reachable_max_mm <= TOLERANCES.leftover
     assert len(job.tabs) == 4 * len(nest.placed)
@@ -120,7 +123,7 @@ def test_random_nests_are_planned_and_proven(seed):
             keep = not line.startswith(f"(operation: {last} outside")
         if keep or line.startswith(("T", "G43", "G53", "M")):
             text.append(line)
-    failed = {check.name for check in pipeline.prove("".join(text), job).failures}
+    failed = {check.name for check in prove("".join(text), job).failures}
     assert {"leftover", "depth"} <= failed
 
 
@@ -129,11 +132,11 @@ def test_the_program_of_a_nest_is_none_for_one_of_its_parts():
     plates = [box("a", 60, 40), box("b", 60, 40), box("c", 60, 40)]
     nest = nest_of("nest", plates, wanted, 2 * channel_of(plates, wanted, LIBRARY) + 3.0)
     job = make_job(nest, wanted, choose_tools(nest, wanted, LIBRARY))
-    text = pipeline.machine(job, POST).text
-    assert pipeline.prove(text, job).checks["beside"].passed
+    text = machine(job, POST).text
+    assert prove(text, job).checks["beside"].passed
     # The first of them lies at the nest's origin, where the part alone would lie.
     alone = make_job(plates[0], wanted, job.tools)
-    found = pipeline.prove(text, alone).checks["beside"]
+    found = prove(text, alone).checks["beside"]
     assert not found.passed
     assert found.line is not None
     assert "mm outside of the stock" in found.message
@@ -151,7 +154,7 @@ def test_what_the_cutters_leave_comes_back_in_each_parts_own_coordinates():
     )
     nest = make_nest("nest", placed, 20.0)
     job = make_job(nest, CamSettings(), choose_tools(nest, CamSettings(), LIBRARY))
-    found = pipeline._cut_parts(job)
+    found = parts_as_cut(job)
     assert sorted(name for name, _ in found) == ["angle", "angle", "strip"]
     assert len(cut_outlines(job)) == 3
     for name, left in found:
@@ -184,7 +187,7 @@ def nested(tmp_path, text, head=PAIR):
     file = tmp_path / "pair.toml"
     file.write_text(head + text)
     design = load(file, host())
-    return pipeline.prepare(design, pipeline.plates(design.family.parts(design.params)))[1]
+    return prepare(design, plates(design.family.parts(design.params)))[1]
 
 
 def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
@@ -279,7 +282,7 @@ def test_a_nest_of_parts_that_cannot_be_cut_says_why(tmp_path):
         machined=(recess, rim),
         details=(over,),
     )
-    found = pipeline.prepare(design, [one])[0]
+    found = prepare(design, [one])[0]
     (refusal,) = [f for f in found if f.severity == "error"]
     assert "mark" in refusal.message, refusal
     assert "gap" not in refusal.parameter
@@ -315,7 +318,7 @@ def told(done):
 def test_bad_input_is_one_line(tmp_path, text):
     file = tmp_path / "pair.toml"
     file.write_text(PAIR + text)
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code != 0
     said = told(done)
     assert len([line for line in said if BAD[text] in line]) == 1, said
@@ -327,7 +330,7 @@ def test_parts_of_different_thickness_are_refused(tmp_path):
     text = (EXAMPLES / "figure-eight-best.toml").read_text()
     file = tmp_path / "best.toml"
     file.write_text(text + '\n[cam.nest]\nparts = ["gear-2", "coupler"]\n')
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code != 0
     assert "cam.nest.parts: coupler is 6 mm aluminium, gear-2 is 10 mm aluminium" in told(done)[-1]
 
@@ -338,10 +341,10 @@ def test_the_four_gears_of_the_best_train_on_one_plate(tmp_path):
     file = tmp_path / "best.toml"
     file.write_text(text + '\n[cam.nest]\nname = "gears"\nparts = ["gear-2", "gear-3", "gear-4", "gear-5"]\n')
     design = load(file, host())
-    findings, jobs = pipeline.prepare(design, pipeline.plates(design.family.parts(design.params)))
+    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
     assert [job.part.name for job in jobs] == ["gears", "coupler", "base"]
     assert [finding.code for finding in findings].count("gear.cut-mesh") == 2  # the family saw all four
-    made = pipeline.machine(jobs[0], POST)
+    made = machine(jobs[0], POST)
     assert made.proof.ok
     assert made.proof.gouge_max_mm <= TOLERANCES.gouge
     assert made.proof.leftover_reachable_max_mm <= TOLERANCES.leftover
@@ -353,7 +356,7 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     file = tmp_path / "pair.toml"
     file.write_text(PAIR + "[cam.nest]\n")
     out = tmp_path / "out"
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(out)])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(out)])
     assert done.exit_code == 0, done.output
     names = {path.name for path in out.iterdir()}
     assert {"nest.nc", "nest.dxf", "nest.setup.html", "setup.html", "gear.dxf"} <= names
@@ -366,7 +369,9 @@ def test_the_command_writes_one_program_drawing_and_sheet_and_verifies_them(tmp_
     assert drawing.rindex("<path") < drawing.index(">gear no 1<"), "nothing is drawn over the names"
     assert "Nest of 2: gear no 1, gear no 2" in sheet
     assert "the axis of gear no 1" in sheet
-    again = CliRunner().invoke(app, ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"])
+    again = CliRunner().invoke(
+        make_app(), ["verify", str(out / "nest.nc"), "--design", str(file), "--part", "nest"]
+    )
     assert again.exit_code == 0, again.output
     from ezdxf.filemanagement import readfile
 

@@ -3,10 +3,10 @@
 import re
 
 import pytest
+from by_control import BY_NAME, interpret
 from machine_programs import CONTROLS, LENGTHS, at_the_end, job_of, judged, refused, scene_of, text_of
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.proof import prove
 from mechwright_cam.proof.tables import offset_tables
 
@@ -22,7 +22,7 @@ def test_a_program_sets_its_own_offsets(control: str, offset: str) -> None:
         text_of(control, measured=True, work_offset=offset),
         job_of(control, measured=True, work_offset=offset),
     )
-    proof = prove(text, job, DIALECTS[control])
+    proof = prove(text, job, BY_NAME[control])
     assert proof.failures == ()
     writes = scene_of(control, text, job).run.writes
     assert len(writes) == (1 if control == "grbl" else 1 + len(LENGTHS))
@@ -115,4 +115,4 @@ def test_other_controls_have_no_parameters_here(control: str, words: str) -> Non
     with pytest.raises(
         ProgramError, match=rf"^line {line}: parameters, expressions and O-words are not read"
     ):
-        scene_of(control, text)
+        _ = scene_of(control, text).run

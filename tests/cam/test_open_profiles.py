@@ -8,6 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -15,17 +16,17 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import leftover
 from proving import proven
 
+from mechwright.contracts.part import Bore, OpenProfile, Part, Profile
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line
-from mechwright.part import Bore, OpenProfile, Part, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.exporters import dxf
-from mechwright_cam.job import make_job
-from mechwright_cam.nest import moved_feature
+from mechwright_cad.exporters import dxf
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
-from mechwright_cam.setups import lay_out_setups, sides
+from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.setup.nest import moved_feature
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 BENT = (Line((-40.0, -8.0), (0.0, -8.0)), Arc((0.0, 2.0), 10.0, -math.pi / 2, 1.2))
@@ -64,7 +65,7 @@ def test_a_mill_as_wide_as_the_groove_runs_on_its_centre_line(path):
 
 def test_a_slot_that_is_not_cut_or_is_cut_beside_its_line_is_found():
     of = job(opened("on", 6.0), "mill-6", "mill-3")
-    text = LinuxCncPost().write(plan(of))
+    text = LinuxCnc().write(plan(of))
     first, last = text.index("(operation: open"), text.index("(operation: outside")
     shallow = text[first:last].replace("Z-2", "Z-1.9")
     assert {"depth", "leftover"} <= {c.name for c in prove(text[:first] + shallow + text[last:], of).failures}
@@ -77,7 +78,7 @@ def test_a_slot_that_is_not_cut_or_is_cut_beside_its_line_is_found():
 def test_a_slot_cut_too_short_is_found():
     straight = (Line((-15.0, 0.0), (15.0, 0.0)),)
     of = job(opened("on", 6.0, straight), "mill-6")
-    text = LinuxCncPost().write(plan(of))
+    text = LinuxCnc().write(plan(of))
     first, last = text.index("(operation: open"), text.index("(operation: outside")
     slot = text[first:last].replace("X15", "X14.9")
     assert slot != text[first:last]
@@ -89,7 +90,7 @@ def test_the_height_map_sees_the_groove():
     straight = (Line((-15.0, 0.0), (15.0, 4.0)),)
     of = job(opened("on", 6.0, straight), "mill-6")
     seen = Simulation(of.stock, of.thickness, pitch=0.2)
-    seen.run(read(LinuxCncPost().write(plan(of))), cutters(of))
+    seen.run(read(LinuxCnc().write(plan(of))), cutters(of))
     deep = seen.solid & (np.abs(seen.height + 2.0) < 1e-3)
     wanted = shapely.LineString([(-15, 0), (15, 4)]).buffer(3.0, quad_segs=64)
     assert deep.sum() * 0.04 == pytest.approx(wanted.area, rel=0.02)
@@ -135,8 +136,8 @@ def test_a_groove_narrower_than_every_cutter_is_refused():
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_solid_and_drawing_follow_from_the_feature(name):
-    from mechwright.sections import volume
-    from mechwright_cam.solids import part_solid
+    from mechwright.contracts.sections import volume
+    from mechwright_cad.solids.solid import part_solid
 
     of = opened(*LIMITS[name])
     assert part_solid(of).Volume() == pytest.approx(volume(of), rel=1e-5)
@@ -205,5 +206,5 @@ def test_any_path_is_cut_or_refused(start, heading, items, side, width, tools):
     except MechwrightError as error:
         assert re.match(r"cam\.[a-z_.]+: |part plate: open takes nothing", str(error)), error  # noqa: PT017
         return
-    proof = prove(LinuxCncPost().write(program), made)
+    proof = prove(LinuxCnc().write(program), made)
     assert proof.ok, [check.message for check in proof.failures]

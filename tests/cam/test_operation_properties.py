@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from random_parts import OPERATIONS, Outcome, named, run, without
 
-from mechwright_cam.toolpath.contour import LEFT
+from mechwright_cam.plane.contour import LEFT
 
 EXAMPLES = {"adaptive": 2, "slot": 3}
 """The slow ones; every other operation has five."""

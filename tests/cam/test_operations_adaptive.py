@@ -5,20 +5,20 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from engagement import engagements
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import check_rules
 
-from mechwright.part import Pocket, Profile
-from mechwright.program import FeedArc
+from mechwright.contracts.part import Pocket, Profile
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.operations.clearing import COARSE_FROM
+from mechwright_cam.operations.engagement import BENDS, clear, straight_layer
+from mechwright_cam.operations.engagement import engagements as planned
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.adaptive import BENDS, clear, straight_layer
-from mechwright_cam.planning.adaptive import engagements as planned
-from mechwright_cam.planning.clearing import COARSE_FROM
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.program.moves import FeedArc
 
 MILL = LIBRARY.get("mill-8")
 BOX = shapely.Polygon(rounded_box(32, 26, 6).flatten())
@@ -94,7 +94,7 @@ def test_adaptive_recess_is_proven():
     assert (
         names.index("recess: clear") < names.index("recess: rough the rest") < names.index("recess: finish")
     )
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
     check_rules(of, program)
 

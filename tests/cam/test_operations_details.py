@@ -6,23 +6,23 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import LINUXCNC, prove, read
 from planning_parts import LIBRARY, job, plate, rounded_box
 
-from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.lettering import LETTERS, lettering
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import FeedArc
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.interpreter import LINUXCNC
-from mechwright_cam.job import make_job
+from mechwright.geometry.lettering import LETTERS, lettering
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove, read
+from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.proof.details import deepest_in_fillet
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import Paths
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 TOOLS = ("mill-6", "mill-4", "chamfer-6", "engrave-3", "thread-m6", "spot-6", "drill-4")
 RIM = rounded_box(60, 40, 6)
@@ -49,7 +49,7 @@ def detailed(*details):
 def made(*details, **settings):
     of = job(detailed(*details), *TOOLS, **settings)
     program = plan(of)
-    return of, program, prove(LinuxCncPost().write(program), of)
+    return of, program, prove(LinuxCnc().write(program), of)
 
 
 @pytest.mark.parametrize("name", DETAILS)
@@ -78,7 +78,7 @@ def test_all_details_together_and_the_rim_comes_last():
 @pytest.mark.parametrize("name", DETAILS)
 def test_a_program_without_the_detail_fails(name):
     plain = job(detailed(), *TOOLS)
-    proof = prove(LinuxCncPost().write(plan(plain)), job(detailed(DETAILS[name]), *TOOLS))
+    proof = prove(LinuxCnc().write(plan(plain)), job(detailed(DETAILS[name]), *TOOLS))
     assert [check.name for check in proof.failures] == ["details"]
     assert DETAILS[name].name in proof.failures[0].message
 
@@ -86,7 +86,7 @@ def test_a_program_without_the_detail_fails(name):
 @pytest.mark.parametrize("name", DETAILS)
 def test_the_detail_gouges_a_part_without_it(name):
     _, program, _ = made(DETAILS[name])
-    proof = prove(LinuxCncPost().write(program), job(detailed(), *TOOLS))
+    proof = prove(LinuxCnc().write(program), job(detailed(), *TOOLS))
     assert "gouge" in {check.name for check in proof.failures}
 
 
@@ -103,7 +103,7 @@ def test_the_detail_gouges_a_part_without_it(name):
 def test_a_detail_that_differs_fails(planned, asked):
     _, program, proof = made(planned)
     assert proof.ok
-    assert not prove(LinuxCncPost().write(program), job(detailed(asked), *TOOLS)).ok
+    assert not prove(LinuxCnc().write(program), job(detailed(asked), *TOOLS)).ok
 
 
 def across(depth, floor_radius, width):
@@ -120,19 +120,19 @@ def across(depth, floor_radius, width):
 def test_a_rim_is_chamfered_across_the_fillet_of_an_open_recess(depth, floor_radius, width):
     """Where the fillet is higher than the chamfer's foot, the part has the chamfer, as its sections say."""
     of = across(depth, floor_radius, width)
-    proof = prove(LinuxCncPost().write(plan(of)), of)
+    proof = prove(LinuxCnc().write(plan(of)), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 
 def test_a_chamfer_mill_that_cuts_into_a_fillet_is_seen():
     of = across(1.3, 1.0, 0.4)
-    text = LinuxCncPost().write(plan(of))
+    text = LinuxCnc().write(plan(of))
     (fillet,) = fillets(of)
     (mill,) = (tool for tool in of.tools if tool.kind is ToolKind.CHAMFER)
     deepest = []
     for planted in ("", f"G0 X25 Y-3.6\nG43 H{mill.number} Z5\nG1 Z-1.2 F99\nX26\n"):
         run = read(text.replace("M9\nM5\nG53 G0 Z0\nM30", planted + "M9\nM5\nG53 G0 Z0\nM30"), of, LINUXCNC)
-        cuts = deepest_in_fillet(Paths(run, {tool.number: tool for tool in of.tools}), of, fillet)
+        cuts = deepest_in_fillet(Paths(run, of.tools), of, fillet)
         deepest.append(max((cut.depth for cut in cuts if cut is not None), default=0.0))
     # 0.4 mm off the wall, 0.1 mm above the floor: a cone of 45 degrees meets the fillet.
     assert deepest[0] <= 0.005
@@ -164,7 +164,7 @@ def test_tools_for_details_are_chosen():
     assert kinds.count(ToolKind.CHAMFER) == 2
     assert kinds.count(ToolKind.THREAD_MILL) == 1
     laid = make_job(of, CamSettings(), choose_tools(of, CamSettings(), LIBRARY))
-    assert prove(LinuxCncPost().write(plan(laid)), laid).ok
+    assert prove(LinuxCnc().write(plan(laid)), laid).ok
 
 
 @pytest.mark.parametrize(

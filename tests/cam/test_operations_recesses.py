@@ -8,24 +8,24 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover
 from random_parts import run
 
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.contracts.sections import sections, volume
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line, Loop, circle
 from mechwright.geometry.trim import stretches, trimmed
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.sections import sections, volume
-from mechwright.tooling import CamSettings
-from mechwright_cam.exporters import dxf
-from mechwright_cam.job import make_job
-from mechwright_cam.picture import plan_view
+from mechwright_cad.exporters import dxf
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import check_tools, choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 
@@ -71,7 +71,7 @@ def recessed(*features, thickness=6.0):
 
 def proven(of):
     program = plan(of)
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
     assert gouge(of, program) <= 0.005
     assert leftover(of, program) == 0
@@ -128,13 +128,13 @@ def test_a_recess_over_the_whole_part_faces_it(margin, below):
 
 def test_the_program_without_the_groove_fails_the_proof_of_the_grooved_part():
     plain = job(recessed(), "mill-6")
-    proof = prove(LinuxCncPost().write(plan(plain)), job(recessed(GROOVE), "mill-6"))
+    proof = prove(LinuxCnc().write(plan(plain)), job(recessed(GROOVE), "mill-6"))
     assert {check.name for check in proof.failures} == {"depth", "leftover"}
 
 
 def test_the_program_with_the_groove_gouges_the_plain_part():
     grooved = job(recessed(GROOVE), "mill-6")
-    proof = prove(LinuxCncPost().write(plan(grooved)), job(recessed(), "mill-6"))
+    proof = prove(LinuxCnc().write(plan(grooved)), job(recessed(), "mill-6"))
     assert "gouge" in {check.name for check in proof.failures}
 
 
@@ -159,7 +159,7 @@ def test_a_slot_narrower_than_every_cutter_is_refused():
 
 @pytest.mark.parametrize("name", RECESSES)
 def test_solid_drawing_and_picture_show_the_recess(name):
-    from mechwright_cam.solids import part_solid
+    from mechwright_cad.solids.solid import part_solid
 
     of = recessed(*RECESSES[name])
     plain = recessed()
@@ -198,7 +198,7 @@ def test_sections_of_levels_against_areas_by_hand():
 
 
 def test_a_blind_bore_and_a_step_outside_are_in_the_solid():
-    from mechwright_cam.solids import part_solid
+    from mechwright_cad.solids.solid import part_solid
 
     step = Profile("step", rounded_box(50, 30, 5), "outside", 0, 2)
     of = plate(machined=(Bore("seat", (5.0, 3.0), 8.0, 2, 2), step, OUTSIDE))
@@ -208,7 +208,7 @@ def test_a_blind_bore_and_a_step_outside_are_in_the_solid():
 
 
 def test_recesses_that_cut_a_plate_in_two_are_refused():
-    from mechwright_cam.solids import part_solid
+    from mechwright_cad.solids.solid import part_solid
 
     of = Part(
         "plate",
@@ -298,7 +298,7 @@ def test_any_recesses_are_cut_or_refused(seed):
     except MechwrightError as error:
         assert re.match(r"cam\.[a-z_.]+: |part plate: recess-\d takes nothing", str(error)), error  # noqa: PT017
         return
-    proof = prove(LinuxCncPost().write(program), made)
+    proof = prove(LinuxCnc().write(program), made)
     assert proof.ok, [check.message for check in proof.failures]
 
 

@@ -6,15 +6,17 @@ import pytest
 from planning_parts import LIBRARY, job, part, plate, rounded_box
 from pydantic import ValidationError
 
-from mechwright.materials import MATERIALS
-from mechwright.part import Pocket, Profile
-from mechwright.program import FeedArc
-from mechwright.tooling import CamSettings, Machine, Tool, ToolKind
-from mechwright_cam.library import Library
+from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.part import Pocket, Profile
+from mechwright_cam.operations.bending import deflection
+from mechwright_cam.operations.rates import rates
+from mechwright_cam.pages.setup_sheet.facts import describe
 from mechwright_cam.planning import check_tools, plan
-from mechwright_cam.planning.bending import deflection
-from mechwright_cam.planning.rates import rates
-from mechwright_cam.setup_sheet.facts import describe
+from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 MILL = LIBRARY.get("mill-2")
 DEEP = 5 * MILL.diameter

@@ -5,12 +5,13 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
-from mechwright.design import load
+from mechwright.cli.app import make_app
+from mechwright.designs.design import load
 from mechwright.errors import DesignError
-from mechwright.host import host
-from mechwright.part_settings import WHOLE_JOB
-from mechwright.tooling import CamSettings
+from mechwright.plugins.host import host
+from mechwright_cam.shop.part_settings import WHOLE_JOB
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
 
 HEAD = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
 
@@ -25,6 +26,7 @@ OVERRIDES = {
     "work_offset": "G57",
     "origin": "corner",
     "tools": ["mill-3"],
+    "operations": ["adaptive"],
     "cutting": {"mill-3": {"step_down": 0.3}},
     "climb": False,
     "coolant": "off",
@@ -48,6 +50,11 @@ OVERRIDES = {
     "measured": {"lengths": {"mill-3": 60.0}},
     "stock": {"margin": 21.0},
     "hold": {"tabs": 3},
+    "deburr": 0.2,
+    "mark": "MW-25",
+    "mark_height": 3.0,
+    "mark_depth": 0.1,
+    "mark_line": 0.5,
 }
 
 
@@ -73,7 +80,7 @@ def test_every_key_holds_for_the_part_and_for_no_other(key, tmp_path):
     assert key in OVERRIDES, "a new key of [cam]: add a value that is not its default"
     text = toml(key, OVERRIDES[key], "cam.part.gear")
     found = load(design(tmp_path, text), host())
-    own, job = found.cam_of("gear"), found.cam_of("another")
+    own, job = settings_of(found).of("gear"), settings_of(found).of("another")
     assert job == CamSettings()
     assert getattr(own, key) != getattr(job, key)
     rest = {name for name in CamSettings.model_fields if name != key}
@@ -83,9 +90,9 @@ def test_every_key_holds_for_the_part_and_for_no_other(key, tmp_path):
 def test_a_table_lies_over_the_job_key_by_key(tmp_path):
     text = "[cam]\nclearance = 8\n[cam.hold]\ntabs = 6\ntab_width = 1.5\n[cam.part.gear.hold]\ntabs = 3\n"
     found = load(design(tmp_path, text), host())
-    assert (found.cam_of("gear").hold.tabs, found.cam_of("gear").hold.tab_width) == (3, 1.5)
-    assert found.cam_of("gear").clearance == 8
-    assert found.cam.hold.tabs == 6
+    assert (settings_of(found).of("gear").hold.tabs, settings_of(found).of("gear").hold.tab_width) == (3, 1.5)
+    assert settings_of(found).of("gear").clearance == 8
+    assert settings_of(found).cam.hold.tabs == 6
 
 
 @pytest.mark.parametrize(
@@ -97,7 +104,7 @@ def test_a_table_lies_over_the_job_key_by_key(tmp_path):
 )
 def test_a_margin_and_a_size_put_each_other_out(job, own, left, tmp_path):
     found = load(design(tmp_path, f"[cam.stock]\n{job}\n[cam.part.gear.stock]\n{own}\n"), host())
-    stock = found.cam_of("gear").stock
+    stock = settings_of(found).of("gear").stock
     assert (stock.margin, stock.length, stock.width) == left
 
 
@@ -133,7 +140,7 @@ def test_mistakes_are_told_with_their_place(text, message, tmp_path):
 def test_a_name_of_no_part_lists_the_parts(command, tmp_path):
     file = design(tmp_path, '[cam.part.wheel]\norigin = "corner"\n')
     words = [command, str(file)] + (["-o", str(tmp_path / "out")] if command == "cam" else [])
-    done = CliRunner().invoke(app, words)
+    done = CliRunner().invoke(make_app(), words)
     assert done.exit_code != 0
     message = done.output + str(done.exception or "")
     assert "cam.part.wheel: no plate part has this name; there is: gear" in message
@@ -144,18 +151,18 @@ def test_the_program_is_that_of_the_part(tmp_path):
     file = design(
         tmp_path, '[cam]\nwork_offset = "G54"\n[cam.part.gear]\nwork_offset = "G56"\norigin = "corner"\n'
     )
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(tmp_path / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     program = (tmp_path / "out" / "gear.nc").read_text()
     assert "G56" in program
     assert "G54" not in program
     assert "origin: lower left corner of the stock" in program
     verified = CliRunner().invoke(
-        app, ["verify", str(tmp_path / "out" / "gear.nc"), "--design", str(file), "--part", "gear"]
+        make_app(), ["verify", str(tmp_path / "out" / "gear.nc"), "--design", str(file), "--part", "gear"]
     )
     assert verified.exit_code == 0, verified.output
 
 
 def test_a_new_design_file_shows_the_table():
-    done = CliRunner().invoke(app, ["new", "elliptic-gears"])
+    done = CliRunner().invoke(make_app(), ["new", "elliptic-gears"])
     assert "# [cam.part.NAME]" in done.output

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, part, plate, rounded_box
@@ -13,28 +14,31 @@ from planning_simulation import motions
 from pydantic import ValidationError
 from random_pockets import case
 
-from mechwright.design import load
+from mechwright.contracts.part import Pocket, Profile
+from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop
-from mechwright.host import host
-from mechwright.part import Pocket, Profile
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import CamSettings, PathSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.pipeline import dialect_of
-from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.holes import plan_bore
-from mechwright_cam.planning.zones import bores, inner_zones
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
-from mechwright_cam.reach import closing
-from mechwright_cam.toolpath.arcfit import fit
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.plane.arcfit import fit
+from mechwright_cam.plane.reach import closing
+from mechwright_cam.planning import Assignments, choose_tools, plan
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings, PathSettings
+from mechwright_cam.shop.table import settings_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ZONES = [(0.0, 0.003), (0.001, 0.004), (0.003, 0.003), (0.0045, 0.0045), (0.0, 0.008), (0.0045, 0.008)]
 """The corners of what is allowed, and what goes without saying."""
 DIGITS = 2e-4
 """What the decimals of a program, chords and samples are off, mm."""
+
+
+def tasks_of(job, name):
+    """The tasks of one operation."""
+    return [task for task in Assignments().of(job).every() if task.operation.name == name]
 
 
 def path(inner: float, outer: float, lines: int = 1) -> dict[str, float]:
@@ -53,7 +57,7 @@ def gear_job(**changes):
 def checked(of):
     """The program of a job, its text, and its proof, which has nothing to complain of."""
     program = plan(of)
-    text = LinuxCncPost().write(program)
+    text = LinuxCnc().write(program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text, proof
@@ -145,8 +149,8 @@ def test_tighter_walls_take_no_coarser_mill():
     for zone in ((0.001, 0.004), (0.0, 0.003)):
         wanted = CamSettings.model_validate({"path": path(*zone)})
         of = make_job(plate(machined=(recess,)), wanted, [LIBRARY.get("mill-6"), LIBRARY.get("mill-4")])
-        (found,) = inner_zones(of)
-        assert found.finisher.name == "mill-4"
+        (found,) = tasks_of(of, "clear")
+        assert found.tools[-1].name == "mill-4"
 
 
 def test_round_ends_are_for_neither_ramped_tabs_nor_compensated_bores():
@@ -156,7 +160,8 @@ def test_round_ends_are_for_neither_ramped_tabs_nor_compensated_bores():
         plan(make_job(plate(), ramped, [bull]))
     bored = CamSettings.model_validate({"compensation": "wear"})
     hole = make_job(plate(bore(14)), bored, [bull, LIBRARY.get("mill-5"), LIBRARY.get("spot-6")])
-    assert plan_bore(hole, bores(hole)[0]).mill.name == "mill-5"
+    (found,) = tasks_of(hole, "bore")
+    assert [mill.name for mill in found.tools] == ["mill-5"]
 
 
 @settings(max_examples=6)
@@ -186,11 +191,13 @@ def test_contours_of_compensation_keep_to_the_tolerances(compensation):
 def proof_of_teeth(compensation, walls, backlash):
     """The proof of the Haas pair's program with these walls; no backlash given: that of gears as made."""
     design = load(EXAMPLES / "elliptic-pair-haas.toml", host())
-    wanted = design.cam.model_copy(update={"compensation": compensation, "path": PathSettings(**walls)})
+    wanted = settings_of(design).cam.model_copy(
+        update={"compensation": compensation, "path": PathSettings(**walls)}
+    )
     (gear,) = design.family.parts(design.params.model_copy(update={"backlash": backlash}))
-    post = host().post("haas")
+    post = host().get(Control, "haas")
     of = make_job(gear, wanted, choose_tools(gear, wanted, LIBRARY))
-    return prove(post.write(plan(of)), of, dialect_of(post))
+    return prove(post.write(plan(of)), of, post)
 
 
 @pytest.mark.parametrize("compensation", ["computer", "control", "wear"])

@@ -6,15 +6,15 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from machine_programs import CONTROLS, in_cut, job_of, judged, refused, scene_of, text_of
 from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, interpret
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.corridor import ADVICE, corridor
+from mechwright_cam.proof.corridor import ADVICE, path_tolerance
 
 OWN = "G64 P0.002\n"
 
@@ -28,7 +28,7 @@ def with_words(words: str) -> str:
 def test_no_bound_is_no_proof_on_linuxcnc(words: str) -> None:
     text = with_words(words)
     line = next(k for k, one in enumerate(text.splitlines(), 1) if re.search(r"\bG0 X", one))
-    found = refused(corridor, "linuxcnc", text, line)
+    found = refused(path_tolerance, "linuxcnc", text, line)
     assert (
         "nothing bounds how far LinuxCNC leaves the path at corners, the limit is 0.005 mm" in found.message
     )
@@ -43,7 +43,7 @@ def test_no_bound_is_no_proof_on_linuxcnc(words: str) -> None:
 )
 def test_a_bound_is_within_that_of_a_gouge(words: str, value: float) -> None:
     text = with_words(words)
-    found = judged(corridor, "linuxcnc", text)
+    found = judged(path_tolerance, "linuxcnc", text)
     assert not found.passed
     assert (found.value, found.limit) == (pytest.approx(value), 0.005)
     assert "Z-" in found.message  # the first cut below the top
@@ -62,19 +62,19 @@ def test_a_bound_is_within_that_of_a_gouge(words: str, value: float) -> None:
     ],
 )
 def test_a_tighter_path_is_accepted(words: str) -> None:
-    assert judged(corridor, "linuxcnc", with_words(words)).passed
+    assert judged(path_tolerance, "linuxcnc", with_words(words)).passed
 
 
 def test_the_advice_is_good() -> None:
     for words in re.findall(r"G6\d(?: P[\d.]+)?", ADVICE):
-        assert prove(with_words(words), job_of("linuxcnc"), DIALECTS["linuxcnc"]).ok
+        assert prove(with_words(words), job_of("linuxcnc"), BY_NAME["linuxcnc"]).ok
 
 
 def test_what_is_loosened_later_counts_from_there() -> None:
     text, line = in_cut(text_of("linuxcnc"), "G64 P2\nG1 X-22 F100")
-    refused(corridor, "linuxcnc", text, line + 1)
+    refused(path_tolerance, "linuxcnc", text, line + 1)
     text, line = in_cut(text_of("linuxcnc"), "G64\nG0 Z5")
-    refused(corridor, "linuxcnc", text, line + 1)
+    refused(path_tolerance, "linuxcnc", text, line + 1)
 
 
 def test_the_mode_does_not_change_under_compensation() -> None:
@@ -87,11 +87,11 @@ def test_elsewhere_the_machine_is_set_and_no_word_loosens_it(control: str) -> No
     text = text_of(control)
     assert ("G64\n" in text) == (control != "grbl")
     for words in ("", "G61\n"):
-        assert prove(text.replace("G64\n", words), job_of(control), DIALECTS[control]).ok
+        assert prove(text.replace("G64\n", words), job_of(control), BY_NAME[control]).ok
     said = "G64 is no code" if control == "grbl" else "P means nothing in this line"
     looser, line = in_cut(text, "G64 P0.5")
     with pytest.raises(ProgramError, match=f"^line {line}: {said}"):
-        scene_of(control, looser)
+        _ = scene_of(control, looser).run
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_a_word_that_asks_for_speed_is_refused(control: str, words: str, remedy:
     with pytest.raises(
         ProgramError, match=rf"^line {line}: .* round corners further than the setting.*{remedy}"
     ):
-        scene_of(control, text)
+        _ = scene_of(control, text).run
 
 
 @pytest.mark.parametrize(
@@ -117,7 +117,7 @@ def test_a_word_that_asks_for_speed_is_refused(control: str, words: str, remedy:
     ],
 )
 def test_one_that_does_not_is_none(control: str, words: str) -> None:
-    assert judged(corridor, control, in_cut(text_of(control), words)[0]).passed
+    assert judged(path_tolerance, control, in_cut(text_of(control), words)[0]).passed
 
 
 WORDS = st.floats(0, 0.02).map(lambda value: round(value, 4))

@@ -8,12 +8,13 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Part, Profile
 from mechwright.geometry import Loop, Outline
-from mechwright.part import Part, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import load_library
-from mechwright_cam.picture import plan_view
+from mechwright_cam.pages.picture import plan_view
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 TOOL = (load_library().get("mill-6"),)
 TEXT = re.compile(

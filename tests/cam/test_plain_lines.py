@@ -7,13 +7,14 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
+from by_control import BY_NAME, interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import DIALECTS, Dialect, Kind, Run, interpret, stretch
-from mechwright_cam.interpreter.blocks import Block, read_block
-from mechwright_cam.interpreter.plain import LETTERS, PlainLines
+from mechwright_cam.controls.reading import Dialect, Kind, Run, stretch
+from mechwright_cam.controls.reading.blocks import Block, read_block
+from mechwright_cam.controls.reading.plain import LETTERS, PlainLines
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 PLAIN = re.compile(
@@ -25,12 +26,12 @@ COLUMNS = ("kind", "line", "start", "end", "centre", "sweep", "arc_error", "feed
 @contextmanager
 def stretches_from(lines: int) -> Iterator[None]:
     """Run stretches at once from so many lines on."""
-    before = stretch.SHORTEST
-    stretch.SHORTEST = lines
+    before = stretch.FEWEST_LINES
+    stretch.FEWEST_LINES = lines
     try:
         yield
     finally:
-        stretch.SHORTEST = before
+        stretch.FEWEST_LINES = before
 
 
 def outcome(text: str, dialect: Dialect, lines: int) -> Run | str:
@@ -90,10 +91,10 @@ arcs = st.sampled_from(["G2 X2 Y0 I1 J0\nX0 I-1 J0", "G3 X0 Y2 I0 J1", "G2 I1 J0
 @given(
     st.sampled_from(["", SAFE]),
     st.lists(st.one_of(lines(), arcs), max_size=14),
-    st.sampled_from(sorted(DIALECTS)),
+    st.sampled_from(sorted(BY_NAME)),
 )
 def test_a_stretch_runs_as_its_lines_do(head: str, body: list[str], control: str) -> None:
-    assert_alike(head + "\n".join(body), DIALECTS[control])
+    assert_alike(head + "\n".join(body), BY_NAME[control])
 
 
 steps = st.integers(-3000, 3000).map(lambda number: number / 1000)
@@ -113,12 +114,12 @@ def test_long_stretches_of_lines_and_arcs(moves: list[tuple[int, float, float, f
             x, y = x + i, y + j
             out.append(f"G{motion} X{x:.4f} Y{y:.4f}")
     for control in ("linuxcnc", "fanuc"):
-        assert_alike("\n".join([*out, "M30"]), DIALECTS[control])
+        assert_alike("\n".join([*out, "M30"]), BY_NAME[control])
 
 
 @given(st.lists(st.text("NGXYZIJFgxK0123456789.+- \t(%", max_size=9), max_size=5))
 def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
-    read = PlainLines("\n".join(texts), DIALECTS["linuxcnc"])
+    read = PlainLines("\n".join(texts), BY_NAME["linuxcnc"].dialect)
     for index, text in enumerate(texts):
         match = PLAIN.fullmatch(text)
         words = {} if match is None else {k: float(v) for k, v in match.groupdict().items() if v is not None}
@@ -131,14 +132,14 @@ def test_plain_lines_are_those_of_the_grammar(texts: list[str]) -> None:
 
 def test_a_point_that_the_control_wants_makes_a_line_plain() -> None:
     text = "X1.Y2.5\nX1\nX0Y1.\nX1.F100"
-    assert PlainLines(text, DIALECTS["fanuc"]).plain.tolist() == [True, False, True, True]
-    assert PlainLines(text, DIALECTS["linuxcnc"]).plain.all()
+    assert PlainLines(text, BY_NAME["fanuc"].dialect).plain.tolist() == [True, False, True, True]
+    assert PlainLines(text, BY_NAME["linuxcnc"].dialect).plain.all()
 
 
 def test_a_line_too_long_for_the_control_is_not_plain() -> None:
     text = "G1 X" + "0" * 80 + "1"
-    assert not PlainLines(text, DIALECTS["grbl"]).plain[0]
-    assert PlainLines(text, DIALECTS["linuxcnc"]).plain[0]
+    assert not PlainLines(text, BY_NAME["grbl"].dialect).plain[0]
+    assert PlainLines(text, BY_NAME["linuxcnc"].dialect).plain[0]
 
 
 STRAIGHT = "".join(f"X{k}.\n" for k in range(1, 40))
@@ -175,11 +176,11 @@ def test_a_stretch_in_a_loop_is_run_every_time() -> None:
         run = interpret(text)
     assert int((run.kind == Kind.FEED).sum()) == 63
     assert run.line[1:22].tolist() == list(range(5, 26)) == run.line[22:43].tolist()
-    assert_alike(text, DIALECTS["linuxcnc"])
+    assert_alike(text, BY_NAME["linuxcnc"])
 
 
 def test_lines_of_a_loop_count_however_they_are_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mechwright_cam.interpreter.macros.MOST_LINES", 500)
+    monkeypatch.setattr("mechwright_cam.controls.reading.macros.MOST_LINES", 500)
     body = "".join(f"X{k % 2}\n" for k in range(100))
     with stretches_from(1), pytest.raises(ProgramError, match="more than 500 lines are run"):
         interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nO1 while [1]\n{body}O1 endwhile\nM2\n")
@@ -193,6 +194,6 @@ def test_most_lines_of_a_program_are_run_in_stretches(monkeypatch: pytest.Monkey
         read.append(line)
         return read_block(line, text, dialect)
 
-    monkeypatch.setattr("mechwright_cam.interpreter.read.read_block", counted)
+    monkeypatch.setattr("mechwright_cam.controls.reading.read.read_block", counted)
     interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}(again)\n{STRAIGHT}M2\n")
     assert read == [1, 2, 3, 43, 83]

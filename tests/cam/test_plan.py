@@ -2,13 +2,13 @@ import pytest
 from planning_parts import LIBRARY, bore, job, keyed_bore, lobes, part, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover, motions
 
+from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.geometry import Loop
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import Drill, Feed, FeedArc, Pause, Rapid
-from mechwright_cam.job import make_job
 from mechwright_cam.planning import plan
-from mechwright_cam.reach import cut_outlines
+from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Pause, Rapid
+from mechwright_cam.setup.lay_out import make_job
 
 TOOLS = ("spot-6", "drill-5", "mill-10", "mill-6")
 GEARED = lobes(9, 18.0, 4.0, 900, 1.5)
@@ -221,7 +221,7 @@ def test_cut_outline_keeps_the_corners_that_no_mill_reaches():
 
 
 def test_a_solid_part_is_refused():
-    from mechwright.part import Part
+    from mechwright.contracts.part import Part
 
     with pytest.raises(GeometryError, match="no plate"):
         job(Part("ball", None, 0, "steel", build=lambda: None), "mill-6")

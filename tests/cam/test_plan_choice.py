@@ -8,13 +8,14 @@ from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate
 from planning_simulation import check_rules, gouge, leftover
 
+from mechwright.contracts.finding import Severity
 from mechwright.errors import DesignError, MechwrightError, ToolError
-from mechwright.findings import Severity
 from mechwright.geometry import Loop
-from mechwright.tooling import CamSettings, ToolKind
-from mechwright_cam.job import make_job
+from mechwright_cam.plane.reach import closing, remainder, unreachable
 from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
-from mechwright_cam.reach import closing, remainder, unreachable
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import ToolKind
 
 
 def names(of, **changes):

@@ -5,19 +5,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_control import interpret
 from hypothesis import example, given
 from hypothesis import strategies as st
 from shop import DRILL, MILL, SPOT, TOOLS
 
 from mechwright.errors import ProgramError
-from mechwright.host import Host
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright.plugins.host import Host
 from mechwright_cam import plugin
-from mechwright_cam.interpreter import Kind, interpret
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.posts.text import COMMENT_WIDTH, comment_lines
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
 
-POST = LinuxCncPost()
+POST = LinuxCnc()
 
 GOLDEN = """\
 (program bracket, LinuxCNC)
@@ -132,7 +134,7 @@ def test_the_post_is_registered() -> None:
     host = Host()
     host.add(plugin, "mechwright", "cam")
     assert host.broken == []
-    assert isinstance(host.post("linuxcnc"), LinuxCncPost)
+    assert isinstance(host.get(Control, "linuxcnc"), LinuxCnc)
 
 
 def one(*moves: object) -> Program:
@@ -173,12 +175,12 @@ def test_an_arc_too_short_for_the_decimals_becomes_no_full_circle() -> None:
 @given(st.text(max_size=300))
 @example("full width（parentheses）")
 def test_no_comment_can_hurt(text: str) -> None:
-    for line in comment_lines(text, LinuxCncPost.active_comments):
+    for line in comment_lines(text, LinuxCnc.active_comments):
         assert line.isascii()
         assert line.isprintable()
         assert 0 < len(line) <= COMMENT_WIDTH
         assert not set(line) & set("()")
-        assert not line.upper().startswith(LinuxCncPost.active_comments)
+        assert not line.upper().startswith(LinuxCnc.active_comments)
 
 
 @pytest.mark.parametrize("note", ["PROBEOPEN x.txt", "logopen, /etc/x", "x" * 500, "a)\nM30\n("])

@@ -8,21 +8,35 @@ from dataclasses import replace
 
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import BIAS, DRILL, MILL, SPOT, bore, plate, plate_job, plate_program
 
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.errors import ProgramError, ProofError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.program import Drill, Feed, FeedArc, Move, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import CamSettings, Hold, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import Proof, prove
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.program.moves import (
+    Drill,
+    Feed,
+    FeedArc,
+    Move,
+    Operation,
+    Pause,
+    Program,
+    Rapid,
+    ToolSection,
+)
+from mechwright_cam.proof import Proof
 from mechwright_cam.proof.plane import closing
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
 
-CLEAN = LinuxCncPost().write(plate_program())
+CLEAN = LinuxCnc().write(plate_program())
 
 
 def test_the_clean_program_is_proven() -> None:
@@ -174,7 +188,7 @@ def test_a_spoilt_program_is_judged_and_never_crashes_the_proof(text: str) -> No
 
 
 def proof_of(program: Program, job: Job) -> Proof:
-    return prove(LinuxCncPost().write(program), job)
+    return prove(LinuxCnc().write(program), job)
 
 
 @pytest.mark.parametrize(("bias", "gouge"), [(-0.006, 0.006), (-0.02, 0.02), (-0.3, 0.3)])
@@ -264,7 +278,7 @@ def test_a_bore_that_is_cut_too_small_is_named():
     section = program.sections[2]
     small = (bore(MILL.radius, bias=0.03), *section.operations[1:])
     program = replace(program, sections=(*program.sections[:2], replace(section, operations=small)))
-    proof = prove(LinuxCncPost().write(program), plate_job())
+    proof = prove(LinuxCnc().write(program), plate_job())
     assert proof.leftover_reachable_max_mm == pytest.approx(0.03, abs=1e-3)
     assert "0.030 mm of stock stay on the wall of bore, which is to be cut to" in proof.failures[0].message
 
@@ -289,7 +303,7 @@ def clamped_program(*, pause: bool, swing: float) -> Program:
 def test_a_clamp_is_missed() -> None:
     job = plate_job(hold=Hold(method="bore", clamp_diameter=20, clamp_height=15), clearance=20.0)
     assert job.clamp is not None
-    text = LinuxCncPost().write(clamped_program(pause=True, swing=40.0))
+    text = LinuxCnc().write(clamped_program(pause=True, swing=40.0))
     text = text.replace("G0 X0 Y0\nG43 H1 Z5", "G0 X0 Y0\nG43 H1 Z20").replace("H2 Z5", "H2 Z20")
     proof = prove(text, job)
     assert proof.failures == ()
@@ -297,7 +311,7 @@ def test_a_clamp_is_missed() -> None:
 
 def test_a_clamp_is_hit() -> None:
     job = plate_job(hold=Hold(method="bore", clamp_diameter=62, clamp_height=15), clearance=20.0)
-    text = LinuxCncPost().write(clamped_program(pause=True, swing=40.0))
+    text = LinuxCnc().write(clamped_program(pause=True, swing=40.0))
     proof = prove(text, job)
     hit = proof.checks["clamp"]
     assert not hit.passed

@@ -6,25 +6,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret, prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
 from test_proof_parts import coordinate, cuts, height, paths_of
 
+from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
-from mechwright.part import Part, Pocket
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import interpret
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import gouge, leftover, near, prove, stock
+from mechwright_cam.proof import gouge, leftover, near, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 places = st.lists(st.tuples(coordinate, coordinate), min_size=1, max_size=30).map(np.array)
 
@@ -123,7 +123,7 @@ def test_cuts_near_a_shape(
 
 @pytest.fixture(scope="module")
 def program() -> str:
-    return LinuxCncPost().write(plate_program())
+    return LinuxCnc().write(plate_program())
 
 
 @pytest.mark.parametrize("lines", [[], ["G1 Z-6.2\n"], ["Z-6.2\n", "X-3\n"], ["G3 X-27 Y-24"]])
@@ -138,14 +138,14 @@ def test_the_wall_is_seen_at_every_height_though_each_place_is_measured_once(
     for start in lines:
         text = "".join(line for line in text.splitlines(keepends=True) if not line.startswith(start))
     measured = []
-    real = leftover._on_walls
+    real = leftover.on_walls
 
     def everywhere(reached, within, *rest):  # type: ignore[no-untyped-def]
         measured.append(within is None)
         return real(reached, None, *rest)
 
     at_once = prove(text, job)
-    monkeypatch.setattr(leftover, "_on_walls", everywhere)
+    monkeypatch.setattr(leftover, "on_walls", everywhere)
     again = prove(text, job)
     assert measured == [True, False]
     assert at_once.leftover_reachable_max_mm == pytest.approx(again.leftover_reachable_max_mm, abs=2e-4)
@@ -170,7 +170,7 @@ def test_stock_above_a_tab_is_found(program: str) -> None:
 
 def test_a_sweep_knows_what_is_beside_a_shape(program: str) -> None:
     job = plate_job()
-    sweeps = Sweeps(Paths(interpret(program), {tool.number: tool for tool in job.tools}))
+    sweeps = Sweeps(Paths(interpret(program), job.tools))
     cut = sweeps.through(job.thickness)
     assert sweeps.through(job.thickness) is cut
     for sweep in cut:
@@ -195,7 +195,7 @@ def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: f
     part = Part("plate", plate, 8.0, "aluminium", machined=(recess,))
     cam = CamSettings.model_validate({"stock": {"margin": 0}, "tools": ["mill-4"]})
     job = make_job(part, cam, choose_tools(part, cam, load_library()))
-    text = LinuxCncPost().write(plan(job))
+    text = LinuxCnc().write(plan(job))
     proof = prove(text, job)
     assert proof.ok
     # The corners of the wide end keep r (1 - 1/√2) beside their walls, the slot half its width.

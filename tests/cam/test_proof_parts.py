@@ -5,22 +5,27 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import DRILL, MILL, TOOLS, plate_job
 
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Bore, Part, Pocket, Profile
-from mechwright.tooling import CamSettings, Hold, Machine, Tool
-from mechwright_cam.interpreter import Kind, Run, interpret
-from mechwright_cam.job import Job, make_job
+from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.gouge import deepest_cut
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.plane import Boundary, grow, swept
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.proof.timing import step_times
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.timing import step_times
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 START = "G17 G21 G90\nT3 M6\nG0 X0 Y0 Z5\n"
 
@@ -30,7 +35,7 @@ def run_of(text: str, start: str = START) -> Run:
 
 
 def paths_of(text: str, *tools: Tool) -> Paths:
-    return Paths(run_of(text), {tool.number: tool for tool in tools or (MILL,)})
+    return Paths(run_of(text), tools or (MILL,))
 
 
 # -- gouges ----------------------------------------------------------------------------------------------
@@ -223,7 +228,7 @@ def test_a_boundary_knows_holes() -> None:
 def test_material_is_known_at_any_moment() -> None:
     job = plate_job()
     run = run_of("G1 Z-2 F100\nG1 X20\nG0 Z5\nG0 X0\nG0 Z-2\nG0 Z5\nG0 Z-2.5\nG0 Z5\nG0 X10 Y3\nG0 Z-1\n")
-    paths = Paths(run, {tool.number: tool for tool in TOOLS})
+    paths = Paths(run, TOOLS)
     stock = Stock(paths, job)
     met = {int(run.line[step]): stock.meets(int(step)) for step in paths.steps}
     # Down into the slot to its floor, below it, and beside it.

@@ -8,10 +8,11 @@ from golden_programs import CONTROLS, every_operation, with_options
 from planning_parts import bore, job, plate
 from pygcode_reader import agree, needs_pygcode
 
-from mechwright.host import host
-from mechwright.program import Program
-from mechwright.tooling import Posting
-from mechwright_cam.pipeline import machine
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine
+from mechwright_cam.program.moves import Program
+from mechwright_cam.shop.posting import Posting
 
 pytestmark = needs_pygcode
 
@@ -24,19 +25,21 @@ def without_cycles(program: Program) -> Program:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_kept_programs(control: str) -> None:
     for program in (every_operation(), with_options()):
-        text = host().post(control).write(without_cycles(program))
+        text = host().get(Control, control).write(without_cycles(program))
         assert agree([text], control, program.machine.retract_z) > 50
 
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_every_operation(control: str) -> None:
     programs = [one.program for operation in CASES for one in made(operation, control)]
-    texts = [host().post(control).write(without_cycles(program)) for program in programs]
+    texts = [host().get(Control, control).write(without_cycles(program)) for program in programs]
     assert agree(texts, control, 0.0) > 20 * len(texts)
 
 
 @pytest.mark.parametrize("control", CONTROLS)
 def test_planned_programs(control: str) -> None:
     settings = {"control": control, "post": Posting(cycles=False)}
-    made_of = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings), host().post(control))
+    made_of = machine(
+        job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings), host().get(Control, control)
+    )
     assert agree([made_of.text], control, 0.0) > 150

@@ -7,28 +7,28 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, job, lobes, part, plate
 from rs274 import needs_rs274, run_rs274
 
+from mechwright.contracts.part import Profile
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop
-from mechwright.part import Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.picture import plan_view
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.operations.over_tabs import LIFT
+from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.over_tabs import LIFT
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 RAMPED = {"tab_shape": "ramped"}
 
 
 def text_of(of):
-    return LinuxCncPost().write(plan(of))
+    return LinuxCnc().write(plan(of))
 
 
 def proven(of):

@@ -3,13 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from by_control import prove
 from planning_parts import job, part, rounded_box
 
+from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright.part import Pocket, Profile
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
 
 
 def notched(thickness):
@@ -22,7 +22,7 @@ def notched(thickness):
 
 
 def proven(of):
-    return prove(LinuxCncPost().write(plan(of)), of)
+    return prove(LinuxCnc().write(plan(of)), of)
 
 
 def tools_of(of, name):
@@ -43,7 +43,7 @@ def test_a_mill_counts_as_deep_as_its_flutes_are_long():
 
 def test_what_a_short_mill_left_in_a_recess_is_found():
     of = job(notched(6.0), "mill-8", "mill-1")
-    coarse = LinuxCncPost().write(plan(job(notched(6.0), "mill-8")))
+    coarse = LinuxCnc().write(plan(job(notched(6.0), "mill-8")))
     assert prove(coarse, of).ok  # mill-1 is not in the program
     program = plan(of)
     sections = []
@@ -51,5 +51,5 @@ def test_what_a_short_mill_left_in_a_recess_is_found():
         fine = section.tool.name == "mill-1"
         kept = tuple(o for o in section.operations if not (fine and o.name.endswith("finish")))
         sections.append(replace(section, operations=kept))
-    found = prove(LinuxCncPost().write(replace(program, sections=tuple(sections))), of)
+    found = prove(LinuxCnc().write(replace(program, sections=tuple(sections))), of)
     assert [check.name for check in found.failures] == ["leftover"]

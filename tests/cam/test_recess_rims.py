@@ -5,20 +5,20 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.operations.clearing import stays_inside
+from mechwright_cam.plane.leads import best_start
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.clearing import stays_inside
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
-from mechwright_cam.toolpath.leads import best_start
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.settings import CamSettings
 
 LIBRARY = load_library()
 RIM = 24.0
@@ -65,7 +65,7 @@ def test_recess_crosses_the_rim_at_any_angle(angle, shape, tools, climb) -> None
     if refusal:
         assert "takes nothing of the plate" in refusal or "no listed end mill enters" in refusal
         return
-    proof = prove(LinuxCncPost().write(program), job)
+    proof = prove(LinuxCnc().write(program), job)
     assert [check.message for check in proof.checks.values() if not check.passed] == []
 
 

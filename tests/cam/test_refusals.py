@@ -4,18 +4,18 @@ import math
 
 import pytest
 import shapely
+from by_control import prove
 from planning_parts import LIBRARY, rounded_box
 
-from mechwright.details import Chamfer, Engraving
+from mechwright.contracts.details import Chamfer, Engraving
+from mechwright.contracts.part import OpenProfile, Part, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Line, Loop, Outline, circle
-from mechwright.lettering import lettering
-from mechwright.part import OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.job import make_job
+from mechwright.geometry.lettering import lettering
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
 
 RIM = rounded_box(60, 40, 4)
 
@@ -30,7 +30,7 @@ def laid(*features, rim=RIM, thickness=8.0, details=(), tools=(), **settings):
 
 def proven(of):
     program = plan(of)
-    proof = prove(LinuxCncPost().write(program), of)
+    proof = prove(LinuxCnc().write(program), of)
     assert proof.ok, [check.message for check in proof.failures]
     return program
 

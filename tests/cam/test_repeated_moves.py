@@ -3,8 +3,9 @@
 import pytest
 from planning_parts import LIBRARY
 
-from mechwright.host import host
-from mechwright.program import Feed, FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
 
 ARC = FeedArc(10.0, 10.0, None, 0.0, 10.0, True, 400.0)
 TINY = FeedArc(10.00001, 10.0, None, 0.0, 10.0, True, 400.0)
@@ -22,7 +23,7 @@ def program(*moves):
 @pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "grbl"])
 def test_repeated_moves_are_written_as_fresh_ones(control):
     """The same objects, and as many equal ones, give the same text, whatever stands in between."""
-    post = host().post(control)
+    post = host().get(Control, control)
     moves = [
         ARC,
         TINY,

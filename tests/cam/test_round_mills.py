@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from height_map import read
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -23,14 +24,14 @@ from round_parts import (
     stadium,
 )
 
+from mechwright.contracts.finding import Severity
+from mechwright.contracts.part import Bore, Part, Pocket
 from mechwright.errors import DesignError, ToolError
-from mechwright.findings import Severity
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Bore, Part, Pocket
-from mechwright.tooling import CamSettings, CuttingData, Tool, ToolKind
 from mechwright_cam.planning import lay_out, plan
-from mechwright_cam.proof import prove
 from mechwright_cam.proof.fillets import fillets, stay
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
 
 def round_pocket(radius: float, corner: float = 4.0) -> Pocket:

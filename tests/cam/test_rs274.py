@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_control import interpret
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 from shop import TOOLS, plate_program
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import Kind, Run, interpret
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.reading import Kind, Run
 
 pytestmark = needs_rs274
 LAST_DECIMAL = 1.1e-4  # canon prints four decimals
@@ -44,7 +45,7 @@ def agree(text: str, folder: Path, tools: str = "", scale: float = 1.0) -> None:
 
 
 def test_the_post_s_program_is_accepted_and_read_alike(tmp_path: Path) -> None:
-    post = LinuxCncPost()
+    post = LinuxCnc()
     agree(post.write(plate_program()), tmp_path, post.tool_table(TOOLS)[1])
 
 

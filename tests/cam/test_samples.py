@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_control import interpret
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 from test_rs274 import distinct
 
 from mechwright.errors import ProgramError
-from mechwright_cam.interpreter import Kind, Run, interpret
+from mechwright_cam.controls.reading import Kind, Run
 
 SAMPLES = Path("/usr/share/linuxcnc/ncfiles")
 PAGE = (Path(__file__).parents[2] / "docs" / "controls.md").read_text(encoding="utf-8")

@@ -7,17 +7,18 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from by_control import setup_html, steps
 from plate_shapes import slotted_plate, wavy_plate
 
-from mechwright.part import Instance, Part
-from mechwright.program import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
-from mechwright.tooling import CamSettings, Tool
-from mechwright_cam import svg
-from mechwright_cam.job import make_job
-from mechwright_cam.picture import plan_view
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.procedure import steps
-from mechwright_cam.trace import trace
+from mechwright.contracts.part import Instance, Part
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.pages import svg
+from mechwright_cam.pages.picture import plan_view
+from mechwright_cam.pages.trace import trace
+from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRILL = Tool(name="d8", number=4, kind="drill", diameter=8, flutes=2, flute_length=40)
@@ -59,6 +60,11 @@ def program(offset="G54", stop=None):
         ToolSection(MILL, 6000, "mist", (Operation("outside", outside),)),
     )
     return Program("wheel", offset, 5.0, sections, ("stock 10 mm steel",))
+
+
+def ending(suffix):
+    """A control whose programs end so."""
+    return type("Ending", (LinuxCnc,), {"suffix": suffix})()
 
 
 def sheet(job, program, proof, **files):
@@ -172,7 +178,7 @@ def test_text_of_a_design_file_is_only_text():
     }
     machine = {"name": evil}
     made = program(stop=evil)
-    page = sheet(job(machine=machine), made, proof, suffix=evil, tool_table=evil, design=evil)
+    page = sheet(job(machine=machine), made, proof, control=ending(evil), tool_table=evil, design=evil)
     found = read(page)
     assert "script" not in {tag for tag, _ in found.tags}
     assert "<script" not in page
@@ -183,7 +189,8 @@ def test_several_programs_have_an_index_and_a_sheet_each():
     other = replace(program(), name="hub")
     part = replace(job().part, name="hub")
     failed = {"ok": False, "time_estimate_s": 61.0}
-    page = setup_html([(job(), program(), PROOF), (replace(job(), part=part), other, failed)], suffix=".tap")
+    rows = [(job(), program(), PROOF), (replace(job(), part=part), other, failed)]
+    page = setup_html(rows, ending(".tap"))
     found = read(page)
     assert "wheel wheel.tap proven 2 12 min 34 s hub hub.tap FAILED 2 1 min 01 s" in found.text
     names = [attributes["id"] for tag, attributes in found.tags if "id" in attributes]

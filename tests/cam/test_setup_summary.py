@@ -6,7 +6,7 @@ import re
 import pytest
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
+from mechwright.cli.app import make_app
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +17,7 @@ def made(tmp_path_factory):
         'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'
         '[cam.part.gear]\nwork_offset = "G55"\n'
     )
-    done = CliRunner().invoke(app, ["cam", str(file), "-o", str(folder / "out")])
+    done = CliRunner().invoke(make_app(), ["cam", str(file), "-o", str(folder / "out")])
     assert done.exit_code == 0, done.output
     return folder / "out"
 

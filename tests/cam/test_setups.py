@@ -8,26 +8,25 @@ from functools import cache
 import numpy as np
 import pytest
 import shapely
+from by_control import BY_NAME, interpret, prove, setup_html, steps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
 from plate_shapes import many_spans, wavy
 
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
 from mechwright.errors import DesignError
-from mechwright.findings import errors
 from mechwright.geometry import Line, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
-from mechwright.host import host
-from mechwright.part import Bore, Instance, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import DIALECTS, interpret
-from mechwright_cam.pipeline import machine, second_setup
+from mechwright.plugins.host import host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import machine, second_setup
 from mechwright_cam.planning import plan
-from mechwright_cam.proof import prove
-from mechwright_cam.proof.bands import inside_of
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.procedure import steps
-from mechwright_cam.setups import lay_out_setups, sides, turned_shape
+from mechwright_cam.planning.setups import lay_out_setups, turned_shape
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.setup.views import inside_of
+from mechwright_cam.shop.settings import CamSettings
 
 THICKNESS = 8.0
 HOLE = Bore("bore", (0.0, 0.0), 10.0, 0.0, THICKNESS)
@@ -112,9 +111,9 @@ def both(made_part, control="linuxcnc", **changes):
     jobs, found = lay_out_setups(made_part, cam(control=control, **changes), LIBRARY)
     assert not errors(found), found
     assert [job.side for job in jobs] == ["top", "underside"]
-    post = host().post(control)
+    post = host().get(Control, control)
     first = machine(jobs[0], post)
-    return first, machine(second_setup(first, jobs[1], post), post)
+    return first, machine(second_setup(first, jobs[1]), post)
 
 
 @pytest.mark.parametrize(
@@ -242,8 +241,8 @@ def test_a_recess_over_the_rim_is_open_into_the_frame(feature, locate) -> None:
     # No corner of it is one: those drawn out in the frame are no walls, and no fine mill is taken for them.
     assert not [f for f in found if f.code == "cam.unreachable"]
     assert min(mill.diameter for mill in jobs[1].mills) >= 4.0
-    first = machine(jobs[0], host().post("linuxcnc"))
-    second = machine(second_setup(first, jobs[1], host().post("linuxcnc")), host().post("linuxcnc"))
+    first = machine(jobs[0], host().get(Control, "linuxcnc"))
+    second = machine(second_setup(first, jobs[1]), host().get(Control, "linuxcnc"))
     assert second.proof.unreachable_max_mm < 0.01
     # The cutter runs out over the rim, and no further into the frame than it needs.
     run, mill = interpret(second.text), second.program.sections[-1].tool
@@ -323,7 +322,7 @@ def test_a_face_below_leaves_no_place_for_tabs() -> None:
 @pytest.mark.parametrize("control", ["fanuc", "grbl"])
 def test_second_sides_on_every_control(control) -> None:
     _, second = both(part(COUNTERBORE), control=control)
-    run = interpret(second.text, DIALECTS[control])
+    run = interpret(second.text, BY_NAME[control])
     assert {run.states[i].work_offset for i in run.state[run.cutting]} == {"G55"}
 
 
@@ -344,7 +343,7 @@ def test_random_underside_pockets_are_proven_or_refused(x, y, width, depth, flip
     if len(jobs) == 1:  # all of it lies in the bore
         assert inside_of(HOLE).buffer(1e-3).contains(inside_of(pocket))
         return
-    made = machine(jobs[1], host().post("linuxcnc"))
+    made = machine(jobs[1], host().get(Control, "linuxcnc"))
     assert made.proof.ok
     assert math.isclose(
         interpret(made.text).end[:, 2][np.isfinite(interpret(made.text).end[:, 2])].min(),

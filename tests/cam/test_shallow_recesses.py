@@ -6,18 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+from by_control import prove
 from height_map import read
 from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
 
-from mechwright.cutter import cutter
+from mechwright.contracts.part import OpenProfile, Pocket
 from mechwright.errors import ToolError
 from mechwright.geometry import Arc, Line, Loop, circle
-from mechwright.part import OpenProfile, Pocket
-from mechwright.program import Move
-from mechwright.tooling import Tool
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
+from mechwright_cam.program.moves import Move
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
 
 DEPTHS = (0.3, 0.6, 0.68, 0.9, 0.99, 1.05, 1.5, 2.0)
 SQUARE = Loop.polygon([(-15, -12), (15, -12), (15, 12), (-15, 12)])
@@ -218,7 +218,7 @@ class TestGrooves:
         marked = plan(laid(mark, tools=("mill-4",)))
         both = replace(marked, sections=(*alone.sections, *marked.sections))
         job = laid(self.groove(4.0, 6.0), mark, tools=("ball-6", "mill-4"))
-        assert "leftover" in failed(prove(LinuxCncPost().write(both), job))
+        assert "leftover" in failed(prove(LinuxCnc().write(both), job))
 
 
 class TestSnugRecesses:
@@ -264,7 +264,7 @@ class TestSnugRecesses:
         (section,) = program.sections
         (groove,) = section.operations
         short = replace(section, operations=(replace(groove, moves=tuple(map(_nearer, groove.moves))),))
-        text = LinuxCncPost().write(replace(program, sections=(short,)))
+        text = LinuxCnc().write(replace(program, sections=(short,)))
         assert "leftover" in failed(prove(text, job))
 
     def test_where_it_opens_along_its_side_it_is_refused(self) -> None:

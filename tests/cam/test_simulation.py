@@ -9,24 +9,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_control import LINUXCNC, read, setup_html, simulated
 from planning_parts import bore, job, plate
 from shop import DRILL, MILL, SPOT, TOOLS, plate_job, plate_program
 
-from mechwright.program import Feed, FeedArc, Operation, Program, Rapid, ToolSection
-from mechwright_cam.interpreter import LINUXCNC, interpret
-from mechwright_cam.pipeline import machine
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import read
-from mechwright_cam.proof.simulation import Simulation, deviation, simulate
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.raster import simulated_view
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine
+from mechwright_cam.pages.setup_sheet.raster import simulated_view
+from mechwright_cam.program.moves import Feed, FeedArc, Operation, Program, Rapid, ToolSection
+from mechwright_cam.proof.simulation import Simulation, deviation
 
 
 def simulation(*moves: object, feed: float = 600.0) -> tuple[Simulation, object]:
     made = plate_job()
     section = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(moves)),))
     program = Program("plate", "G54", 5.0, (section,))
-    return simulate(read(LinuxCncPost().write(program), made, LINUXCNC), made), made
+    return simulated(LinuxCnc().write(program), made), made
 
 
 def row(x0, x1, y, z, feed=600.0):
@@ -62,8 +60,8 @@ def test_the_thickest_chip_follows_the_engagement(over: float) -> None:
     other = MILL.model_copy(update={"number": 9, "name": "mill-9"})
     second = ToolSection(other, 8000, "flood", (Operation("p", tuple(row(-20, 20, over, -2.0))),))
     made = replace(made, tools=(*made.tools, other))
-    text = LinuxCncPost().write(Program("plate", "G54", 5.0, (first, second)))
-    work = simulate(read(text, made, LINUXCNC), made).works[1]
+    text = LinuxCnc().write(Program("plate", "G54", 5.0, (first, second)))
+    work = simulated(text, made).works[1]
     angle = math.acos(1 - over / 3.0)
     assert work.tool == 9
     assert (
@@ -92,11 +90,11 @@ def test_arcs_and_helices_are_followed() -> None:
 
 def test_a_drill_leaves_its_point() -> None:
     made = plate_job()
-    text = LinuxCncPost().write(plate_program())
+    text = LinuxCnc().write(plate_program())
     run = read(text, made, LINUXCNC)
     stop = int(np.flatnonzero(run.tool == DRILL.number)[0])
-    spot_only = interpret("\n".join(text.split("\n")[: int(run.line[stop]) - 1]))
-    seen = simulate(spot_only, made)
+    spot_only = "\n".join(text.split("\n")[: int(run.line[stop]) - 1])
+    seen = simulated(spot_only, made)
     assert seen.heights.min() == pytest.approx(-2.0, abs=seen.cell)
     cone = math.pi * 2.0**3 / 3
     assert removed(seen) == pytest.approx(cone, rel=0.06)
@@ -104,15 +102,15 @@ def test_a_drill_leaves_its_point() -> None:
 
 
 def test_the_finished_part_has_no_deviation_and_a_defect_has() -> None:
-    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
-    seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
+    seen = simulated(made.text, made.job)
     off = deviation(seen, made.job, 2)
     assert np.nanmax(np.abs(off)) == 0
     assert np.isfinite(off).mean() > 0.2
     hurt = made.text.replace(
         "M30", "T24 M6\nG54 S900 M3\nG0 X15 Y5\nG43 H24 Z5\nG1 Z-1 F99\nX18\nG53 G0 Z0\nM30"
     )
-    off = deviation(simulate(read(hurt, made.job, LINUXCNC), made.job), made.job, 2)
+    off = deviation(simulated(hurt, made.job), made.job, 2)
     assert np.nanmin(off) == pytest.approx(-1.0)
 
 
@@ -138,8 +136,8 @@ def test_the_picture_shows_what_is_left_and_what_is_hurt() -> None:
 
 
 def test_the_setup_sheet_has_picture_and_loads() -> None:
-    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
-    seen = simulate(read(made.text, made.job, LINUXCNC), made.job)
+    made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
+    seen = simulated(made.text, made.job)
     proof = {**made.proof.as_dict(), "simulation": seen.as_dict()}
     page = setup_html(
         [(made.job, made.program, proof)], pictures={made.program.name: simulated_view(seen, made.job)}

@@ -7,8 +7,9 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_cam.planning.slots import FILLS, fills_a_slot
-from mechwright_cam.reach import (
+from mechwright_cam.operations.slots import FILLS, fills_a_slot
+from mechwright_cam.plane.offsets import BIAS, ROUGH, grow, simplified, thinned
+from mechwright_cam.plane.reach import (
     ROUGHLY,
     closing,
     leaves_at_most,
@@ -17,7 +18,6 @@ from mechwright_cam.reach import (
     roughly_closed_area,
     roughly_swollen,
 )
-from mechwright_cam.toolpath.offsets import BIAS, ROUGH, grow, simplified, thinned
 
 
 def slotted(width, length=20.0, taper=0.0):

@@ -16,18 +16,18 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from plate_shapes import turning, wavy
 from shop import rounded_box
+from step_read import read_step_solids
 
-from mechwright.details import Chamfer, Engraving, Thread
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Line, Loop, Outline, circle
-from mechwright.lettering import lettering
-from mechwright.part import Bore, Instance, Part, Pocket, Profile
-from mechwright.sections import volume
-from mechwright_cam import picture
-from mechwright_cam.exporters import DxfExporter, StepExporter, StlExporter
-from mechwright_cam.exporters.mesh import part_mesh
-from mechwright_cam.exporters.step_read import read_step_solids
-from mechwright_cam.solids import part_shape, part_solid
+from mechwright.geometry.lettering import lettering
+from mechwright_cad.exporters import DxfExporter, StepExporter, StlExporter
+from mechwright_cad.exporters.mesh import part_mesh
+from mechwright_cad.solids.solid import part_shape, part_solid
+from mechwright_cam.pages import picture
 
 THICKNESS = 6.0
 BOX = rounded_box(30, 20, 6)

@@ -19,14 +19,14 @@ from plate_shapes import (
     wavy_part,
     wavy_plate,
 )
+from step_read import top_face
 
+from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline, Line, Loop, Outline, circle
-from mechwright.part import Instance, Part
-from mechwright_cam import solids
-from mechwright_cam.exporters.step_read import top_face
-from mechwright_cam.solid_check import check_plate, check_solid, top_area
-from mechwright_cam.wires import extruded
+from mechwright_cad.solids import solid as solids
+from mechwright_cad.solids.solid_check import check_plate, check_solid, top_area
+from mechwright_cad.solids.wires import extruded
 
 
 @pytest.mark.parametrize("name", PLATES)
@@ -116,7 +116,7 @@ def test_gate_counts_triangles(monkeypatch):
     outline = wavy_plate()
     solid = extruded(outline, 8.0)
     check_plate(solid, outline, 8.0)
-    monkeypatch.setattr("mechwright_cam.solid_check.SURPLUS", 0.01)
+    monkeypatch.setattr("mechwright_cad.solids.solid_check.SURPLUS", 0.01)
     with pytest.raises(GeometryError, match="triangles, limit"):
         check_plate(solid, outline, 8.0)
 

@@ -10,14 +10,14 @@ import cadquery as cq
 import pytest
 import shapely
 from plate_shapes import PLATES, Part, turning, wavy_part
+from step_read import read_step_outline, read_step_solids
 
 from mechwright.errors import OutputError
-from mechwright_cam.exporters import StepExporter, StlExporter
-from mechwright_cam.exporters.step_read import read_step_outline, read_step_solids
+from mechwright_cad.exporters import StepExporter, StlExporter
 
 WRITE = """
 import hashlib, json
-from mechwright_cam.exporters import StepExporter
+from mechwright_cad.exporters import StepExporter
 from plate_shapes import turning, wavy_part
 exporter, part = StepExporter(), wavy_part()
 files = [exporter.part(part), exporter.assembly("pair", [part], turning(), 2)]

@@ -2,7 +2,7 @@
 
 import itertools
 
-from mechwright_cam.exporters.step_text import sort_styles
+from mechwright_cad.exporters.step_text import sort_styles
 
 HEAD = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"
 

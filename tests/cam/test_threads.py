@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright_cam.threads import prepared, together
+from mechwright.cores import together
+from mechwright.geometry.prepared import prepared
 
 
 def test_results_come_in_the_order_of_the_items() -> None:

@@ -4,16 +4,16 @@ import math
 
 import numpy as np
 import pytest
+from by_control import interpret, setup_html
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import bore, job, plate
 
-from mechwright.tooling import Machine
-from mechwright_cam.interpreter import Kind, Run, interpret
-from mechwright_cam.pipeline import machine as build
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.timing import CORNER, step_times
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.machining import machine as build
+from mechwright_cam.proof.timing import CORNER_JUMP, step_times
+from mechwright_cam.shop.machine import Machine
 
 STEP = 0.004  # mm
 
@@ -61,7 +61,7 @@ def integrated(run: Run, machine: Machine) -> float:
                 continue
             here, there = piece[mine[1]] - piece[mine[0]], points[other][theirs[1]] - points[other][theirs[0]]
             turn = np.linalg.norm(here / np.linalg.norm(here) - there / np.linalg.norm(there))
-            own[at] = min(own[at], caps[other][0], CORNER / 60 / max(turn, 1e-6))
+            own[at] = min(own[at], caps[other][0], CORNER_JUMP / 60 / max(turn, 1e-6))
         cap.append(own)
     if not points:
         return 0.0
@@ -87,7 +87,7 @@ def estimated(run: Run, machine: Machine) -> float:
 @pytest.mark.parametrize("rapid_z", [None, 1500.0])
 @pytest.mark.parametrize("acceleration", [0.2, 1.0, 6.0])
 def test_a_planned_program(acceleration: float, rapid_z: float | None) -> None:
-    text = build(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost()).text
+    text = build(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc()).text
     # One stretch of known positions: retracts end one and begin another.
     stretch = text.split(" M3\n")[-1].partition("M9")[0]
     run = interpret("G17 G21 G90\n" + stretch)
@@ -132,7 +132,7 @@ def test_a_slower_z_takes_longer() -> None:
 
 
 def test_minutes_in_cut_and_the_life_of_a_tool() -> None:
-    made = build(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCncPost())
+    made = build(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
     cutting = made.proof.tool_cutting_s
     times = made.proof.tool_times_s
     assert all(0 < cutting[number] < times[number] for number in cutting if number)

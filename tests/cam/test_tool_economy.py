@@ -3,9 +3,9 @@
 import pytest
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
-from mechwright.tooling import CamSettings
+from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.posts import LinuxCncPost
+from mechwright_cam.shop.settings import CamSettings
 
 SLOT = rounded_box(40, 8.05, 4.02, clockwise=True)
 
@@ -42,7 +42,7 @@ def test_the_spindle_stays_off_between_the_stop_for_the_clamp_and_the_next_tool(
         *("spot-6", "drill-5", "mill-10", "mill-6"),
         hold={"method": "bore", "clamp_diameter": 16},
     )
-    lines = LinuxCncPost().write(plan(held)).splitlines()
+    lines = LinuxCnc().write(plan(held)).splitlines()
     after = lines[lines.index("M0") + 1 :]
     change = next(number for number, line in enumerate(after) if "M6" in line)
     assert not any("M3" in line or "M8" in line for line in after[:change])
@@ -50,7 +50,7 @@ def test_the_spindle_stays_off_between_the_stop_for_the_clamp_and_the_next_tool(
 
 def test_the_spindle_starts_again_if_the_tool_stays():
     held = job(plate(bore(12)), "mill-6", hold={"method": "bore", "clamp_diameter": 16})
-    lines = LinuxCncPost().write(plan(held)).splitlines()
+    lines = LinuxCnc().write(plan(held)).splitlines()
     after = lines[lines.index("M0") + 1 :]
     start = next(number for number, line in enumerate(after) if "M3" in line)
     assert start < next(number for number, line in enumerate(after) if line.startswith("G1"))

@@ -6,10 +6,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_cam.toolpath.arcfit import fit, fit_all
-from mechwright_cam.toolpath.offsets import grow, rings
-from mechwright_cam.toolpath.path import Path, arc, circle, line, polyline
-from mechwright_cam.toolpath.runs import GREATEST_RADIUS, LONGEST_TURN
+from mechwright_cam.plane.arcfit import fit, fit_all
+from mechwright_cam.plane.offsets import grow, rings
+from mechwright_cam.plane.path import Path, arc, circle, line, polyline
+from mechwright_cam.plane.runs import GREATEST_RADIUS, LONGEST_TURN
 
 
 def wavy(n, teeth, depth, radius=40.0):

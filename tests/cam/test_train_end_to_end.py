@@ -6,22 +6,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_control import interpret
 from rs274 import needs_rs274, run_rs274
+from step_read import parts_from_step, read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
-from mechwright.design import Design, load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.part import Instance, Part
-from mechwright.requirement import load_requirement
+from mechwright.contracts.finding import Severity
+from mechwright.contracts.part import Instance, Part
+from mechwright.designs.design import Design, load
+from mechwright.designs.requirement import load_requirement
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam import pipeline
-from mechwright_cam.exporters import StepExporter
-from mechwright_cam.exporters.step_read import read_step_outline
-from mechwright_cam.interference import faithful_motion, interference
-from mechwright_cam.interference.readback import parts_from_step
-from mechwright_cam.interpreter import interpret
-from mechwright_cam.pipeline import Machined
+from mechwright_cad.exporters import StepExporter
+from mechwright_cad.interference import faithful_motion, interference
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machined, machine
+from mechwright_cam.planning.prepare import plates, prepare
+from mechwright_cam.shop.table import settings_of
 from mechwright_elliptic_gears.proof import prove_outlines
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -44,11 +45,11 @@ class Built:
 def built(request: pytest.FixtureRequest) -> Built:
     design = load(EXAMPLES / f"figure-eight-{request.param}.toml", host())
     parts = tuple(design.family.parts(design.params))
-    plates = pipeline.plates(parts)
-    findings, jobs = pipeline.prepare(design, plates)
-    post = host().post(design.cam.control)
-    made = {job.part.name: pipeline.machine(job, post) for job in jobs}
-    read = {part.name: read_step_outline(StepExporter().part(part))[0] for part in plates}
+    milled = plates(parts)
+    findings, jobs = prepare(design, milled)
+    post = host().get(Control, settings_of(design).cam.control)
+    made = {job.part.name: machine(job, post) for job in jobs}
+    read = {part.name: read_step_outline(StepExporter().part(part))[0] for part in milled}
     return Built(design, parts, read, made, (*design.family.check(design.params), *findings))
 
 
@@ -69,7 +70,7 @@ def test_every_plate_has_a_proven_program(built: Built) -> None:
 
 @needs_rs274
 def test_linuxcnc_accepts_every_program_and_reads_what_we_read(built: Built, tmp_path: Path) -> None:
-    post = host().post("linuxcnc")
+    post = host().get(Control, "linuxcnc")
     for name, made in built.made.items():
         folder = tmp_path / name
         folder.mkdir()

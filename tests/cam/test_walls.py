@@ -6,26 +6,26 @@ from functools import cache
 
 import numpy as np
 import pytest
+from by_control import prove, scene_of, setup_html
 from planning_parts import job
 from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
+from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline
-from mechwright.part import Part, Pocket, Profile
-from mechwright.tooling import CamSettings
-from mechwright_cam.interpreter import interpret
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.pages.setup_sheet.walls import exaggeration, walls_view
 from mechwright_cam.planning import plan
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.proof import prove
 from mechwright_cam.proof.walls import wall_deviation
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.setup_sheet.walls import exaggeration, walls_view
+from mechwright_cam.shop.settings import CamSettings
 
 ANGLE = Loop.polygon([(-30, -20), (30, -20), (30, 0), (5, 0), (5, 20), (-30, 20)])
 SQUARE = Loop.polygon([(-24, -14), (-8, -14), (-8, 6), (-24, 6)])
 
 
 def measured(bias=BIAS):
-    return wall_deviation(interpret(LinuxCncPost().write(plate_program(bias=bias))), plate_job())
+    return wall_deviation(
+        scene_of(LinuxCnc().write(plate_program(bias=bias)), plate_job()).sweeps, plate_job()
+    )
 
 
 @cache
@@ -34,8 +34,8 @@ def angle():
     machined = (Pocket("pocket", SQUARE, (), 0, 3), Profile("outside", ANGLE, "outside", 0, 6))
     of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6", "mill-4")
     program = plan(of)
-    text = LinuxCncPost().write(program)
-    return of, program, text, wall_deviation(interpret(text), of)
+    text = LinuxCnc().write(program)
+    return of, program, text, wall_deviation(scene_of(text, of).sweeps, of)
 
 
 @pytest.mark.parametrize("bias", [0.001, 0.003, -0.002])
@@ -50,7 +50,7 @@ def test_a_path_that_keeps_off_by_a_bias_is_off_by_that_everywhere(bias):
 
 
 def test_the_worst_cut_is_where_it_was_planted():
-    text = LinuxCncPost().write(plate_program())
+    text = LinuxCnc().write(plate_program())
     lines = text.splitlines()
     # The last pass along the right side comes 4 µm nearer at its end.
     edge = f"X{HALF_X + 3 + BIAS:.4f}".rstrip("0")
@@ -59,7 +59,7 @@ def test_the_worst_cut_is_where_it_was_planted():
     below = next(i for i in range(last + 1, len(lines)) if lines[i].startswith(("G1", "Y")))
     lines.insert(below, f"G1 X{HALF_X + 3 - 0.004:.4f}")
     lines.insert(below + 1, f"G1 X{HALF_X + 3 + BIAS:.4f}")
-    walls = wall_deviation(interpret("\n".join(lines)), plate_job())
+    walls = wall_deviation(scene_of("\n".join(lines), plate_job()).sweeps, plate_job())
     worst = walls.cut[0]
     assert worst.off == pytest.approx(-0.004, abs=2e-4)
     assert worst.x == pytest.approx(HALF_X, abs=0.01)
@@ -96,7 +96,7 @@ def test_places_listed_are_plain_data_of_the_proof():
 
 
 def test_a_program_that_cuts_nothing_leaves_all():
-    walls = wall_deviation(interpret("G21 G90\nM30\n"), plate_job())
+    walls = wall_deviation(scene_of("G21 G90\nM30\n", plate_job()).sweeps, plate_job())
     assert len(walls.off) == 0 or walls.off.min() >= 0
     assert walls.cut == ()
 
@@ -108,7 +108,7 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
     assert view.count("<circle") == 3 + 3
     assert view.count("stroke-dasharray") == 3  # corners are dashed
     assert f"1: {walls.left[0].off:+.4f}" in view
-    from mechwright_cam.picture import Frame
+    from mechwright_cam.pages.picture import Frame
 
     small, large = (exaggeration(walls, Frame(0, 0, size, size)) for size in (50.0, 500.0))
     assert large == pytest.approx(10 * small)

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.planning.wedges import TOUCH, into_wedges
-from mechwright_cam.toolpath.offsets import BIAS, grow, rings
+from mechwright_cam.operations.wedges import TOUCH, into_wedges
+from mechwright_cam.plane.offsets import BIAS, grow, rings
 
 
 def wedge(half_angle: float) -> shapely.Polygon:

@@ -6,14 +6,14 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.synthesis import Candidate, Synthesis
 from mechwright.errors import GeometryError
-from mechwright.family import Family
-from mechwright.findings import Finding, Severity
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses, Scalar
-from mechwright.parameters import Parameters
-from mechwright.part import Instance, Part
-from mechwright.synthesis import Candidate, Synthesis
 from mechwright.units import Millimetres, Ratio, RevPerMin
 
 

@@ -9,8 +9,8 @@ from flint import Ordering, arb, ctx, fmpq, fmpq_mpoly_ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.algebra import PlaneCurve, eliminate, exact
 from mechwright.errors import DesignError, GeometryError
+from mechwright.mechanics.algebra import PlaneCurve, eliminate, exact
 
 CONTEXT = fmpq_mpoly_ctx.get(("S", "rho", "l"), Ordering.lex)
 S, RHO, L = CONTEXT.gens()

@@ -7,13 +7,15 @@ import time
 
 import pytest
 
-from mechwright.cli.beside import Beside, cores
-from mechwright.cli.solids import SolidWork, Work, compared_and_made
-from mechwright.design import load
+from mechwright.beside import Beside
+from mechwright.build import Build, Wanted
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.cores import cores
 from mechwright.errors import ProofError, ToolError
-from mechwright.findings import Finding, Severity
-from mechwright.host import host
-from mechwright.output import Exporter
+from mechwright.plugins.host import Host, Registered, host
+from mechwright_cad.making import Solids, Work, compared_and_made
+from mechwright_cad.pages import Interference, SolidFiles
 
 HERE = os.getpid()
 
@@ -105,49 +107,60 @@ class Light(Heavy):
     modules = ("os",)
 
 
-def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch):
+PAIR = (
+    'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\nmodule = 2\n'
+    "bore = 8\neccentricity = 0.1\n"
+)
+
+
+def pair(folder, command="build", formats=(), exporters=None):
+    """A build of a pair of gears."""
+    (folder / "pair.toml").write_text(PAIR)
+    found = host()
+    if exporters is not None:
+        found = Host({**found.registered, Exporter: {one.name: Registered(one, "", "") for one in exporters}})
+    return Build(folder / "pair.toml", found, Wanted(command, formats=formats))
+
+
+def test_a_second_process_is_begun_only_where_it_gains_something(monkeypatch, tmp_path):
     assert cores() >= 1
-    for exporter, count, wanted, begun in (
-        (Heavy, 2, True, True),
-        (Heavy, 1, True, False),
-        (Heavy, 2, False, False),
-        (Light, 2, True, False),
+    for exporter, count, command, begun in (
+        (Heavy, 2, "build", True),
+        (Heavy, 1, "build", False),
+        (Heavy, 2, "model", False),
+        (Light, 2, "build", False),
     ):
-        monkeypatch.setattr("mechwright.cli.solids.cores", lambda count=count: count)
-        with SolidWork([exporter()], build=wanted) as work:
-            assert work.beside is begun
+        monkeypatch.setattr("mechwright_cad.making.cores", lambda count=count: count)
+        monkeypatch.setattr(exporter, "name", "step")
+        with pair(tmp_path, command, exporters=[exporter()]) as build:
+            SolidFiles().warm(build)
+            assert SolidFiles().late(build) is begun
+            assert Interference().late(build) is begun
 
 
 MET = Finding("interference.collision", Severity.ERROR, "", "one and two stand in each other")
 
 
-class Late(SolidWork):
-    """A second process that has found a collision."""
-
-    beside = True
-
-    def __init__(self, exporters, *, build):
-        super().__init__(exporters, build=False)
-
-    def begin(self, design, motion, sample):
-        pass
-
-    def collisions(self):
-        return [MET]
-
-    def files(self):
-        raise AssertionError("there are none")
-
-
 @pytest.mark.parametrize("fault", [None, ProofError("the program gouges"), ToolError("no such mill")])
 def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, monkeypatch, command_line):
-    def programs(*_):
-        if fault is not None:
-            raise fault
-        return []
+    class Programs:
+        @property
+        def findings(self):
+            if fault is not None:
+                raise fault
+            return []
 
-    monkeypatch.setattr("mechwright.cli.work.SolidWork", Late)
-    monkeypatch.setattr("mechwright.cli.work._programs", programs)
+    def nothing(self, build):
+        return {}
+
+    monkeypatch.setattr("mechwright_cam.machining.Machining", lambda build: Programs())
+    for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets"):
+        monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.files", nothing)
+    monkeypatch.setattr(Solids, "warm", lambda self: None)
+    monkeypatch.setattr(Solids, "begin", lambda self: None)
+    monkeypatch.setattr(Solids, "beside", True)
+    monkeypatch.setattr(Solids, "collisions", lambda self: [MET])
+    monkeypatch.setattr(Solids, "files", lambda self: pytest.fail("there are none"))
     (tmp_path / "pair.toml").write_text('format = 1\nfamily = "elliptic-gears"\n[parameters]\nteeth = 21\n')
     code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
     assert code == 1
@@ -155,8 +168,9 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     assert "gouges" not in said
     assert "mill" not in said
     assert not (tmp_path / "out").exists()
-    monkeypatch.setattr(Late, "collisions", lambda self: [])
-    monkeypatch.setattr(Late, "files", lambda self: {"x.step": b"x"})
+    monkeypatch.setattr(Solids, "collisions", lambda self: [])
+    monkeypatch.setattr(Solids, "files", lambda self: {"x.step": b"x"})
+    monkeypatch.setattr(Solids, "page", lambda self: {"motion.html": b"x"})
     code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
     assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0)
     assert fault is None or str(fault) in said
@@ -164,21 +178,16 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
 
 
 def test_a_second_process_compares_and_writes_the_same(tmp_path):
-    (tmp_path / "pair.toml").write_text(
-        'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\nmodule = 2\n'
-        "bore = 8\neccentricity = 0.1\n"
-    )
-    found = host()
-    design = load(tmp_path / "pair.toml", found)
-    exporters = [found.exporter(name) for name in ("step", "stl")]
-    motion = design.family.solve(design.params, 2)
-    with Beside([]) as second:
-        second.ask(compared_and_made, Work(design, exporters, motion, 1))
-        findings, files = second.result(tuple)
-    with SolidWork(exporters, build=False) as work:
-        work.begin(design, motion, 1)
-        assert not work.beside
+    with pair(tmp_path, "model", ("step", "stl")) as build:
+        motion, sample = build.pose
+        exporters = [build.host.get(Exporter, name) for name in ("step", "stl")]
+        with Beside([]) as second:
+            second.ask(compared_and_made, Work(build.design, exporters, motion, sample))
+            findings, files = second.result(tuple)
+        solids = build.made(Solids)
+        assert not solids.beside
         assert files.keys() == {"gear.step", "gear.stl", "assembly.step", "motion.html"}
-        assert work.files() == {name: text for name, text in files.items() if name != "motion.html"}
+        assert solids.files() == {name: text for name, text in files.items() if name != "motion.html"}
+        assert solids.page() == {"motion.html": files["motion.html"]}
         assert [f.code for f in findings] == ["interference.clear"]
-        assert work.collisions() == findings
+        assert solids.collisions() == findings

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechwright.cutter import Cutter, approach, cusp, cutter
-from mechwright.tooling import Tool, ToolKind
+from mechwright_cam.shop.cutter import Cutter, approach, cusp, cutter
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 def tool(kind: ToolKind, diameter: float = 6.0, **more: float) -> Tool:

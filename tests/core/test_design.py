@@ -7,13 +7,15 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from mechwright.design import load
-from mechwright.design_text import template
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.table import Table
+from mechwright.designs.design import load
+from mechwright.designs.text import template
 from mechwright.errors import DesignError, MechwrightError, OutputError, PluginError
-from mechwright.family import Family
-from mechwright.host import Host, Registered
-from mechwright.parameters import Parameters
+from mechwright.plugins.host import Host, Registered
 from mechwright.units import Degrees, Millimetres
+from mechwright_cam.shop.table import CamTable, settings_of
 
 
 class DiscParams(Parameters):
@@ -41,7 +43,12 @@ class Disc(Family[DiscParams]):
 
 @pytest.fixture
 def host() -> Host:
-    return Host(families={"disc": Registered(Disc(), "here", "disc")})
+    return Host(
+        {
+            Family: {"disc": Registered(Disc(), "here", "disc")},
+            Table: {"cam": Registered(CamTable(), "here", "cam")},
+        }
+    )
 
 
 def write(folder: Path, text: str) -> Path:
@@ -60,11 +67,11 @@ def test_units_are_converted_and_defaults_filled(tmp_path: Path, host: Host) -> 
         "lead": pytest.approx(28.64788975654116),
         "boss": None,
     }
-    assert design.cam.work_offset == "G54"
+    assert settings_of(design).cam.work_offset == "G54"
 
 
 def test_the_template_is_a_design_file_with_the_defaults(tmp_path: Path, host: Host) -> None:
-    text = template(Disc(), "disc")
+    text = template(Disc(), "disc", [CamTable()])
     design = load(write(tmp_path, text), host)
     assert design.params == DiscParams()
     assert "Diameter of the disc. (mm, 1 to 500)" in text

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from mechwright import files
 from mechwright.errors import OutputError
-from mechwright.files import MANIFEST, Output, check_folder, write_folder, write_new
+from mechwright.output import folder as files
+from mechwright.output.folder import MANIFEST, Output, check_folder, write_folder, write_new
 
 
 def run(target: Path, command: str, **contents: str) -> None:

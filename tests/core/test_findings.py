@@ -2,8 +2,8 @@ import json
 
 import pytest
 
+from mechwright.contracts.finding import Finding, Severity, errors, refuse, until_error
 from mechwright.errors import DesignError
-from mechwright.findings import Finding, Severity, errors, refuse, until_error
 
 UNDERCUT = Finding(
     "gear.undercut",

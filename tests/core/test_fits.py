@@ -2,8 +2,8 @@
 
 import pytest
 
+from mechwright.contracts.fits import CLASSES, hole_fit
 from mechwright.errors import GeometryError
-from mechwright.fits import CLASSES, hole_fit
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Feature, Part, Pocket, Profile
+from mechwright.contracts.sections import sections, volume, walls
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.part import Feature, Part, Pocket, Profile
-from mechwright.sections import sections, volume, walls
 
 PLATE = Loop.polygon([(-30, -20), (30, -20), (30, 20), (-30, 20)])
 

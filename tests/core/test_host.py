@@ -8,15 +8,17 @@ from pathlib import Path
 
 import pytest
 
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
 from mechwright.errors import PluginError
-from mechwright.family import Family
-from mechwright.host import DISABLE, GROUP, hook_points, load
-from mechwright.parameters import Parameters
+from mechwright.plugins.host import DISABLE, GROUP, hook_points, load
+from mechwright_cam.controls.contract import Control
 
 FAMILY = """
-from mechwright.family import Family
-from mechwright.hookspecs import hookimpl
-from mechwright.parameters import Parameters
+from mechwright.contracts.family import Family
+from mechwright.plugins.hookspecs import hookimpl
+from mechwright.contracts.parameters import Parameters
 
 class Cam(Family[Parameters]):
     name = "cam"
@@ -28,17 +30,21 @@ class Cam(Family[Parameters]):
     def parts(self, params): return []
 
 @hookimpl
-def mechwright_register_families():
+def mechwright_register():
     return [Cam]
 """
 
 OUTPUT = """
-from mechwright.hookspecs import hookimpl
-from mechwright.output import Exporter, Post
+from mechwright.plugins.hookspecs import hookimpl
+from mechwright.contracts.exporter import Exporter
 
-class Mill(Post):
+from mechwright_cam.controls.contract import Control
+
+class Mill(Control):
     name, title = "mill", "Mill"
     def write(self, program): return ""
+    def read(self, program, **more): raise NotImplementedError
+    def read(self, program, **settings): return None
     def tool_table(self, tools): return "", ""
 
 class Stl(Exporter):
@@ -46,12 +52,8 @@ class Stl(Exporter):
     def part(self, part): return b""
 
 @hookimpl
-def mechwright_register_posts():
-    return (Mill,)
-
-@hookimpl
-def mechwright_register_exporters():
-    return iter([Stl])
+def mechwright_register():
+    return iter([Mill, Stl])
 """
 
 
@@ -80,20 +82,20 @@ def test_what_is_registered_can_be_looked_up(plugin):
     host = load([plugin(FAMILY), plugin(OUTPUT, "output")])
     assert host.broken == []
     assert isinstance(host.family("cam"), Family)
-    assert host.families["cam"].distribution == "third-party"
-    assert host.families["cam"].plugin == "cam"
-    assert host.post("mill").title == "Mill"
-    assert host.exporter("stl").suffix == ".stl"
+    assert host.of(Family)["cam"].distribution == "third-party"
+    assert host.of(Family)["cam"].plugin == "cam"
+    assert host.get(Control, "mill").title == "Mill"
+    assert host.get(Exporter, "stl").suffix == ".stl"
+    assert [one.name for one in host.all(Control)] == ["mill"]
 
 
-@pytest.mark.parametrize("what", ["family", "post", "exporter"])
-def test_what_is_not_installed_is_named_with_what_is(plugin, what):
+@pytest.mark.parametrize(("what", "known"), [(Family, "cam"), (Control, "mill"), (Exporter, "stl")])
+def test_what_is_not_installed_is_named_with_what_is(plugin, what, known):
     host = load([plugin(FAMILY), plugin(OUTPUT, "output")])
-    known = {"family": "cam", "post": "mill", "exporter": "stl"}[what]
-    with pytest.raises(PluginError, match=f"'camm' is not installed; known: {known}"):
-        getattr(host, what)("camm")
+    with pytest.raises(PluginError, match=f"{what.kind} 'camm' is not installed; known: {known}"):
+        host.get(what, "camm")
     with pytest.raises(PluginError, match="known: none is installed"):
-        getattr(load([]), what)("cam")
+        load([]).get(what, "cam")
 
 
 @pytest.mark.parametrize(
@@ -112,47 +114,52 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
     (said,) = reasons(host)
     assert said.startswith(f"plugin bad of shaky is not used: {reason}")
     assert "second line" not in said
-    assert list(host.families) == ["cam"]
+    assert list(host.of(Family)) == ["cam"]
 
 
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [
         (
+            "mechwright_register",
             "mechwright_register_families",
-            "mechwright_register_family",
-            "there is no hook mechwright_register_family; do you mean mechwright_register_families?",
+            "there is no hook mechwright_register_families; since hook API 2 one hook gives all classes: "
+            "mechwright_register",
         ),
         (
-            "mechwright_register_families",
+            "mechwright_register",
             "mechwright_paint_it_black",
             "there is no hook mechwright_paint_it_black",
         ),
         (
-            "@hookimpl\ndef mechwright_register_families",
-            "def mechwright_register_families",
-            "hook mechwright_register_families is not marked with mechwright.hookspecs.hookimpl",
+            "@hookimpl\ndef mechwright_register",
+            "def mechwright_register",
+            "hook mechwright_register is not marked with mechwright.plugins.hookspecs.hookimpl",
         ),
         (
-            "@hookimpl\ndef mechwright_register_families",
-            "def mechwright_register_famlies",
-            "there is no hook mechwright_register_famlies; do you mean mechwright_register_families?",
+            "@hookimpl\ndef mechwright_register",
+            "def mechwright_register_posts",
+            "there is no hook mechwright_register_posts; since hook API 2",
         ),
         (
-            "def mechwright_register_families()",
-            "def mechwright_register_families(config)",
-            "Plugin 'cam' for hook 'mechwright_register_families' hookimpl definition",
+            "def mechwright_register()",
+            "def mechwright_register(config)",
+            "Plugin 'cam' for hook 'mechwright_register' hookimpl definition",
         ),
-        ("return [Cam]", "pass", "mechwright_register_families: TypeError: it returns nothing"),
+        ("return [Cam]", "pass", "mechwright_register: TypeError: it returns nothing"),
         ("return [Cam]", "return Cam", "it returns <class"),
         ("return [Cam]", "return 7", "it returns 7; return a list of classes"),
-        ("return [Cam]", "return [Cam()]", "is no subclass of Family"),
-        ("return [Cam]", "return ['Cam']", "'Cam' is no subclass of Family"),
-        ("return [Cam]", "return [Family]", "Family has no name"),
-        ("return [Cam]", "raise ValueError('no')", "mechwright_register_families: ValueError: no"),
-        ("return [Cam]", "raise SystemExit(3)", "mechwright_register_families: SystemExit: 3"),
-        ('name = "cam"', 'name = "cam"; api = 2', "Cam was written for hook API 2; this is 1"),
-        ('name = "cam"', 'name = "cam"; api = None', "Cam was written for hook API None; this is 1"),
+        ("return [Cam]", "return [Cam()]", "is no class of a contract, such as mechwright.Family"),
+        ("return [Cam]", "return ['Cam']", "'Cam' is no class of a contract"),
+        (
+            "return [Cam]",
+            "return [Family]",
+            "Family is a contract itself; register classes that derive from it",
+        ),
+        ("return [Cam]", "raise ValueError('no')", "mechwright_register: ValueError: no"),
+        ("return [Cam]", "raise SystemExit(3)", "mechwright_register: SystemExit: 3"),
+        ('name = "cam"', 'name = "cam"; api = 1', "Cam was written for hook API 1; this is 2"),
+        ('name = "cam"', 'name = "cam"; api = None', "Cam was written for hook API None; this is 2"),
         ('name = "cam"', "name = 7", "Cam has no name"),
         ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
         ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
@@ -161,7 +168,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
         (
             "Params = Parameters",
             "Params = dict",
-            "Params is no subclass of mechwright.parameters.Parameters",
+            "Params is no subclass of mechwright.Parameters",
         ),
         ("Params = Parameters", "", "Cam: Params is no subclass"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
@@ -180,8 +187,8 @@ def test_a_broken_registration_is_named_and_the_rest_goes_on(plugin, old, new, r
     assert said.startswith("plugin cam of shaky is not used: ")
     assert reason in said
     assert "\n" not in said
-    assert not host.families
-    assert list(host.posts) == ["mill"]
+    assert not host.of(Family)
+    assert list(host.of(Control)) == ["mill"]
 
 
 @pytest.mark.parametrize(
@@ -198,14 +205,45 @@ def test_posts_and_exporters_are_looked_at_too(plugin, old, new, reason):
     host = load([plugin(OUTPUT.replace(old, new), "output")])
     (said,) = reasons(host)
     assert reason in said
-    assert len(host.posts) + len(host.exporters) == 1
+    assert len(host.of(Control)) + len(host.of(Exporter)) == 1
 
 
-def test_one_bad_hook_does_not_take_the_good_ones_with_it(plugin):
-    misspelt = OUTPUT.replace("register_exporters", "register_exporter")
-    host = load([plugin(misspelt, "output")])
-    assert list(host.posts) == ["mill"]
-    assert "do you mean mechwright_register_exporters?" in reasons(host)[0]
+def test_one_bad_class_does_not_take_the_good_ones_with_it(plugin):
+    host = load([plugin(OUTPUT.replace('".stl"', '"stl"'), "output")])
+    assert list(host.of(Control)) == ["mill"]
+    assert not host.of(Exporter)
+
+
+KIND = """
+from mechwright.contracts.plugin import Plugin
+from mechwright.plugins.hookspecs import hookimpl
+
+class Process(Plugin):
+    kind, plural, texts = "process", "processes", ("title",)
+    @classmethod
+    def fault(cls): return "" if cls.name != "bad" else "it is bad"
+
+class Laser(Process):
+    name, title = "laser", "Laser"
+
+class Bad(Process):
+    name, title = "bad", "Bad"
+
+class Fast(Laser):
+    name = "fast-laser"
+
+@hookimpl
+def mechwright_register():
+    return [Laser, Bad, Fast]
+"""
+
+
+def test_a_new_kind_of_plugin_needs_nothing_of_the_host(plugin):
+    host = load([plugin(KIND, "laser")])
+    (contract,) = host.registered
+    assert contract.plural == "processes"
+    assert list(host.of(contract)) == ["laser", "fast-laser"]
+    assert reasons(host) == ["plugin laser of third-party is not used: Bad: it is bad"]
 
 
 def test_a_lazy_attribute_that_fails_is_no_hook(plugin):
@@ -215,11 +253,11 @@ def test_a_lazy_attribute_that_fails_is_no_hook(plugin):
     )
     host = load([plugin(source)])
     assert host.broken == []
-    assert list(host.families) == ["cam"]
+    assert list(host.of(Family)) == ["cam"]
 
 
 def test_hookspecs_may_be_imported_by_name(plugin):
-    host = load([plugin("from mechwright.hookspecs import *\n" + OUTPUT, "output")])
+    host = load([plugin("from mechwright.plugins.hookspecs import *\n" + OUTPUT, "output")])
     assert host.broken == []
 
 
@@ -228,21 +266,21 @@ def test_a_name_that_is_taken_names_both(plugin):
     assert reasons(host) == [
         "plugin other of second is not used: family 'cam' is already registered by cam of first"
     ]
-    assert host.families["cam"].distribution == "first"
+    assert host.of(Family)["cam"].distribution == "first"
 
 
-def test_a_family_and_a_post_may_share_a_name(plugin):
+def test_a_family_and_a_control_may_share_a_name(plugin):
     host = load([plugin(FAMILY), plugin(OUTPUT.replace('"mill"', '"cam"'), "output")])
     assert host.broken == []
-    assert host.family("cam").name == host.post("cam").name
+    assert host.family("cam").name == host.get(Control, "cam").name
 
 
 def test_plugins_are_switched_off_by_name(plugin, monkeypatch):
     points = [plugin(FAMILY), plugin("raise ImportError", "bad"), plugin(OUTPUT, "output")]
     monkeypatch.setenv(DISABLE, " bad, cam ,,")
     host = load(points)
-    assert (host.families, host.broken, list(host.posts)) == ({}, [], ["mill"])
-    assert list(load(points, frozenset({"bad"})).families) == ["cam"]
+    assert (host.of(Family), host.broken, list(host.of(Control))) == ({}, [], ["mill"])
+    assert list(load(points, frozenset({"bad"})).of(Family)) == ["cam"]
 
 
 class Installed(Distribution):
@@ -299,7 +337,7 @@ def test_broken_entry_points_of_others_are_none_of_our_business():
 
 
 def test_the_host_needs_no_numbers():
-    code = "import sys, mechwright.host as h; h.host(); print(*sys.modules)"
+    code = "import sys, mechwright.plugins.host as h; h.host(); print(*sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code],
         env={**os.environ, DISABLE: ",".join(entry.name for entry in entry_points(group=GROUP))},

@@ -9,7 +9,13 @@ from mechwright.testing.imports import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 
-ON_DEMAND = ("mechwright.testing", "mechwright.algebra", "mechwright.laws.table")
+ON_DEMAND = (
+    "mechwright.testing",
+    "mechwright.mechanics.algebra",
+    "mechwright.mechanics.compiled",
+    "mechwright.mechanics.laws.table",
+    "mechwright.geometry.prepared",
+)
 """What only those import who use it, with what it needs."""
 
 
@@ -24,8 +30,18 @@ def core_modules():
 
 def test_the_core_imports_nothing_heavy_and_no_test_library():
     modules = core_modules()
-    assert {"mechwright.host", "mechwright.geometry.outline", "mechwright.part"} <= set(modules)
+    assert {"mechwright.plugins.host", "mechwright.geometry.outline", "mechwright.contracts.part"} <= set(
+        modules
+    )
     code = f"import sys\nfor name in {modules!r}: __import__(name)\nprint(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert set(done.stdout.split()) & ({*HEAVY} | ALLOWED_IN_TESTING) == set()
+
+
+def test_no_public_name_is_that_of_a_module():
+    """A module that has been imported would stand in the way of the public name."""
+    modules = {item.name for item in pkgutil.iter_modules(mechwright.__path__)}
+    assert not modules & set(mechwright.__all__)
+    for name in mechwright.__all__:
+        assert getattr(mechwright, name) is not None

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.laws import LAWS, HarmonicPieces, Polynomial
-from mechwright.laws.faults import polynomial_faults, table_faults
-from mechwright.laws.harmonic import Piece
-from mechwright.laws.table import Table
+from mechwright.mechanics.laws import LAWS, HarmonicPieces, Polynomial
+from mechwright.mechanics.laws.faults import polynomial_faults, table_faults
+from mechwright.mechanics.laws.harmonic import Piece
+from mechwright.mechanics.laws.table import Table
 
 ALL = [law() for law in LAWS.values()]
 NAMES = list(LAWS)

@@ -8,9 +8,10 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Instance
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Line
-from mechwright.linkage import (
+from mechwright.mechanics.linkage import (
     Boss,
     Mass,
     bent_link,
@@ -24,7 +25,6 @@ from mechwright.linkage import (
     together,
     web_link,
 )
-from mechwright.part import Instance
 
 CHORD = 1e-3
 FINE = 64
@@ -177,7 +177,7 @@ def solid_mass(solid, density):
 
 
 def test_plate_masses_are_those_of_the_solids():
-    from mechwright_cam.solids import plate
+    from mechwright_cad.solids.solid import plate
 
     link = hull_link([Boss(0j, 8, 6), Boss(60 + 5j, 6, 5), Boss(20 + 30j, 5, 3)])
     found = plate_mass(link, 6.0, "aluminium")

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import shapely
 
+from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
-from mechwright.linkage import Boss, Plate, Spindle, disc, hull_link, rectangle, stack
-from mechwright.motion import Poses
+from mechwright.mechanics.linkage import Boss, Plate, Spindle, disc, hull_link, rectangle, stack
 
 ANGLES = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))

@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 
+from mechwright.contracts.motion import Channel, Motion, Poses, Trace
 from mechwright.errors import KinematicsError
-from mechwright.motion import Channel, Motion, Poses, Trace
 from mechwright.testing import assert_points_close, assert_rotations
 
 ANGLE = np.linspace(0, math.tau, 9)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechwright.multistart import HOPELESS_AFTER, distinct, least_squares
+from mechwright.mechanics.multistart import HOPELESS_AFTER, distinct, least_squares
 
 
 def circle_and_hyperbola(x):

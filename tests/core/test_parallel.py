@@ -8,12 +8,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.details import Chamfer, Engraving, Thread, band_of, chamfer_lines
+from mechwright.contracts.details import Chamfer, Engraving, Thread, band_of, chamfer_lines
+from mechwright.contracts.part import Bore, Part, Profile
+from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.geometry.parallel import Parallel
-from mechwright.part import Bore, Part, Profile
-from mechwright.sections import volume
 
 
 def slot(half, radius):
@@ -137,3 +137,24 @@ def test_the_volume_of_a_part_with_details():
         with_them = Part("plate", outline, 5.0, "steel", machined=machined, details=details)
         assert volume(plate) - volume(with_them) == pytest.approx(taken, abs=2e-4)
     assert band_of(rim, 0.6, 1e-3).area == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("kink", [0.0, 1e-5, 4e-5, 1e-4])
+@pytest.mark.parametrize("side", [1, -1])
+def test_segments_that_go_on_in_nearly_the_same_direction_have_a_joint(kink, side):
+    # As an arc and the spline that is fitted to what follows it.
+    arc = Arc((0.0, 100.0), 100.0, -math.pi / 2 - 0.02, 0.02)
+    end = (50 * math.cos(kink), 50 * math.sin(kink))
+    top = (arc.start[0], 30.0)
+    loop = Loop(
+        (
+            arc,
+            Line((0.0, 0.0), end),
+            Line(end, (end[0], 30.0)),
+            Line((end[0], 30.0), top),
+            Line(top, arc.start),
+        )
+    )
+    moved = Parallel(loop, side).at(0.4)
+    assert len(moved.segments) == len(loop.segments)
+    assert moved.segments[1].start == pytest.approx((0.0, 0.4 * side), abs=1e-4)

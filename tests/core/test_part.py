@@ -2,10 +2,10 @@ import math
 
 import pytest
 
+from mechwright.contracts.materials import MATERIALS, material
+from mechwright.contracts.part import Bore, Part, Profile, check_name
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
-from mechwright.materials import MATERIALS, material
-from mechwright.part import Bore, Part, Profile, check_name
 
 BOX = Loop.polygon([(0, 0), (40, 0), (40, 30), (0, 30)])
 SQUARE = Loop.polygon([(20, 10), (30, 10), (30, 20), (20, 20)]).reversed()

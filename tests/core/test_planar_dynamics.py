@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mechwright.errors import KinematicsError
-from mechwright.planar import BodyMotion, PointMotion, Turning
-from mechwright.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
+from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
+from mechwright.mechanics.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
 
 FACTS = json.loads((Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text())["facts"]
 EXPECTED = {fact["name"]: fact["expected"] for fact in FACTS}

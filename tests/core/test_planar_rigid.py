@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.planar import (
+from mechwright.mechanics.planar import (
     BodyMotion,
     PointMotion,
     PoleKind,

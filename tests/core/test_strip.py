@@ -8,11 +8,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.part import Bore, OpenProfile, Part, Pocket, Profile
+from mechwright.contracts.sections import sections, volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.geometry.strip import strip
-from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.sections import sections, volume
 from mechwright.testing.rules import feature_faults
 
 ARC = Arc((0.0, 0.0), 10.0, 0.3, 2.0)

@@ -11,14 +11,17 @@ import pytest
 from disc_family import Disc, DiscParams
 from pydantic import Field
 
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Bore, Instance, Profile
 from mechwright.errors import GeometryError
-from mechwright.findings import Finding, Severity
 from mechwright.geometry import Arc, Loop, Outline, circle
-from mechwright.motion import Channel, Motion, Poses, Scalar
-from mechwright.parameters import Parameters
-from mechwright.part import Bore, Instance, Profile
 from mechwright.testing import FamilyContract
 from mechwright.units import Millimetres, Unit
+from mechwright_cam.controls.contract import Control
 
 EXAMPLE: dict[str, object] = {}
 
@@ -423,7 +426,7 @@ def test_a_rule_that_names_no_parameter():
 
 
 def test_solids_need_the_exporter(monkeypatch):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     class Step:
@@ -434,7 +437,7 @@ def test_solids_need_the_exporter(monkeypatch):
     monkeypatch.setattr(kit, "host", lambda: empty)
     with pytest.raises(pytest.skip.Exception, match="'step' is not installed"):
         run(Disc, "test_solids")
-    monkeypatch.setattr(kit, "host", lambda: Host(exporters={"step": Registered(step, "x", "y")}))
+    monkeypatch.setattr(kit, "host", lambda: Host({Exporter: {"step": Registered(step, "x", "y")}}))
     step.data = b"ISO-10303-21;\n"
     run(Disc, "test_solids")
     step.data = b""
@@ -442,7 +445,7 @@ def test_solids_need_the_exporter(monkeypatch):
 
 
 def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     design = contract(Disc)
@@ -452,8 +455,8 @@ def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
 
     for found, reason in (
         (Host(), "family disc is not installed"),
-        (Host(families={"disc": Registered(Other(), "x", "y")}), "family disc is not installed"),
-        (Host(families={"disc": Registered(Disc(), "x", "y")}), "no post is installed"),
+        (Host({Family: {"disc": Registered(Other(), "x", "y")}}), "family disc is not installed"),
+        (Host({Family: {"disc": Registered(Disc(), "x", "y")}}), "no control is installed"),
     ):
         monkeypatch.setattr(kit, "host", lambda found=found: found)
         with pytest.raises(pytest.skip.Exception, match=reason):
@@ -470,11 +473,14 @@ def test_programs_need_an_installed_family_and_a_post(monkeypatch, tmp_path):
     ],
 )
 def test_programs_are_judged_by_their_proof(monkeypatch, tmp_path, proofs, words):
-    from mechwright.host import Host, Registered
+    from mechwright.plugins.host import Host, Registered
     from mechwright.testing import family as kit
 
     found = Host(
-        families={"disc": Registered(Disc(), "x", "y")}, posts={"mill": Registered(object(), "x", "y")}
+        {
+            Family: {"disc": Registered(Disc(), "x", "y")},
+            Control: {"mill": Registered(object(), "x", "y")},
+        }
     )
     asked = []
     monkeypatch.setattr(kit, "host", lambda: found)

@@ -8,12 +8,15 @@ from hypothesis import find, given, settings
 from hypothesis import strategies as st
 from pydantic import ConfigDict, Field, ValidationError
 
-from mechwright.parameters import Parameters
+from mechwright.contracts.parameters import Parameters
 from mechwright.testing import assert_derivative, assert_monotone, assert_points_close, parameters, tables
 from mechwright.testing.strategies import rules
 from mechwright.testing.variations import variations
-from mechwright.tooling import CamSettings, Machine, Stock, Tool
 from mechwright.units import Millimetres, Ratio
+from mechwright_cam.shop.holding import Stock
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
 
 patient = settings(deadline=None)
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import Field, ValidationError
 
-from mechwright.parameters import Parameters
+from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, Millimetres, MillimetresPerMin, Newtons, Ratio, RevPerMin, convert, kind
 
 patient = settings(deadline=None)  # imports and a busy machine are no faults
@@ -168,7 +168,7 @@ def test_bounds_hold_after_conversion():
 
 def test_pint_is_not_imported_without_unit_strings():
     code = (
-        "import sys; from mechwright.tooling import Stock; Stock(margin=4.0); Stock(margin='4');"
+        "import sys; from mechwright_cam.shop.settings import Stock; Stock(margin=4.0); Stock(margin='4');"
         "assert 'pint' not in sys.modules; Stock(margin='4 mm'); assert 'pint' in sys.modules"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

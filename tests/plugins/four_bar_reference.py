@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.loop import close
 
 REFERENCE: dict[str, Any] = json.loads(
     (Path(__file__).parents[1] / "data" / "planar-linkages.json").read_text(encoding="utf-8")
@@ -41,3 +43,8 @@ def random_bars(count: int, seed: int, turning: bool) -> tuple[FourBar, np.ndarr
         kept.append(rows[room > 0.02 * lengths.max(axis=1)])
     a, c, b, f, theta, branch, phi = np.concatenate(kept)[:count].T
     return FourBar(a, c, b, f, theta, branch.astype(int)), phi  # type: ignore[arg-type]
+
+
+def poles_of(bar: FourBar, phi: np.ndarray) -> np.ndarray:
+    """Acceleration poles (n,) of the coupler in double precision, mm from A0."""
+    return acceleration_pole(close(bar, phi).bodies(bar, 1.0)["coupler"]).fixed

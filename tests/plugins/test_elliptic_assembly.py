@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mechwright.findings import Severity
+from mechwright.contracts.finding import Severity
 from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, backlash_of, least_backlash
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.gear import outline_of, rack_of

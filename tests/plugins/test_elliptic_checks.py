@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from mechwright.contracts.finding import Severity, errors
 from mechwright.errors import DesignError
-from mechwright.findings import Severity, errors
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore
 from mechwright_elliptic_gears.family import EllipticGears
 

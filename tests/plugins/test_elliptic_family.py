@@ -10,10 +10,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.part import Bore, Profile
 from mechwright.errors import DesignError, GeometryError
-from mechwright.findings import Severity, errors
-from mechwright.host import Host
-from mechwright.part import Bore, Profile
+from mechwright.plugins.host import Host
 from mechwright_elliptic_gears import plugin
 from mechwright_elliptic_gears.family import EllipticGears
 

@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 import shapely
 
-from mechwright_elliptic_gears.crossings import turns_to_edges
-from mechwright_elliptic_gears.ellipse import Ellipse
-from mechwright_elliptic_gears.gear import outline_of, teeth_of
-from mechwright_elliptic_gears.kinematics import Turning, driven
-from mechwright_elliptic_gears.mesh import EDGES_PER_PITCH, mesh, swing
+from mechwright.mechanics.gearing import mesh
+from mechwright.mechanics.gearing.mesh import EDGES_PER_PITCH
+from mechwright_elliptic_gears.gear import outline_of, pair_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams as Params
-from mechwright_elliptic_gears.penetration import depths
-from mechwright_elliptic_gears.proof import contact_levers, prove, prove_outlines
+from mechwright_elliptic_gears.proof import prove, prove_outlines
 
 REFERENCE = Params(eccentricity=0.4, teeth=39, module=2.0, bore=0.0, backlash=0.0)
 
@@ -45,15 +42,15 @@ def test_sound_pairs_run_without_overlap(params):
     assert not proof.collides
     assert proof.mesh.overlap == 0
     assert proof.error <= 25e-6
-    assert proof.mesh.theta2.size >= 4 * params.teeth
+    assert proof.mesh.arc.size >= 4 * params.teeth
     assert proof.mesh.gap.max() < 2e-4
     assert np.abs(proof.mesh.free_play).max() < 4e-5
 
 
 def test_transmission_error_falls_with_the_fit_of_the_polygon():
-    ellipse, outer = teeth_of(REFERENCE).ellipse, outline_of(REFERENCE).outer
+    pair, outer = pair_of(REFERENCE), outline_of(REFERENCE).outer
     errors = [
-        mesh(points, points, ellipse, 39, allowance=1e-3).transmission_error
+        mesh(points, points, pair, 39, allowance=1e-3).transmission_error
         for points in (outer.flatten(tolerance) for tolerance in (1e-2, 1e-3, 1e-4))
     ]
     assert errors[0] > 5 * errors[1] > 10 * errors[2]
@@ -84,7 +81,7 @@ def test_backlash_is_the_play_of_the_pair():
     play = proof.mesh
     assert play.ahead.min() == pytest.approx(0.0017, abs=1e-4)
     assert play.ahead.max() == pytest.approx(0.0042, abs=1e-4)
-    ahead, behind = contact_levers(teeth_of(REFERENCE).ellipse, play.theta2, math.radians(20))
+    ahead, behind = pair_of(REFERENCE).levers(play.arc, math.radians(20))
     normal = 0.1 * math.cos(math.radians(20))
     np.testing.assert_allclose(play.ahead * ahead, normal, rtol=0, atol=3e-4)
     np.testing.assert_allclose(play.behind * behind, normal, rtol=0, atol=3e-4)
@@ -94,15 +91,15 @@ def test_backlash_is_the_play_of_the_pair():
 
 def test_gap_and_depth_agree_with_an_independent_measurement():
     for params, widen in ((REFERENCE.model_copy(update={"backlash": 0.1}), 0.0), (REFERENCE, 0.02)):
-        ellipse = teeth_of(params).ellipse
+        pair = pair_of(params)
         polygon = outline_of(params).polygon(1e-4).buffer(widen, quad_segs=16)
         points = shapely.get_coordinates(shapely.orient_polygons(polygon).exterior)[:-1]
-        found = mesh(points, points, ellipse, 39, positions=8, allowance=1e-3)
-        theta4 = driven(Turning.of(found.theta2, 1.0), 0.4).theta
+        found = mesh(points, points, pair, 39, positions=8, allowance=1e-3)
+        theta2, theta4 = found.angles
         for i in range(8):
-            one = shapely.affinity.rotate(polygon, found.theta2[i], origin=(0, 0), use_radians=True)
+            one = shapely.affinity.rotate(polygon, theta2[i], origin=(0, 0), use_radians=True)
             two = shapely.affinity.rotate(polygon, theta4[i], origin=(0, 0), use_radians=True)
-            two = shapely.affinity.translate(two, 2 * ellipse.semi_major)
+            two = shapely.affinity.translate(two, pair.distance)
             if widen:
                 # Both flanks grew by this much along their normals.
                 assert found.depth[i] == pytest.approx(2 * widen, rel=0.03)
@@ -112,33 +109,6 @@ def test_gap_and_depth_agree_with_an_independent_measurement():
                 assert found.gap[i] == pytest.approx(one.distance(two), abs=2e-4)
                 assert found.depth[i] == 0
         assert (found.overlap > 0) == (widen > 0)
-
-
-def test_gears_that_do_not_touch_have_no_play_to_measure():
-    circle = 10 * np.column_stack((np.cos(np.linspace(0, 6.2, 60)), np.sin(np.linspace(0, 6.2, 60))))
-    found = mesh(circle, circle, Ellipse(20.0, 0.0), 20, allowance=1e-3)
-    assert found.transmission_error == math.inf
-    assert found.overlap == 0
-    assert swing(np.array([1.0, 3.0])) == 2.0
-
-
-def test_turns_to_the_edges_of_a_wedge():
-    # A wedge of material between the directions 0.1 and 0.4 rad, in radii from 1 to 3.
-    corners = np.array(
-        [[r * math.cos(a), r * math.sin(a)] for r, a in ((1, 0.1), (3, 0.1), (3, 0.4), (1, 0.4))]
-    )
-    ends = np.roll(corners, -1, axis=0)
-    angles = np.array([0.0, 0.2, 0.5])
-    queries = 2 * np.column_stack((np.cos(angles), np.sin(angles)))
-    zero = np.zeros(3, dtype=np.int64)
-    free = turns_to_edges(queries, zero, corners, ends, np.zeros(4, dtype=np.int64), 0.1, 4.0)
-    np.testing.assert_allclose(free.entering_ahead, [0.1, np.inf, np.inf])
-    np.testing.assert_allclose(free.leaving_ahead, [0.4, 0.2, np.inf])
-    np.testing.assert_allclose(free.entering_behind, [np.inf, 0.1, 0.4])
-    np.testing.assert_allclose(free.leaving_behind, [np.inf, np.inf, 0.1])
-    np.testing.assert_allclose(free.distance, [0.2, 0.2, 0.2])
-    elsewhere = turns_to_edges(queries, zero + 1, corners, ends, np.zeros(4, dtype=np.int64), 0.1, 4.0)
-    assert np.isinf(elsewhere.distance).all()
 
 
 @pytest.mark.parametrize(
@@ -172,16 +142,16 @@ def test_a_tip_that_grazes_does_not_collide(table):
 )
 def test_depth_and_area_are_those_of_polygons(table, widen):
     params, count = Params(**{"backlash": 0.0} | table), 6
-    ellipse, pitch = teeth_of(params).ellipse, teeth_of(params).rack.pitch
+    pair, pitch = pair_of(params), teeth_of(params).rack.pitch
     polygon = shapely.Polygon(outline_of(params).outer.flatten(1e-4)).buffer(widen, quad_segs=16)
     points = shapely.get_coordinates(shapely.orient_polygons(polygon).exterior)[:-1]
-    found = mesh(points, points, ellipse, params.teeth, positions=count, allowance=2e-4)
-    theta4 = driven(Turning.of(found.theta2, 1.0), params.eccentricity).theta
+    found = mesh(points, points, pair, params.teeth, positions=count, allowance=2e-4)
+    theta2, theta4 = found.angles
     polygon, areas = shapely.Polygon(points).segmentize(pitch / EDGES_PER_PITCH), [0.0]
     for i in range(count):
-        one = shapely.affinity.rotate(polygon, found.theta2[i], origin=(0, 0), use_radians=True)
+        one = shapely.affinity.rotate(polygon, theta2[i], origin=(0, 0), use_radians=True)
         two = shapely.affinity.rotate(polygon, theta4[i], origin=(0, 0), use_radians=True)
-        two = shapely.affinity.translate(two, 2 * ellipse.semi_major)
+        two = shapely.affinity.translate(two, pair.distance)
         deepest = 0.0
         for mine, its in ((one, two), (two, one)):
             corners = shapely.get_coordinates(mine)
@@ -193,25 +163,3 @@ def test_depth_and_area_are_those_of_polygons(table, widen):
             areas.append(one.intersection(two).area)
             assert areas[-1] > 0
     assert found.overlap == pytest.approx(max(areas), rel=1e-6)
-
-
-def test_a_circle_cuts_an_edge_twice_that_comes_nearest_between_its_ends():
-    starts, ends = np.array([[2.0, -1.0]]), np.array([[2.0, 1.0]])
-    zero = np.zeros(1, dtype=np.int64)
-    free = turns_to_edges(np.array([[2.1, 0.0]]), zero, starts, ends, zero, 0.1, 4.0)
-    turn = math.acos(2 / 2.1)
-    assert free.leaving_behind == pytest.approx([turn])  # running inwards, before the nearest point
-    assert free.entering_ahead == pytest.approx([turn])
-    assert np.isinf(free.leaving_ahead).all()
-
-
-def test_the_side_of_a_corner_is_that_of_the_steeper_edge():
-    # A sharp corner of material at the origin, 30 degrees wide, between +x and 30 degrees above it.
-    far = np.array([[4.0, 0.0], [4 * math.cos(math.pi / 6), 2.0]])
-    corners = np.vstack(([0.0, 0.0], far))
-    angles = np.radians([-100, -170, 170, 130, 15])
-    points = 0.1 * np.column_stack((np.cos(angles), np.sin(angles)))
-    zero = np.zeros(5, dtype=np.int64)
-    found = depths(points, zero, corners, np.roll(corners, -1, axis=0), zero[:3])
-    np.testing.assert_allclose(found, [-0.1, -0.1, -0.1, -0.1, 0.1 * math.sin(math.radians(15))], atol=1e-12)
-    assert np.isneginf(depths(points, zero + 1, corners, np.roll(corners, -1, axis=0), zero[:3])).all()

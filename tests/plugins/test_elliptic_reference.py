@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mechwright_elliptic_gears.contour import gear_loop
+from mechwright.mechanics.gearing import SIDES, gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
@@ -24,7 +24,6 @@ from mechwright_elliptic_gears.kinematics import (
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.peak import peak
 from mechwright_elliptic_gears.point import point_of_coupler
-from mechwright_elliptic_gears.teeth import SIDES
 from mechwright_elliptic_gears.window import near_constant
 
 DATA = Path(__file__).parents[1] / "data"
@@ -32,7 +31,7 @@ FACTS = json.loads((DATA / "elliptic-gears.json").read_text(encoding="utf-8"))["
 GEAR = json.loads((DATA / "elliptic-gear-z39-m2.json").read_text(encoding="utf-8"))
 REFERENCE = EllipticGearParams(eccentricity=0.4, teeth=39, module=2.0, bore=0.0, backlash=0.0)
 TEETH = teeth_of(REFERENCE)
-CENTRE = np.array([TEETH.ellipse.focal_distance, 0.0])
+CENTRE = np.array([TEETH.curve.focal_distance, 0.0])
 
 
 ANGLES = {"0": 0.0, "pi/4": math.pi / 4, "pi/2": math.pi / 2, "3pi/4": 3 * math.pi / 4, "pi": math.pi}
@@ -102,20 +101,20 @@ def speed_of_q(inputs):
 
 
 def tooth_centre(inputs):
-    return TEETH.ellipse.frame_at(TEETH.tooth_arcs[inputs["k"]]).point
+    return TEETH.curve.frame_at(TEETH.tooth_arcs[inputs["k"]]).point
 
 
 def flank_point(inputs):
     pitch, side = TEETH.rack.pitch, inputs["side"]
     start = np.array(inputs["space_centre_arc_in_pitches"] * pitch + side * TEETH.rack.half_space)
-    frame = TEETH.ellipse.frame_at(start + inputs["u"])
-    return TEETH.flank(frame, start, np.array(side)) - CENTRE
+    frame = TEETH.curve.frame_at(start + inputs["u"])
+    return TEETH.rack.flank(frame, start, np.array(side)) - CENTRE
 
 
 def fillet_bottom(inputs):
     space = inputs["space_centre_arc_in_pitches"] * TEETH.rack.pitch
     centre = np.array(space + inputs["side"] * TEETH.rack.half_land)
-    return TEETH.fillet(TEETH.ellipse.frame_at(centre), centre) - CENTRE
+    return TEETH.rack.fillet(TEETH.curve.frame_at(centre), centre) - CENTRE
 
 
 def polar(inputs):
@@ -136,18 +135,18 @@ def slot_width(column):
 
 def slot_widths():
     """Chords of each space: at the pitch curve, at the end of the straight flank, and of the root land."""
-    ellipse, rack = TEETH.ellipse, TEETH.rack
+    ellipse, rack = TEETH.curve, TEETH.rack
     at_pitch = ellipse.frame_at(TEETH.flank_arcs).point
     u = -SIDES * rack.straight_depth / (math.sin(rack.pressure_angle) * math.cos(rack.pressure_angle))
-    straight = TEETH.flank(ellipse.frame_at(TEETH.flank_arcs + u), TEETH.flank_arcs, SIDES)
-    root = TEETH.offset_curve(ellipse.frame_at(TEETH.arc_centres), -rack.dedendum)
+    straight = TEETH.rack.flank(ellipse.frame_at(TEETH.flank_arcs + u), TEETH.flank_arcs, SIDES)
+    root = ellipse.frame_at(TEETH.arc_centres).offset(-rack.dedendum)
     return np.stack([np.hypot(*(c[:, 1] - c[:, 0]).T) for c in (at_pitch, straight, root)], axis=1)
 
 
 def seated_discs():
     """Radius of the largest disc in each space that touches the middle of the root, from the outline."""
-    middle = TEETH.ellipse.frame_at(TEETH.space_arcs)
-    foot = TEETH.offset_curve(middle, -TEETH.rack.dedendum)
+    middle = TEETH.curve.frame_at(TEETH.space_arcs)
+    foot = middle.offset(-TEETH.rack.dedendum)
     points = outline_of(REFERENCE).outer.flatten(1e-6)
     radii = []
     for root, normal in zip(foot, middle.normal, strict=True):
@@ -165,7 +164,7 @@ def fillet_radius():
     reach = np.linspace(0, teeth.rack.arc_depth / math.tan(teeth.rack.pressure_angle), 60)
     centre = teeth.arc_centres[..., None, None]
     arcs = centre - SIDES[:, None, None] * reach[:, None] + h * np.array([-1, 0, 1])
-    points = teeth.fillet(teeth.ellipse.frame_at(arcs), np.broadcast_to(centre, arcs.shape))
+    points = teeth.rack.fillet(teeth.curve.frame_at(arcs), np.broadcast_to(centre, arcs.shape))
     first = (points[..., 2, :] - points[..., 0, :]) / (2 * h)
     second = (points[..., 2, :] - 2 * points[..., 1, :] + points[..., 0, :]) / h**2
     cross = first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
@@ -208,21 +207,21 @@ CASES = {
     "table2.window_vmin": lambda i: window(i).low,
     "single.window_length": lambda i: near_constant(speed_of_q(i), i["band"]).length,
     "single.vQ_max": lambda i: peak(speed_of_q(i)).value,
-    "gear.a": lambda i: TEETH.ellipse.semi_major,
-    "gear.b": lambda i: TEETH.ellipse.semi_minor,
-    "gear.c": lambda i: TEETH.ellipse.focal_distance,
-    "gear.E_complete": lambda i: TEETH.ellipse.complete_integral,
-    "gear.perimeter": lambda i: TEETH.ellipse.perimeter,
+    "gear.a": lambda i: TEETH.curve.semi_major,
+    "gear.b": lambda i: TEETH.curve.semi_minor,
+    "gear.c": lambda i: TEETH.curve.focal_distance,
+    "gear.E_complete": lambda i: TEETH.curve.complete_integral,
+    "gear.perimeter": lambda i: TEETH.curve.perimeter,
     "gear.pitch": lambda i: TEETH.rack.pitch,
-    "gear.rho_min": lambda i: TEETH.ellipse.least_radius,
-    "gear.rho_max": lambda i: TEETH.ellipse.greatest_radius,
-    "gear.m_max_no_undercut": lambda i: TEETH.ellipse.least_radius * math.sin(math.radians(20)) ** 2,
+    "gear.rho_min": lambda i: TEETH.curve.least_radius,
+    "gear.rho_max": lambda i: TEETH.curve.greatest_radius,
+    "gear.m_max_no_undercut": lambda i: TEETH.curve.least_radius * math.sin(math.radians(20)) ** 2,
     "gear.zmin_no_undercut": zmin,
     "gear.zmin_no_undercut_1m": zmin,
     "gear.max_pressure_angle_deg": lambda i: math.degrees(
         steepest_shaft_pressure_angle(i["e"], math.radians(i["alpha"]))
     ),
-    "gear.center_distance": lambda i: 2 * TEETH.ellipse.semi_major,
+    "gear.center_distance": lambda i: 2 * TEETH.curve.semi_major,
     "gear.tooth_centre_xy": lambda i: tooth_centre(i) - CENTRE,
     "gear.tooth_polar_about_axis_deg": polar,
     "gear.area": lambda i: outline_of(REFERENCE).area,
@@ -249,8 +248,8 @@ def test_every_fact_is_looked_at():
 
 
 def test_gear_teeth():
-    frame = TEETH.ellipse.frame_at(TEETH.tooth_arcs)
-    u = TEETH.ellipse.angle(TEETH.tooth_arcs)
+    frame = TEETH.curve.frame_at(TEETH.tooth_arcs)
+    u = TEETH.curve.parameter(TEETH.tooth_arcs)
     x, y = (frame.point - CENTRE).T
     found = {
         "u": u,
@@ -300,7 +299,7 @@ def test_gear_area_length_and_fillet():
     assert ring.length == pytest.approx(GEAR["length"], abs=2e-3)
     assert fillet_radius() == pytest.approx(GEAR["filletmin"], abs=1e-4)
     # The closed form at the flattest place of the pitch curve, which no fillet quite reaches.
-    rack, rho = TEETH.rack, TEETH.ellipse.greatest_radius
+    rack, rho = TEETH.rack, TEETH.curve.greatest_radius
     closed = rack.tip_radius + rack.arc_depth**2 / (rho + rack.arc_depth)
     assert 0 <= fillet_radius() - closed < 1e-4
 
@@ -308,9 +307,9 @@ def test_gear_area_length_and_fillet():
 def test_gear_tips_and_margin():
     # Tip lands as arcs of the pitch curve, and the margin of the no-undercut rule.
     first, last = TEETH.tip_lands
-    arcs = TEETH.ellipse.arc(last) - TEETH.ellipse.arc(first)
+    arcs = TEETH.curve.arc(last) - TEETH.curve.arc(first)
     assert (arcs.min(), arcs.max()) == pytest.approx((1.414, 1.469), abs=6e-4)
-    assert 1 - 2.0 / (TEETH.ellipse.least_radius * math.sin(math.radians(20)) ** 2) == pytest.approx(
+    assert 1 - 2.0 / (TEETH.curve.least_radius * math.sin(math.radians(20)) ** 2) == pytest.approx(
         0.4997, abs=1e-4
     )
     loop, deviation = gear_loop(TEETH)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from mechwright.findings import Severity, errors
+from mechwright.contracts.finding import Severity, errors
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figures import point_peaks, point_window
 from mechwright_elliptic_gears.gear import fillet_mill

@@ -8,11 +8,10 @@ import scipy.special
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_elliptic_gears.contour import FIT, gear_loop
+from mechwright.mechanics.gearing import FIT, SIDES, gear_loop
 from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import outline_of, teeth_of
 from mechwright_elliptic_gears.params import EllipticGearParams as Params
-from mechwright_elliptic_gears.teeth import SIDES
 
 
 @given(st.floats(0, 0.9), st.floats(-30, 30))
@@ -21,7 +20,7 @@ def test_arc_length_is_the_elliptic_integral(e, u):
     exact = scipy.special.ellipeinc(u + math.pi / 2, e * e) - scipy.special.ellipe(e * e)
     assert float(ellipse.arc(np.array(u))) == pytest.approx(7.0 * exact, abs=1e-12)
     assert ellipse.perimeter == pytest.approx(4 * 7.0 * scipy.special.ellipe(e * e), rel=1e-14)
-    assert float(ellipse.angle(ellipse.arc(np.array(u)))) == pytest.approx(u, abs=1e-12)
+    assert float(ellipse.parameter(ellipse.arc(np.array(u)))) == pytest.approx(u, abs=1e-12)
 
 
 @given(st.floats(0, 0.9), st.floats(-7, 7))
@@ -47,7 +46,7 @@ def test_a_circle_has_involute_teeth():
     for side in (-1.0, 1.0):
         start = np.full(50, 3.0)
         reach = np.linspace(-2.0, 2.5, 50) / (math.sin(alpha) * math.cos(alpha))
-        points = teeth.flank(teeth.ellipse.frame_at(start + side * reach), start, np.full(50, side))
+        points = teeth.rack.flank(teeth.curve.frame_at(start + side * reach), start, np.full(50, side))
         radius, polar = np.hypot(*points.T), np.arctan2(points[:, 1], points[:, 0])
         at = np.arccos(base / radius)
         expected = 3.0 / pitch_radius + side * (np.tan(at) - at - involute(alpha))
@@ -82,23 +81,23 @@ CASES = [
 @pytest.mark.parametrize("params", CASES, ids=str)
 def test_flanks_fillets_roots_and_tips_meet(params):
     teeth = teeth_of(params)
-    ellipse, rack = teeth.ellipse, teeth.rack
+    ellipse, rack = teeth.curve, teeth.rack
     join = ellipse.frame_at(teeth.join_arcs)
-    gap = teeth.flank(join, teeth.flank_arcs, SIDES) - teeth.fillet(join, teeth.arc_centres)
+    gap = teeth.rack.flank(join, teeth.flank_arcs, SIDES) - teeth.rack.fillet(join, teeth.arc_centres)
     assert np.abs(gap).max() < 1e-12
     root = ellipse.frame_at(teeth.arc_centres)
-    gap = teeth.fillet(root, teeth.arc_centres) - teeth.offset_curve(root, -rack.dedendum)
+    gap = teeth.rack.fillet(root, teeth.arc_centres) - root.offset(-rack.dedendum)
     assert np.abs(gap).max() < 1e-12
     v, w = teeth.tip_trim
-    on_flank = teeth.flank(ellipse.frame(v), teeth.flank_arcs, SIDES)
-    assert np.abs(on_flank - teeth.offset_curve(ellipse.frame(w), rack.addendum)).max() < 1e-11
+    on_flank = teeth.rack.flank(ellipse.frame(v), teeth.flank_arcs, SIDES)
+    assert np.abs(on_flank - ellipse.frame(w).offset(rack.addendum)).max() < 1e-11
 
 
 @pytest.mark.parametrize("params", CASES, ids=str)
 def test_the_outline_is_what_the_rack_leaves(params):
     """The rack tooth, swept through a space, never enters the outline, and touches all of it."""
     teeth = teeth_of(params)
-    rack, ellipse = teeth.rack, teeth.ellipse
+    rack, ellipse = teeth.rack, teeth.curve
     space = teeth.count // 3
     middle = teeth.space_arcs[space]
     segments = gear_loop(teeth)[0].segments[6 * space + 1 : 6 * space + 6]
@@ -127,11 +126,12 @@ def test_regularity_is_the_speed_of_the_flank(params):
     teeth, h = teeth_of(params), 1e-5
     for share in (0.0, 0.5, 1.0):
         arc = teeth.flank_arcs + share * (teeth.join_arcs - teeth.flank_arcs)
-        before, here, after = (teeth.ellipse.frame_at(arc + step) for step in (-h, 0, h))
+        before, here, after = (teeth.curve.frame_at(arc + step) for step in (-h, 0, h))
         rate = (
-            teeth.flank(after, teeth.flank_arcs, SIDES) - teeth.flank(before, teeth.flank_arcs, SIDES)
+            teeth.rack.flank(after, teeth.flank_arcs, SIDES)
+            - teeth.rack.flank(before, teeth.flank_arcs, SIDES)
         ) / (2 * h)
-        factor = teeth.regularity(here, teeth.flank_arcs, SIDES)
+        factor = teeth.rack.regularity(here, teeth.flank_arcs, SIDES)
         speed = np.hypot(rate[..., 0], rate[..., 1]) * math.sin(teeth.rack.pressure_angle)
         np.testing.assert_allclose(speed, np.abs(factor), rtol=0, atol=1e-8)
 

@@ -5,8 +5,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from mechwright.contracts.finding import Severity, errors
 from mechwright.errors import DesignError
-from mechwright.findings import Severity, errors
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.params import TRAIN_ONLY
 from mechwright_elliptic_gears.undercut import greatest_eccentricity

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from four_bar_reference import expected
 
-from mechwright.linkage import Mass
+from mechwright.mechanics.linkage import Mass
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close
@@ -76,7 +76,7 @@ def test_balance_is_the_reference_and_the_ground_stops_shaking():
 
 def test_masses_are_those_of_the_solids():
     """The plate's solid and the pressed-in pins weigh what the dynamics take."""
-    from mechwright.materials import material
+    from mechwright.contracts.materials import material
 
     family = FourBars()
     params = FourBarParams(coupler_point_x=30, coupler_point_y=25)

@@ -7,16 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from four_bar_reference import poles_of
 from typer.testing import CliRunner
 
-from mechwright.cli.app import app
-from mechwright.design import load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.requirement import load_requirement
+from mechwright.cli.app import make_app
+from mechwright.contracts.finding import Severity
+from mechwright.designs.design import load
+from mechwright.designs.requirement import load_requirement
+from mechwright.plugins.host import host
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.plates import bar_of
-from mechwright_four_bar.pole_search import poles_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REQUIREMENTS = sorted(
@@ -32,7 +32,7 @@ def test_the_crank_rocker_builds_without_a_warning(tmp_path):
     assert {finding.severity for finding in FourBars().check(design.params)} == {Severity.NOTE}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        done = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out")])
+        done = CliRunner().invoke(make_app(), ["build", str(path), "-o", str(tmp_path / "out")])
     assert done.exit_code == 0, done.output
     assert "warning" not in done.output
     made = {file.name for file in (tmp_path / "out").iterdir()}

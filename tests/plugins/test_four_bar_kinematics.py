@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from flint import acb, arb, ctx
 from four_bar_reference import expected, random_bars
+from signed_distances import of_four_bar
 
-from mechwright.planar import (
+from mechwright.mechanics.planar import (
     acceleration_pole,
     bresse_circle,
     curvature_of_path,
@@ -15,7 +16,6 @@ from mechwright.planar import (
     pole_velocity,
     velocity_pole,
 )
-from mechwright_four_bar.diagnostics import diagnostics
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.rates_kernel import COLUMNS, rates, rates_numpy
@@ -95,7 +95,7 @@ def test_a_coupler_point_is_the_reference():
 
 
 def test_the_seed_s_figures_are_the_reference():
-    found = diagnostics(BAR, PHI)
+    found = of_four_bar(BAR, PHI)
     close_to(found.instant_centre, "instant_centre_P")
     close_to(found.relative_centre, "relative_centre_Q")
     close_to(found.g, "g_signed")
@@ -121,7 +121,7 @@ def test_the_loop_closes_to_rounding(turning):
 
 def test_the_seed_s_equations_6_to_9_give_the_direct_pole():
     bar, phi = random_bars(MANY, 2, turning=True)
-    found, loop = diagnostics(bar, phi), close(bar, phi)
+    found, loop = of_four_bar(bar, phi), close(bar, phi)
     # The forms are 0/0 where crank and follower are parallel and where P is in A: stay off by a thousandth.
     parallel = np.abs((loop.joint_a / bar.crank * np.conj(loop.follower.direction)).imag)
     regular = (parallel > 1e-3) & (np.abs(found.g) > 1e-3 * bar.crank) & (np.abs(found.cot_delta) < 1e3)
@@ -140,7 +140,7 @@ def test_the_seed_s_equations_6_to_9_give_the_direct_pole():
 def test_another_sign_of_delta_is_wrong():
     """The equations hold by their signs: the same ones with -δ miss the pole."""
     bar, phi = random_bars(200, 3, turning=True)
-    found = diagnostics(bar, phi)
+    found = of_four_bar(bar, phi)
     ratio = found.h / found.g
     other = (ratio - ratio**2) * -found.cot_delta
     assert (np.abs(other - close(bar, phi).coupler.second) > 1e-6).mean() > 0.99

@@ -133,7 +133,7 @@ def test_links_that_cannot_be_joined_are_refused():
 
 
 def test_the_command_prints_a_table_or_json(capsys):
-    from mechwright.algebra import PlaneCurve
+    from mechwright.mechanics.algebra import PlaneCurve
     from mechwright_four_bar.__main__ import main
 
     assert main(["3", "3", "5", "5"]) == 0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from mechwright.findings import Severity, errors
+from mechwright.contracts.finding import Severity, errors
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close

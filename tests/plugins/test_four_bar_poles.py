@@ -5,17 +5,17 @@ import time
 
 import numpy as np
 import pytest
-from four_bar_reference import SYNTHESIS
+from four_bar_reference import SYNTHESIS, poles_of
 from pydantic import ValidationError
 
-from mechwright.findings import Severity
+from mechwright.contracts.finding import Severity
 from mechwright_four_bar.certificate import certain_residual, polished
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.plates import bar_of
 from mechwright_four_bar.pole_equations import PoleProblem
-from mechwright_four_bar.pole_search import RESIDUAL, poles_of, search
+from mechwright_four_bar.pole_search import RESIDUAL, search
 from mechwright_four_bar.requirements import PolesRequirement
 
 STARTS = 5000

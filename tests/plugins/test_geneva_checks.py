@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from mechwright.findings import Severity, errors
-from mechwright.laws import LAWS
+from mechwright.contracts.finding import Severity, errors
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.cures import walls_of
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.kinematics import Frame
@@ -37,6 +37,9 @@ def rows(name, count=21, change=None):
 
 
 ERRORS = [
+    ("geneva.counterbore", "counterbore_depth", {"counterbore_diameter": 24, "counterbore_depth": 30}),
+    ("geneva.counterbore", "counterbore_diameter", {"counterbore_diameter": 8}),
+    ("geneva.counterbore", "counterbore_radius", {"counterbore_diameter": 24, "counterbore_radius": 5}),
     ("geneva.law", "polynomial", {"law": "polynomial", "polynomial": [0, 1]}),
     ("geneva.law", "polynomial", {"law": "polynomial", "polynomial": [0, 0, -15, 70, -90, 36]}),
     ("geneva.law", "table", {"law": "table", "table": [(0, 0), (1, 1)]}),

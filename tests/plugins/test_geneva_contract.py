@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from hypothesis import strategies as st
 
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright.testing import FamilyContract
 from mechwright_geneva.family import Geneva
 
@@ -42,7 +42,15 @@ class TestGeneva(FamilyContract):
             "keyway_width": 2,
             "keyway_relief": 1.2,
         },
-        {**SMALL, "slots": 6, "law": "straight", "entry_radius": 70, "driver_keyway_width": 2},
+        {
+            **SMALL,
+            "slots": 6,
+            "law": "straight",
+            "entry_radius": 70,
+            "driver_keyway_width": 2,
+            "counterbore_diameter": 16,
+            "counterbore_depth": 2,
+        },
         {
             **SMALL,
             "law": "table",
@@ -70,6 +78,8 @@ class TestGeneva(FamilyContract):
         "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],
         "table": [rows("cycloidal")],
         "load_torque": [0.5],
+        "counterbore_radius": [1.0],
+        "counterbore_side": ["underside"],
     }
     requirements: ClassVar = {"indexing": ({"laws": ["cycloidal"], "designs": 2},)}
     max_examples = 15

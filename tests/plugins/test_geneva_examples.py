@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from mechwright.design import load
-from mechwright.findings import Severity
-from mechwright.host import host
-from mechwright.part import Pocket
+from mechwright.contracts.finding import Severity
+from mechwright.contracts.part import Pocket
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams

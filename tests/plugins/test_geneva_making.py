@@ -8,20 +8,25 @@ from pathlib import Path
 import pytest
 import shapely
 
-from mechwright.design import load
-from mechwright.fits import hole_fit
-from mechwright.host import host
-from mechwright.part import Bore, Pocket, Profile
-from mechwright.program import FeedArc
-from mechwright_cam.exporters.dxf import part as drawing
-from mechwright_cam.job import make_job
-from mechwright_cam.library import load_library
-from mechwright_cam.pipeline import machine
+from mechwright.build import Build
+from mechwright.contracts.finding import Severity
+from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.part import Bore, Pocket, Profile
+from mechwright.contracts.sections import volume
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+from mechwright_cad.exporters.dxf import part as drawing
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import Machining, machine
+from mechwright_cam.operations.slots import outside_mills
+from mechwright_cam.pages.setup_sheet import setup_html
+from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
-from mechwright_cam.planning.slots import outside_mills
-from mechwright_cam.posts import LinuxCncPost
-from mechwright_cam.setup_sheet import setup_html
-from mechwright_cam.toolpath.offsets import BIAS
+from mechwright_cam.program.moves import FeedArc
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.table import settings_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.parts import parts_of
 
@@ -39,7 +44,7 @@ def parts(name, **changes):
 
 
 def job_of(part, *tools, **changes):
-    settings = example("cycloidal").cam.model_copy(update={"tools": tools, **changes})
+    settings = settings_of(example("cycloidal")).cam.model_copy(update={"tools": tools, **changes})
     return make_job(part, settings, choose_tools(part, settings, LIBRARY))
 
 
@@ -52,9 +57,11 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     text = drawing(crank).decode("cp1252")
     assert f"pin-1: %%c{fit.text}" in text
     job = job_of(crank)
-    made = machine(job, LinuxCncPost())
+    made = machine(job, LinuxCnc())
     assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
-    assert f"pin-1 ⌀{fit.text}" in setup_html([(made.job, made.program, made.proof.as_dict())])
+    assert f"pin-1 ⌀{fit.text}" in setup_html(
+        [(made.job, made.program, made.proof.as_dict())], host().get(Control, "linuxcnc")
+    )
     ((tool, moves),) = [
         (section.tool, operation.moves)
         for section in made.program.sections
@@ -96,7 +103,7 @@ def test_no_tab_stands_on_a_wall_that_works(design):
             continue
         (outside,) = [f for f in part.features if isinstance(f, Profile) and f.side == "outside"]
         working = [s for s in outside.loop.segments if s.tag not in ("rim", "relief", "crank", "hub")]
-        job = make_job(part, example("cycloidal").cam, LIBRARY.tools)
+        job = make_job(part, settings_of(example("cycloidal")).cam, LIBRARY.tools)
         assert len(job.tabs) == 4
         plate = shapely.Polygon(outside.loop.flatten())
         for tab in job.tabs:
@@ -153,3 +160,58 @@ def test_a_straight_slot_is_not_cut_at_full_width():
     mills = [LIBRARY.get(f"mill-{d}") for d in (16, 8, 6)]
     assert [m.diameter for m in outside_mills(mills, shape, 0.2, BIAS)] == [16, 6]
     assert outside_mills(mills[:2], shape, 0.2, BIAS) == mills[:2]
+
+
+BORED = {"counterbore_diameter": 24.0, "counterbore_depth": 3.0}
+
+
+@pytest.mark.parametrize("name", ["straight", "cycloidal"])
+def test_a_counterbore_takes_its_ring_and_its_fillet_leaves_a_moulding(name):
+    plain, bored = parts(name)["wheel"], parts(name, **BORED)["wheel"]
+    bore = example(name).params.bore / 2
+    ring = math.pi * (12.0**2 - bore**2) * 3.0
+    assert volume(plain) - volume(bored) == pytest.approx(ring, rel=1e-5)
+    # The fillet's section is a square less a quarter circle; Pappus takes its centroid once round.
+    radius = 1.0
+    section = (1 - math.pi / 4) * radius**2
+    from_the_wall = radius * (1 - 1 / (6 - 1.5 * math.pi))
+    left = math.tau * (12.0 - from_the_wall) * section
+    filleted = parts(name, **BORED, counterbore_radius=radius)["wheel"]
+    assert volume(filleted) - volume(bored) == pytest.approx(left, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sides"),
+    [({"counterbore_radius": 1.0}, ["top"]), ({"counterbore_side": "underside"}, ["top", "underside"])],
+)
+def test_a_counterbore_is_cut_and_proven_with_its_fillet_or_from_the_other_side(changes, sides):
+    design = example("straight")
+    table = {**design.params.model_dump(exclude_none=True), **BORED, **changes}
+    machining = Machining(Build(replace(design, params=GenevaParams(**table)), host()))
+    wheel = [made for made in machining.made if made.job.part.name.startswith("wheel")]
+    assert [made.job.side for made in wheel] == sides
+    assert all(made.proof.ok for made in wheel)
+    (text,) = [made.text for made in wheel if made.job.side == sides[-1]]
+    assert "operation: counterbore: " in text
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"counterbore_diameter": 10.5}, "counterbore_diameter"),
+        ({"counterbore_diameter": 200.0}, "counterbore_diameter"),
+        ({"counterbore_depth": 7.0}, "counterbore_depth"),
+        ({"counterbore_depth": 1.0, "counterbore_radius": 2.0}, "counterbore_radius"),
+        ({"counterbore_side": "underside", "counterbore_radius": 1.0}, "counterbore_radius"),
+        ({"counterbore_side": "underside", "hub_diameter": 24.0, "fixing": 0.0}, "counterbore_side"),
+    ],
+)
+def test_a_counterbore_that_cannot_be_is_refused_and_the_advice_mends_it(changes, key):
+    design = example("straight")
+    table = {**design.params.model_dump(exclude_none=True), **BORED, **changes}
+    found = [f for f in design.family.check(GenevaParams(**table)) if f.code == "geneva.counterbore"]
+    assert [finding.parameter for finding in found] == [key]
+    assert found[0].severity is Severity.ERROR
+    mended = "top" if key == "counterbore_side" else found[0].limit
+    again = design.family.check(GenevaParams(**{**table, key: mended}))
+    assert [finding for finding in again if finding.code == "geneva.counterbore"] == []

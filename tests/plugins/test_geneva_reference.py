@@ -5,14 +5,15 @@ import math
 import re
 from pathlib import Path
 
+import geneva_printed as printed
+import geneva_undercut as undercut
 import numpy as np
 import pytest
 import shapely
 
-from mechwright.laws import LAWS
-from mechwright_geneva import printed, undercut
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.contact import contact, loads
-from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, alpha, stroke
+from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
 from mechwright_geneva.mechanism import measure_at, mechanism_of
 from mechwright_geneva.motion import straight_peaks
@@ -353,7 +354,7 @@ def test_alpha_is_the_angle_of_equation_3():
             frame = Frame.of(math.pi / 4, math.radians(half), math.radians(offset), 100.0)
             run = stroke(frame, law(), np.linspace(0, 1, 101))
             for side, more in ((LEFT, 0.0), (RIGHT, math.pi)):
-                turn = run.phi + alpha(run) + more
+                turn = run.phi + undercut.alpha(run) + more
                 point = (
                     frame.axes - frame.crank * np.exp(1j * run.phi) - 5 * np.exp(1j * turn)
                 ) * run.to_wheel

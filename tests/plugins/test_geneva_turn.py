@@ -3,20 +3,21 @@
 import dataclasses
 import math
 
+import geneva_printed as printed
 import numpy as np
 import pytest
 import shapely
+from geneva_turn import prove
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechwright.findings import errors
+from mechwright.contracts.finding import errors
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.laws import LAWS
+from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.family import Geneva
 from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.proof import prove
 from mechwright_geneva.relief import lock_loop
 
 DESIGNS = {
@@ -95,7 +96,6 @@ def test_the_proof_sees_a_roller_that_is_too_large():
 
 def test_the_proof_sees_the_printed_wall():
     """A groove along the source's printed wall stands in the roller's way by millimetres."""
-    from mechwright_geneva import printed
     from mechwright_geneva.kinematics import LEFT, RIGHT
 
     params = GenevaParams(law="3-4-5", groove_clearance=0)

@@ -2,14 +2,14 @@
 
 import math
 
+import geneva_undercut as undercut
 import numpy as np
 import pytest
 import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechwright.laws import LAWS, Polynomial
-from mechwright_geneva import undercut
+from mechwright.mechanics.laws import LAWS, Polynomial
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
 from mechwright_geneva.mechanism import mechanism_of

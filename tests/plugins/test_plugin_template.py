@@ -1,24 +1,14 @@
 """The template as a third party would use it: installed, found by the host, tested by its own tests."""
 
-import json
-import os
-import re
-import shutil
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
-
-import mechwright
-
-TEMPLATE = Path(__file__).parents[2] / "examples" / "plugin-template"
+from templates import answer, assert_typed, copied, installed_into, passed, run
 
 ASK = """
 import json
-from mechwright.host import load
+from mechwright.contracts.family import Family
+from mechwright.plugins.host import load
 host = load()
-yoke = host.families.get("scotch-yoke")
+yoke = host.of(Family).get("scotch-yoke")
 print(json.dumps({
     "distribution": yoke and yoke.distribution,
     "plugin": yoke and yoke.plugin,
@@ -30,45 +20,12 @@ print(json.dumps({
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    """A copy of the template, so that building and testing it leaves no trace in the project."""
-    folder = tmp_path_factory.mktemp("template") / "plugin-template"
-    ignored = shutil.ignore_patterns("__pycache__", ".*", "dist", "build", "*.egg-info")
-    return shutil.copytree(TEMPLATE, folder, ignore=ignored)
+    return copied("plugin-template", tmp_path_factory.mktemp("template"))
 
 
 @pytest.fixture(scope="module")
 def installed(copy, tmp_path_factory):
-    """The folder that the template is installed into, from its source and without any index."""
-    target = tmp_path_factory.mktemp("installed")
-    offline = ["--no-index", "--no-deps", "--no-build-isolation", "--disable-pip-version-check"]
-    done = subprocess.run(
-        [sys.executable, "-m", "pip", "install", "--quiet", *offline, "--target", target, copy],
-        env={**os.environ, "PIP_CONFIG_FILE": os.devnull},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return target
-
-
-def run(arguments, *paths, cwd, **environment):
-    """Run Python in a process of its own with these folders and our own sources on its path."""
-    home = Path(mechwright.__file__).parents[1]
-    path = os.pathsep.join(map(str, (*paths, home, os.environ.get("PYTHONPATH", ""))))
-    return subprocess.run(
-        [sys.executable, *map(str, arguments)],
-        cwd=cwd,
-        env={**os.environ, "PYTHONPATH": path.rstrip(os.pathsep), **environment},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
-def answer(done):
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return installed_into(tmp_path_factory.mktemp("installed"), copy)
 
 
 def test_the_host_finds_the_installed_family(installed, tmp_path):
@@ -92,17 +49,10 @@ def test_the_installation_holds_the_package_and_nothing_else(installed):
 
 
 def test_its_own_tests_pass(installed, copy):
-    config = ["-c", copy / "pyproject.toml", "--rootdir", copy, "-p", "no:cacheprovider", "-q"]
-    done = run(["-m", "pytest", *config, copy / "tests"], installed, cwd=copy)
-    assert done.returncode == 0, done.stdout + done.stderr
-    passed = re.search(r"(\d+) passed", done.stdout)
     # The contract alone brings more than twenty tests; fewer would mean that it was not collected.
-    assert passed
-    assert int(passed[1]) > 20, done.stdout
+    assert passed(installed, copy) > 20
 
 
 def test_its_types_are_right(installed, copy):
     pytest.importorskip("mypy", reason="mypy is not installed")
-    # From the copy, so that the settings of this project do not decide.
-    done = run(["-m", "mypy", "--strict", "--cache-dir", os.devnull, copy / "src"], installed, cwd=copy)
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert_typed(installed, copy)

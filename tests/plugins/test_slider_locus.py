@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.errors import GeometryError
-from mechwright.planar import acceleration_pole
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.locus import locus
 

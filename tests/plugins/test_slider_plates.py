@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import shapely
 
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.motion import Poses
 from mechwright.errors import DesignError
-from mechwright.findings import Severity, errors
-from mechwright.motion import Poses
-from mechwright_cam.interference import interference
+from mechwright_cad.interference import interference
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.family import SliderCrankFamily
 from mechwright_slider_crank.figures import limits
@@ -112,8 +112,8 @@ def test_pins_reach_from_plate_to_plate(design):
 
 def test_masses_are_those_of_the_solids(design):
     """Bodies weighed part by part with the CAD kernel, plates by their outlines' solids."""
-    from mechwright.materials import material
-    from mechwright_cam.solids import part_solid
+    from mechwright.contracts.materials import material
+    from mechwright_cad.solids.solid import part_solid
 
     found = masses_of(design)
     weights = dict.fromkeys(("crank", "rod", "slider"), 0.0)

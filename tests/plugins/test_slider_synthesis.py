@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from mechwright.findings import Severity, errors
-from mechwright.planar import acceleration_pole
+from mechwright.contracts.finding import Severity, errors
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright_slider_crank.figures import crank_turns, least_transmission_angle, limits
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.pole_equations import PoleProblem

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mechwright.contracts.finding import Severity, errors
 from mechwright.errors import MechwrightError
-from mechwright.findings import Severity, errors
 from mechwright_spherical.checks import findings, weakest
 from mechwright_spherical.clearances import approaches, arcs_apart, point_to_arc
 from mechwright_spherical.family import Spherical

@@ -8,23 +8,22 @@ from pathlib import Path as File
 
 import numpy as np
 import pytest
+from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
 from mechwright_spherical.fivebar import on_circle, projected
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.hardware_checks import clear_radius
-from mechwright_spherical.jets import Turning
+from mechwright_spherical.jets import Turning, turning_about
 from mechwright_spherical.mobility import mobility
-from mechwright_spherical.planar import PlanarFiveBar, pairs, points
+from mechwright_spherical.planar import pairs, points
 from mechwright_spherical.planar_synthesis import CouplerPoses, arm_pins, crank_dyad, rocker_dyad
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Fit, Freedom, Path, errors, refine
 from mechwright_spherical.structural import (
     PlanarDesign,
-    asymptote,
     best_centre,
-    peak,
     scaled_error,
     smallest_length,
 )
@@ -92,7 +91,7 @@ def exact_member():
 
 def printed_matches():
     found = [project(TABLE_2, printed.LENGTH), project(list(printed.PINS.values()), printed.LENGTH)]
-    wanted = [printed.TABLE_3, [printed.TABLE_4[name] for name in printed.PINS]]
+    wanted = [TABLE_3, [TABLE_4[name] for name in printed.PINS]]
     return sum(int((np.round(f, 4) == np.array(w)).sum()) for f, w in zip(found, wanted, strict=True))
 
 
@@ -100,7 +99,7 @@ def printed_fit(radius_free):
     from scipy.optimize import least_squares
 
     flat = np.concatenate([TABLE_2, list(printed.PINS.values())])
-    wanted = np.concatenate([printed.TABLE_3, [printed.TABLE_4[name] for name in printed.PINS]])
+    wanted = np.concatenate([TABLE_3, [TABLE_4[name] for name in printed.PINS]])
 
     def residuals(x):
         return (project(flat, x[0], x[1] if radius_free else 1.0) - wanted).ravel()
@@ -215,21 +214,23 @@ def four_bar(inputs):
 def four_bar_fact(name, inputs):
     linkage = four_bar(inputs)
     if name.startswith("fourbar.mu_m"):
-        return math.degrees(linkage.transmission_limits()[name == "fourbar.mu_max_deg"])
+        limits = sorted(linkage.at(Turning.of(np.array([0.0, math.pi])), 0).transmission.tolist())
+        return math.degrees(limits[name == "fourbar.mu_max_deg"])
     theta = np.radians([inputs.get("theta_deg", 0.0)])
     if name == "fourbar.psi_limits_deg":
         return psi_limits(linkage)
     state = linkage.at(Turning.of(theta))
-    psi, spin = linkage.output_turning(state, theta), state.coupler_spin
+    psi, spin = turning_about(linkage.output_axis, state.c), state.coupler_spin
     found = {
-        "psi_deg": math.degrees(math.remainder(psi.angle[0], math.tau)),
+        "psi_deg": math.degrees(math.remainder(linkage.output_angle(theta)[0], math.tau)),
         "mu_deg": math.degrees(state.transmission[0]),
         "a": state.a[0][:, 0],
         "b": state.c[0][:, 0],
         "p": state.p[0][:, 0],
         "dpsi": psi.rate[0],
         "d2psi": psi.acceleration[0],
-        "zeta": linkage.relative_rate(state, 1.0)[0],
+        # ω3 = θ' o + ζ a, with θ' = 1 about o = z.
+        "zeta": (spin[0][:, 0] - [0, 0, 1]) @ state.a[0][:, 0],
         "omega3": spin[0][:, 0],
         "alpha3": spin[1][:, 0],
         "vp": state.p[1][:, 0],

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright.findings import Severity
+from mechwright.contracts.finding import Severity
 from mechwright_spherical import links, solids
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import external, internal, train_of
@@ -17,7 +17,7 @@ from mechwright_spherical.family import Spherical
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
-from mechwright_spherical.parts import gear_cones, gear_span, link_arcs, pin_places
+from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
 from mechwright_spherical.shells import shells_of
 from mechwright_spherical.vectors import arc, dot, rotate, vector
 

@@ -8,16 +8,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from spherical_source import PlanarFiveBar
 
+from mechwright.contracts.finding import errors as faults
 from mechwright.errors import GeometryError, KinematicsError
-from mechwright.findings import errors as faults
 from mechwright_spherical import printed, structural
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.fivebar import projected
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.planar import PlanarFiveBar, points
+from mechwright_spherical.planar import points
 from mechwright_spherical.planar_synthesis import CouplerPoses, crank_dyad, synthesise
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Freedom, Path, refine

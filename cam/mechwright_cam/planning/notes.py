@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from mechwright.part import Bore
-from mechwright.tooling import Tool
-from mechwright_cam.job import Job
-from mechwright_cam.nest import Nest
-from mechwright_cam.planning.holes import point_length
+from mechwright.contracts.part import Bore
+from mechwright_cam.operations.drilling import point_length
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.tool import Tool
 
 
 def clamp_message(job: Job) -> str:

@@ -1,46 +1,31 @@
 """From a job to a program."""
 
 import math
-from collections.abc import Callable
-from functools import partial
+from dataclasses import replace
+from itertools import groupby
 
 import shapely
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
 from mechwright.errors import DesignError
-from mechwright.geometry.segments import Point
-from mechwright.part import Bore, OpenProfile
-from mechwright.program import Move, Operation, Pause, Program, ToolSection
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool, ToolKind
-from mechwright_cam.job import Job
-from mechwright_cam.planning.centre_lines import grooves, write_groove
-from mechwright_cam.planning.choice import entry_place
-from mechwright_cam.planning.contour_writer import finish_bore_compensated
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.facing import face, is_face
-from mechwright_cam.planning.floors import floor_allowance, over_openings
-from mechwright_cam.planning.holes import (
-    BorePlan,
-    drill_moves,
-    finish_bore,
-    plan_bore,
-    rough_bore,
-    spot_drill,
-    spot_moves,
-    starting_drill,
-)
+from mechwright_cam.operations.contract import Hole, Task
+from mechwright_cam.operations.drilling import drill_moves, spot_drill, spot_moves
+from mechwright_cam.operations.rates import rates
+from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.notes import clamp_message, notes
-from mechwright_cam.planning.pen import Pen
-from mechwright_cam.planning.rates import rates
 from mechwright_cam.planning.schedule import Step, order
-from mechwright_cam.planning.walls import Cut, Walls
-from mechwright_cam.planning.zone import Zone
-from mechwright_cam.planning.zones import check_clamp, inner_zones, outer_walls
+from mechwright_cam.program.moves import Move, Operation, Pause, Program, ToolSection
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import check_clamp
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
-def plan(job: Job) -> Program:
+def plan(job: Job, assignments: Assignments | None = None) -> Program:
     """Plan the whole machining of a plate part.
+
+    Who cuts what is taken from ``assignments``, and decided there if it has not been yet.
 
     Raises
     ------
@@ -49,7 +34,7 @@ def plan(job: Job) -> Program:
     DesignError
         The holding or the stock is in the way.
     """
-    return _Planner(job).program()
+    return _Planner(job, assignments or Assignments()).program()
 
 
 def clearance_height(job: Job) -> float:
@@ -60,11 +45,13 @@ def clearance_height(job: Job) -> float:
 class _Planner:
     """Collects the steps of a job in an order that makes sense, each waiting for those it depends on."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: Job, assignments: Assignments) -> None:
         self.job = job
-        self.clearance = clearance_height(job)
         self.steps: list[Step] = []
-        self.walls = Walls(job, self.clearance)
+        self.clearance = clearance_height(job)
+        self.tasks = assignments.of(job).every()
+        self.operations = assignments.operations(job.settings)
+        self.cuts = Steps(job, self.clearance)
 
     def program(self) -> Program:
         job = self.job
@@ -103,9 +90,15 @@ class _Planner:
         self.steps.append(Step(name, tool, spindle, moves, after))
         return frozenset({len(self.steps) - 1})
 
-    def _chain(self, cuts: list[Cut], after: frozenset[int]) -> None:
-        """Steps that wait for each other."""
-        for cut in cuts:
+    def _cut(self, task: Task, after: frozenset[int]) -> None:
+        """The steps of a task, which wait for each other."""
+        stock = Stock(task.region, self.job.gone)
+        if task.hole is not None and task.tools:
+            opened = shapely.Point(task.hole.place).buffer(task.hole.drill.radius, quad_segs=32)
+            stock = stock.without(opened)
+        done = len(self.cuts.cuts)
+        task.operation.cut(task, stock, self.cuts)
+        for cut in self.cuts.cuts[done:]:
             after = self._step(*cut, after)
 
     def _through_with_round_ends(self) -> list[Tool]:
@@ -113,121 +106,52 @@ class _Planner:
         lowest = self.job.floor - TOLERANCES.closure
         return [step.tool for step in self.steps if step.tool.nose > 0 and _lowest(step.moves) < lowest]
 
-    def _milled(
-        self, name: str, tool: Tool, after: frozenset[int], write: Callable[[Pen], object]
-    ) -> frozenset[int]:
-        return self._step(name, tool, self.walls.moves(tool, write), after)
-
     def _inner(self) -> frozenset[int]:
-        job = self.job
-        bores = [plan_bore(job, feature) for feature in job.features if isinstance(feature, Bore)]
-        zones = inner_zones(job, skip=grooves(job))
-        entries = {
-            zone.name: self._entry(zone)
-            for zone in zones
-            if zone.kind == "inside" and zone.bottom == job.floor
-        }
-        holes: list[tuple[Tool, Point, str]] = [
-            (plan.drill, plan.bore.centre, plan.bore.name) for plan in bores if plan.drill is not None
-        ]
-        holes += [(drill, place, name) for name, (drill, place) in entries.items() if drill is not None]
-        drilled = self._drilled(holes)
-        after = drilled
+        inside = [task for task in self.tasks if not task.is_outside and not task.is_detail]
+        inside.sort(key=lambda task: (-task.top, self.operations.index(task.operation)))
+        after = self._drilled([task.hole for task in inside if task.hole is not None])
         # What starts on the floor of a recess waits until all recesses above are cut.
-        for top in sorted({-feature.top for feature in job.features}, reverse=True):
-            for plan in bores:
-                if -plan.bore.top == top:
-                    self._bore(plan, after)
-            self._slots(top, after)
-            for zone in zones:
-                if zone.top != top:
-                    continue
-                if is_face(zone):
-                    self._face(zone, after)
-                    continue
-                drill, place = entries.get(zone.name, (None, (0.0, 0.0)))
-                if drill is not None:
-                    hole = shapely.Point(place).buffer(drill.radius, quad_segs=32)
-                    zone.left = shapely.difference(zone.left, hole)
-                leave = floor_allowance(job, zone.top, zone.bottom)
-                if leave > 0 and not zone.snug:
-                    self._chain(self.walls.recess(zone, leave), after)
-                else:
-                    self._chain(self.walls.cuts(over_openings(job, zone), zone.mills), after)
+        for _, level in groupby(inside, key=lambda task: task.top):
+            for task in level:
+                self._cut(task, after)
             after = frozenset(range(len(self.steps)))
         self._details(after, outside=False)
         return frozenset(range(len(self.steps)))
 
-    def _face(self, zone: Zone, after: frozenset[int]) -> None:
-        mill, stock = zone.mills[0], shapely.box(*self.job.stock)
-        depth = mill.cutting[self.job.part.material].step_down * mill.diameter
-        leave = floor_allowance(self.job, zone.top, zone.bottom)
-        self._milled(f"{zone.name}: face", mill, after, lambda pen: face(zone, pen, stock, depth, leave))
-
-    def _slots(self, top: float, after: frozenset[int]) -> None:
-        """Grooves as wide as a mill that begin at this height."""
-        mills = grooves(self.job)
-        for feature in self.job.features:
-            if isinstance(feature, OpenProfile) and feature.name in mills and -feature.top == top:
-                leave = floor_allowance(self.job, top, -feature.top - feature.depth)
-                write = partial(write_groove, self.job, feature, leave=leave)
-                self._milled(f"{feature.name}: slot", mills[feature.name], after, write)
-
-    def _entry(self, zone: Zone) -> tuple[Tool | None, Point]:
-        place, radius = entry_place(zone.clear)
-        return starting_drill(self.job, 2 * radius, -zone.bottom), place
-
-    def _drilled(self, holes: list[tuple[Tool, Point, str]]) -> frozenset[int]:
+    def _drilled(self, holes: list[Hole]) -> frozenset[int]:
         job = self.job
         after: frozenset[int] = frozenset()
         spot = spot_drill(job)
         if spot is not None and holes:
-            places = [(place, drill.diameter) for drill, place, _ in holes]
+            places = [(hole.place, hole.drill.diameter) for hole in holes]
             after = self._step("spot drill", spot, spot_moves(job, spot, places, self.clearance), after)
         done = after
-        for drill in {drill.number: drill for drill, _, _ in holes}.values():
-            places_of = [place for other, place, _ in holes if other is drill]
-            moves = drill_moves(job, drill, places_of, -job.floor, self.clearance)
+        for drill in {hole.drill.number: hole.drill for hole in holes}.values():
+            same = [hole.place for hole in holes if hole.drill is drill]
+            moves = drill_moves(job, drill, same, -job.floor, self.clearance)
             done = done | self._step(f"drill {drill.diameter:g}", drill, moves, after)
         return done
-
-    def _bore(self, plan: BorePlan, after: frozenset[int]) -> None:
-        if plan.mill is None:
-            return
-        name, job = plan.bore.name, self.job
-        after = self._milled(f"{name}: bore", plan.mill, after, lambda pen: rough_bore(job, plan, pen))
-        write = partial(finish_bore, job, plan)
-        if job.settings.compensation != "computer":
-            write = partial(finish_bore_compensated, job, plan.bore)
-        self._milled(f"{name}: finish", plan.mill, after, write)
 
     def _outer(self, after: frozenset[int]) -> frozenset[int]:
         check_clamp(self.job)
         before = len(self.steps)
-        for zones in outer_walls(self.job):
-            self._chain(self.walls.cuts(zones, zones[0].mills), after)
+        for task in self.tasks:
+            if task.is_outside and not task.is_detail:
+                self._cut(task, after)
         self._details(frozenset(range(len(self.steps))), outside=True)
         return frozenset(range(before, len(self.steps)))
 
     def _details(self, after: frozenset[int], *, outside: bool) -> None:
-        for plan in (plan_detail(self.job, detail) for detail in self.job.details):
-            if plan.outside == outside:
-                self._milled(_named(plan.detail), plan.tool, after, plan.write)
+        for task in self.tasks:
+            if task.is_detail and task.is_outside == outside:
+                self._cut(task, after)
 
     def _sections(self, wanted: frozenset[int]) -> list[ToolSection]:
         """The wanted steps in runs of one tool; steps outside count as done."""
         chosen = sorted(wanted)
         place = {old: new for new, old in enumerate(chosen)}
-        steps = [
-            Step(
-                step.name,
-                step.tool,
-                step.spindle,
-                step.moves,
-                frozenset(place[i] for i in step.after if i in place),
-            )
-            for step in (self.steps[i] for i in chosen)
-        ]
+        known = (self.steps[i] for i in chosen)
+        steps = [replace(step, after=frozenset(place[i] for i in step.after if i in place)) for step in known]
         return [
             ToolSection(
                 steps[run[0]].tool,
@@ -243,11 +167,6 @@ def _lowest(moves: tuple[Move, ...]) -> float:
     """Lowest z of some moves, mm."""
     heights = (getattr(move, "z", None) for move in moves)
     return min((z for z in heights if z is not None), default=math.inf)
-
-
-def _named(detail: Detail) -> str:
-    what = {Chamfer: "chamfer", Thread: "thread", Engraving: "engrave"}[type(detail)]
-    return f"{detail.name}: {what}"
 
 
 def _with_operation(section: ToolSection, operation: Operation) -> ToolSection:

@@ -1,34 +1,27 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 
-import shapely
-
-from mechwright.cutter import SAME_RADIUS
-from mechwright.errors import MechwrightError, ToolError
-from mechwright.findings import Finding, Severity, errors
-from mechwright.materials import HSS_SPEED
-from mechwright.materials import material as material_of
-from mechwright.part import Feature, Part
-from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS, CamSettings, CuttingData, Tool, ToolKind
-from mechwright_cam.job import Job, make_job
-from mechwright_cam.library import Library
-from mechwright_cam.nest import Nest
-from mechwright_cam.planning.bending import MOST, deflection
-from mechwright_cam.planning.centre_lines import grooves
-from mechwright_cam.planning.choice import long_enough, roughers
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.holes import SPOT, plan_bore
-from mechwright_cam.planning.rates import Rates, rates, runs_too_fast
+from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.materials import HSS_SPEED
+from mechwright.contracts.materials import material as material_of
+from mechwright.contracts.part import Feature, Part
+from mechwright.errors import DesignError, MechwrightError, ToolError
+from mechwright_cam.operations.bending import MOST, deflection
+from mechwright_cam.operations.choice import long_enough
+from mechwright_cam.operations.contract import Task
+from mechwright_cam.operations.drilling import SPOT
+from mechwright_cam.operations.rates import Rates, rates, runs_too_fast
+from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.selection import choose_tools
-from mechwright_cam.planning.zone import Zone
-from mechwright_cam.planning.zones import bores, bottom_of, check_clamp, inner_zones, outer_zones
-from mechwright_cam.reach import remainder
-from mechwright_cam.toolpath.offsets import ROUGH, grow
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import check_clamp, make_job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
@@ -45,67 +38,57 @@ def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Fin
 
 
 def lay_out(
-    part: Part, settings: CamSettings, library: Library, below: Sequence[Feature] = ()
+    part: Part,
+    settings: CamSettings,
+    library: Library,
+    below: Sequence[Feature] = (),
+    assignments: Assignments | None = None,
 ) -> tuple[Job | None, list[Finding]]:
     """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
 
-    Tabs stay clear of the features that are cut from ``below`` later.
+    Tabs stay clear of the features that are cut from ``below`` later. Who cuts what stays in ``assignments``.
 
     The job is None if the cutters cannot be chosen or the part does not fit its stock.
     """
+    assignments = assignments or Assignments()
     try:
-        tools = choose_tools(part, settings, library)
+        tools = choose_tools(part, settings, library, assignments)
         job = make_job(part, settings, tools, below)
+        assigned = assignments.of(job)
     except MechwrightError as error:
         return None, [_refusal(error)]
-    found: list[Finding] = []
-    zones: list[Zone] = []
-    for bore in bores(job):
-        _try(found, partial(plan_bore, job, bore))
-    _try(found, lambda: zones.extend(inner_zones(job, skip=grooves(job))))
-    _try(found, lambda: zones.extend(outer_zones(job)))
-    _try(found, partial(check_clamp, job))
-    for detail in job.details:
-        _try(found, partial(plan_detail, job, detail))
+    refused = list(assigned.refused)
+    try:
+        check_clamp(job)
+    except DesignError as error:
+        refused.append(error)
+    found = [_refusal(error) for error in refused]
     if not found:
-        idle = _idle(job, zones)
-        found += _corners(job, zones)
+        for task in assigned.tasks:
+            found += task.operation.remarks(task, job)
+        idle = _idle(job, assigned.tasks)
         if settings.tools:
             found += [_unused(job, mill) for mill in idle]
-        else:
+        elif idle:
             # Of the chosen cutters a wider one has turned out to be as good.
-            job = replace(job, tools=tuple(tool for tool in job.tools if tool not in idle))
-    depths = _depths(job, zones) if not errors(found) else {}
+            used = tuple(tool for tool in job.tools if tool not in idle)
+            job = assignments.carry(job, replace(job, tools=used))
+    depths = {} if refused else _depths(assigned.tasks)
     return job, found + _travel(job) + _remarks(job, depths)
 
 
-def _idle(job: Job, zones: list[Zone]) -> list[Tool]:
+def _idle(job: Job, tasks: Sequence[Task]) -> list[Tool]:
     """The mills that nothing in the part is for."""
-    boring = [plan_bore(job, bore).mill for bore in bores(job)]
-    milling: list[list[Tool]] = [[*roughers(zone.mills, zone.last_mills), *zone.last_mills] for zone in zones]
-    used = {mill.name for mill in boring if mill is not None}
-    used |= {mill.name for mills in milling for mill in mills}
-    used |= {mill.name for mill in grooves(job).values()}
+    used = {mill.name for task in tasks for mill in task.tools}
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
 
 
-def _depths(job: Job, zones: list[Zone]) -> dict[str, float]:
+def _depths(tasks: Sequence[Task]) -> dict[str, float]:
     """How deep below the top of the stock each mill cuts, mm, by its name."""
     deep: dict[str, float] = {}
-
-    def goes(mill: Tool, bottom: float) -> None:
-        deep[mill.name] = max(deep.get(mill.name, 0.0), -bottom)
-
-    for bore in bores(job):
-        mill = plan_bore(job, bore).mill
-        if mill is not None:
-            goes(mill, bottom_of(job, bore.top, bore.depth))
-    for zone in zones:
-        for mill in (*roughers(zone.mills, zone.last_mills), *zone.last_mills):
-            goes(mill, zone.bottom_for(mill))
-    features = {feature.name: feature for feature in job.features}
-    for name, mill in grooves(job).items():
-        goes(mill, bottom_of(job, features[name].top, features[name].depth))
+    for task in tasks:
+        for mill in task.tools:
+            deep[mill.name] = max(deep.get(mill.name, 0.0), -task.operation.deepest(task, mill))
     return deep
 
 
@@ -151,13 +134,6 @@ def _travel(job: Job) -> list[Finding]:
     ]
 
 
-def _try(found: list[Finding], action: Callable[[], object]) -> None:
-    try:
-        action()
-    except MechwrightError as error:
-        found.append(_refusal(error))
-
-
 def _refusal(error: MechwrightError) -> Finding:
     """An error that names its parameter in front, as a finding."""
     text = str(error)
@@ -165,50 +141,6 @@ def _refusal(error: MechwrightError) -> Finding:
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
     return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
-
-
-def _corners(job: Job, zones: list[Zone]) -> list[Finding]:
-    """The remainder on every wall."""
-    found = []
-    for zone in zones:
-        if zone.at_tabs:
-            continue
-        found += _partly(job, zone)
-        found += _fillet(job, zone)
-        depth = remainder(zone.wall, zone.reach_radius + job.wear_margin, zone.must)
-        if depth > TOLERANCES.leftover:
-            found.append(
-                Finding(
-                    "cam.unreachable",
-                    Severity.NOTE,
-                    "cam.tools",
-                    f"{zone.finisher.name} leaves up to {depth:.3f} mm in corners of {zone.name} "
-                    f"of {job.part.name}",
-                    depth,
-                    TOLERANCES.leftover,
-                    "mm",
-                )
-            )
-    return found
-
-
-def _fillet(job: Job, zone: Zone) -> list[Finding]:
-    """The fillet that a round mill leaves at the foot of a wall where none is drawn."""
-    last = zone.last_mills[0]
-    if zone.through or last.nose <= zone.floor_radius + SAME_RADIUS:
-        return []
-    return [
-        Finding(
-            "cam.unreachable",
-            Severity.NOTE,
-            "cam.tools",
-            f"{last.name} leaves a fillet of {last.nose:g} mm at the foot of {zone.name} of {job.part.name}",
-            last.nose,
-            zone.floor_radius,
-            "mm",
-            "list a flat end mill as well",
-        )
-    ]
 
 
 def _spotted(job: Job, spot: Tool) -> float:
@@ -266,34 +198,6 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
             found += _bending(job, tool, deep)
         found += _figures(tool, material)
     return found
-
-
-MOSTLY = 0.9
-"""A recess of which the mills reach less than this is hardly what was drawn."""
-
-
-def _partly(job: Job, zone: Zone) -> list[Finding]:
-    """Whether much of a recess is too narrow for all its mills."""
-    if zone.kind == "outside":
-        return []
-    must = zone.clear if zone.must is None else zone.must
-    radius = zone.reach_radius
-    reach = grow(grow(zone.clear, -radius, ROUGH), radius, ROUGH)
-    share = float(shapely.intersection(reach, must).area / must.area)
-    if share >= MOSTLY:
-        return []
-    return [
-        Finding(
-            "cam.partly",
-            Severity.WARNING,
-            "cam.tools",
-            f"{zone.finisher.name} reaches {100 * share:.0f} % of {zone.name} of {job.part.name}",
-            100 * share,
-            100 * MOSTLY,
-            "%",
-            "list a smaller end mill",
-        )
-    ]
 
 
 RUBS = 0.5

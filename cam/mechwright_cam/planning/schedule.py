@@ -4,8 +4,8 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mechwright.program import Move
-from mechwright.tooling import Tool
+from mechwright_cam.program.moves import Move
+from mechwright_cam.shop.tool import Tool
 
 
 @dataclass(frozen=True)

@@ -1,71 +1,44 @@
 """Which cutters a part needs."""
 
-import math
-from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 
 import shapely
 
+from mechwright.contracts.details import Detail
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
-from mechwright.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.tooling import MILLS, CamSettings, Stock, Tool, ToolKind
-from mechwright_cam.job import Job, make_job, wear_margin
-from mechwright_cam.library import Library
-from mechwright_cam.limits import height_of
-from mechwright_cam.nest import Nest, outlines_of
-from mechwright_cam.planning.centre_lines import groove_mill, grooves
-from mechwright_cam.planning.choice import (
-    ROOMY,
-    entry_place,
-    finishing_choice,
-    roomy_mills,
-    same_reach,
-    usable_mills,
-)
-from mechwright_cam.planning.compensation import has_entries
-from mechwright_cam.planning.details import plan_detail
-from mechwright_cam.planning.entry import enters
-from mechwright_cam.planning.holes import BorePlan, boring_mill, boring_time, plan_bore, starting_drill
-from mechwright_cam.planning.rates import runs_too_fast
-from mechwright_cam.planning.recess import recess
-from mechwright_cam.planning.slots import fills_a_slot
-from mechwright_cam.planning.zones import (
-    bores,
-    bottom_of,
-    floor_mills,
-    inner_zones,
-    outer_zones,
-    roughing_mills,
-    through,
-)
-from mechwright_cam.plate import plate_box
-from mechwright_cam.reach import closing, leaves_at_most, roughly_closed_area
-from mechwright_cam.toolpath.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.operations.bore import cutters_of
+from mechwright_cam.operations.choice import entry_place, usable_mills
+from mechwright_cam.operations.compensation import has_entries
+from mechwright_cam.operations.contract import Operation
+from mechwright_cam.operations.drilling import starting_drill
+from mechwright_cam.operations.rates import runs_too_fast
+from mechwright_cam.operations.recess import recess
+from mechwright_cam.operations.recess_zone import floor_mill
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.twins import Twins
+from mechwright_cam.operations.zone import Zone
+from mechwright_cam.planning.assign import Assignments, assign
+from mechwright_cam.setup.depths import bottom_of, through
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.setup.limits import height_of
+from mechwright_cam.setup.plate import plate_box
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-Fits = Callable[[Tool], bool]
-"""Whether a mill may be used."""
-
-ROUGHING_SHARE = 0.15
-"""Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
-HANDY = 6.0
-"""Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
-PAYS = 1.5
-"""An intermediate roughing mill is at least this many times as wide as the finishing one."""
 AMPLE = 1000.0
 """Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
-HALF = 0.5
-"""It takes at least this share of what the finishing mill would have to rough."""
-ONE_MORE = 60.0
-"""One more mill for bores is worth it if it saves this time, s, and that of changing to it: about what it
-takes to fetch it, to clamp it, and to measure its length."""
 OPENS = 0.6
 """A drill of this share of a hole's width opens it well enough to save a larger one: the helix of the mill
 then takes rings as wide as after the drill of the right size, only one or two more."""
 
 
-def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, ...]:
+def choose_tools(
+    part: Part, settings: CamSettings, library: Library, assignments: Assignments | None = None
+) -> tuple[Tool, ...]:
     """Give the tools named in the settings, or, if none is named, those that the part needs.
 
     The choice: the largest roughing mill that is sensible for the size of the part and leaves a frame in the
@@ -86,31 +59,56 @@ def choose_tools(part: Part, settings: CamSettings, library: Library) -> tuple[T
         return tuple(library.get(name) for name in settings.tools)
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
+    operations = (assignments or Assignments()).operations(settings)
     library = _low_enough(part, settings, library)
     slow = _slow_enough(part, settings, library)
     if len(slow.tools) < len(library.tools):
         try:
-            return _chosen(part, settings, slow)
+            return _chosen(part, settings, slow, operations)
         except ToolError:
             pass  # then with one that runs too fast, which a warning tells of
-    return _chosen(part, settings, library)
+    return _chosen(part, settings, library, operations)
 
 
-def _chosen(part: Part, settings: CamSettings, library: Library) -> tuple[Tool, ...]:
+def _chosen(
+    part: Part, settings: CamSettings, library: Library, operations: Sequence[Operation]
+) -> tuple[Tool, ...]:
     """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
     every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
-    for outline in outlines_of(part):
+    for outline in part.outlines:
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
-    mills = [*_mills(every), *_floor_mills(replace(every, tools=library.tools))]
-    chosen = {mill.name: mill for mill in mills}
+    mills = usable_mills(every, -every.floor)[:1]
+    chosen: list[Tool] = []
+    twins = Twins(every)
+    for feature in sorted(every.features, key=_turn):
+        if twins.first(feature) is None:  # a turned copy asks for the same again
+            chosen += _wanted(feature, every, chosen, operations)
+    chosen = [*(chosen or mills), *_floor_mills(replace(every, tools=library.tools))]
+    mills = list({mill.name: mill for mill in chosen}.values())
     drills = _drills(every)
-    details = {tool.name: tool for tool in (plan_detail(every, d).tool for d in every.details)}
-    chosen |= {mill.name: mill for mill in _entering(every, [*drills, *chosen.values(), *details.values()])}
-    return (*drills, *sorted(chosen.values(), key=lambda tool: -tool.diameter), *details.values())
+    details = [tool for detail in every.details for tool in _wanted(detail, every, mills, operations)]
+    details = list({tool.name: tool for tool in details}.values())
+    mills += _entering(every, [*drills, *mills, *details], operations)
+    return (*drills, *sorted(mills, key=lambda tool: -tool.diameter), *details)
 
 
-def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
+def _turn(feature: Feature) -> tuple[float, ...]:
+    """Outsides are asked first, and bores last, from the smallest on: its mill may bore the larger too."""
+    if isinstance(feature, Bore):
+        return (2, feature.diameter, feature.top, feature.depth)
+    return (0,) if isinstance(feature, Profile) and feature.side == "outside" else (1,)
+
+
+def _wanted(
+    feature: Feature | Detail, every: Job, chosen: Sequence[Tool], operations: Sequence[Operation]
+) -> Sequence[Tool]:
+    """The cutters that the first operation asks for that knows the feature."""
+    answers = (operation.choose(feature, every, chosen) for operation in operations)
+    return next((tools for tools in answers if tools is not None), ())
+
+
+def _entering(every: Job, tools: list[Tool], operations: Sequence[Operation]) -> list[Tool]:
     """More mills, for walls at which compensation leaves those of ``tools`` no room for an entry.
 
     Planning itself is asked, of the mills of the library from the largest down.
@@ -120,7 +118,7 @@ def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
     more: list[Tool] = []
     try:
         job = make_job(every.part, every.settings, tools)
-        lacking = _without_entries(job)
+        lacking = _without_entries(job, operations)
     except MechwrightError:
         return []  # what is wrong will be said when the job is laid out
     for mill in every.mills:
@@ -130,7 +128,7 @@ def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
             continue
         try:
             trial = replace(job, tools=(*job.tools, mill))
-            rest = _without_entries(trial)
+            rest = _without_entries(trial, operations)
         except MechwrightError:
             continue
         if len(rest) < len(lacking):
@@ -139,10 +137,16 @@ def _entering(every: Job, tools: list[Tool]) -> list[Tool]:
     return more
 
 
-def _without_entries(job: Job) -> dict[str, float]:
+def _without_entries(job: Job, operations: Sequence[Operation]) -> dict[str, float]:
     """Names of walls that their mills cannot enter under compensation, with the finest diameter, mm."""
-    zones = [*inner_zones(job, skip=grooves(job)), *outer_zones(job)]
-    return {zone.name: zone.finisher.diameter for zone in zones if not has_entries(job, zone)}
+    found = {}
+    for task in assign(job, operations).every():
+        zones = [task.data] if isinstance(task.data, Zone) else task.data if task.is_outside else []
+        for zone in zones if not task.is_detail else []:
+            left = task.region if isinstance(task.data, Zone) else zone.clear
+            if not has_entries(job, zone, Stock(left), zone.finishers):
+                found[zone.name] = zone.finisher.diameter
+    return found
 
 
 def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
@@ -170,67 +174,6 @@ def _slow_enough(part: Part, settings: CamSettings, library: Library) -> Library
     return Library(tuple(tool for tool in library.tools if not overspeeds(tool)))
 
 
-def _mills(every: Job) -> list[Tool]:
-    """The end mills of the choice; ``every`` has the whole library."""
-    part = every.part
-    fit = usable_mills(every, -every.floor)
-    boxes = [outline.bounds for outline in outlines_of(part)]
-    widest = max(HANDY, ROUGHING_SHARE * min(min(x1 - x0, y1 - y0) for x0, y0, x1, y1 in boxes))
-    sensible = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
-    chosen: list[Tool] = []
-    openings = []
-    for feature in every.features:
-        if isinstance(feature, Pocket) or (isinstance(feature, Profile) and feature.side == "inside"):
-            openings.append(feature)
-        elif isinstance(feature, Profile):
-            shape = shapely.Polygon(feature.loop.flatten())
-            chosen += _outside(every, sensible, shape)
-    for feature in openings:
-        chosen += _inside(every, feature)
-    # From the smallest on: what bores a small hole may bore the larger ones as well.
-    alike: dict[tuple[float, float, float], list[Bore]] = {}
-    for bore in bores(every):
-        alike.setdefault((bore.diameter, bore.top, bore.depth), []).append(bore)
-    for size in sorted(alike):
-        chosen += _boring(every, alike[size], chosen)
-    return chosen or fit[:1]
-
-
-def _outside(every: Job, sensible: list[Tool], shape: shapely.Polygon) -> list[Tool]:
-    """The mills that rough and finish an outside; none is as wide as a slot of it, if there is a choice."""
-    mills = _roughing(every, sensible, shape)
-    fits = partial(_fits, mills, shape, every.settings)
-    first = next(filter(fits, mills))
-    finest = _finest_needed(mills, shape, every.settings, fits=fits)
-    return [first, *_between(every, first, mills, finest, shape, fits), finest]
-
-
-def _fits(mills: Sequence[Tool], shape: shapely.Polygon, settings: CamSettings, mill: Tool) -> bool:
-    """Whether a mill of these may be used around a shape; the finest may in any case."""
-    bias = settings.path.bias
-    return mill is mills[-1] or not fills_a_slot(mill.radius, shape, settings.stock_to_leave, bias)
-
-
-def _inside(every: Job, feature: Profile | Pocket) -> list[Tool]:
-    """The mill for an opening or a recess; none if the feature takes nothing, which planning will say."""
-    if isinstance(feature, OpenProfile):
-        mill = groove_mill(every, feature)
-        if mill is not None:
-            return [mill]
-    bottom = bottom_of(every, feature.top, feature.depth)
-    able = usable_mills(every, -bottom)
-    shapes = recess(every, feature, able[0].diameter, bottom)
-    if shapely.is_empty(shapes.must):
-        return []
-    if isinstance(feature, Pocket) and feature.floor_radius > 0:
-        # The wall is for a round mill; a flat one clears what is further away, if there is room.
-        inner = polygons(grow(shapes.must, -feature.floor_radius, ROUGH))
-        width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
-        return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
-    able = roomy_mills(able, shapes.must)
-    return [_finest_needed(able, shapes.keep, every.settings, shapes.must if shapes.open else None)]
-
-
 def _floor_mills(every: Job) -> list[Tool]:
     """The round mills for floors with a fillet."""
     found = []
@@ -238,97 +181,10 @@ def _floor_mills(every: Job) -> list[Tool]:
         if isinstance(feature, Pocket) and feature.floor_radius > 0:
             bottom = bottom_of(every, feature.top, feature.depth)
             mills = usable_mills(every, -bottom, feature.floor_radius)
-            shapes = recess(every, feature, mills[0].diameter, bottom)
+            shapes = recess(every, feature, mills)
             if not shapely.is_empty(shapes.must):
-                found += floor_mills(every, feature, mills, shapes)[0]
+                found.append(floor_mill(every, feature, mills, shapes)[0])
     return found
-
-
-def _roughing(every: Job, mills: list[Tool], part: shapely.Polygon) -> list[Tool]:
-    """The mills for an outside: as in planning those whose channel leaves a frame, if there are any."""
-    if every.settings.stock == Stock() and not isinstance(every.part, Nest):
-        return mills  # the stock is made large enough for them
-    return roughing_mills(every, mills, part, framed=every.settings.hold.method == "tabs")
-
-
-def _between(
-    every: Job, first: Tool, mills: list[Tool], finest: Tool, part: shapely.Polygon, fits: Fits
-) -> list[Tool]:
-    """A mill that takes much of what the largest leaves to the finest, if there is one."""
-
-    def left(mill: Tool) -> float:
-        reach = mill.radius + every.settings.stock_to_leave
-        return roughly_closed_area(part, reach) - float(part.area)
-
-    middle = [mill for mill in mills if PAYS * finest.diameter <= mill.diameter < first.diameter]
-    if not middle:
-        return []
-    most, least = left(first), left(finest)
-    if most <= least:
-        return []
-    # The smaller a mill, the more it takes.
-    enough = bisect_left(middle, True, key=lambda mill: most - left(mill) >= HALF * (most - least))
-    return next(([mill] for mill in middle[enough:] if fits(mill)), [])
-
-
-def _finest_needed(
-    mills: Sequence[Tool],
-    keep: shapely.Geometry,
-    settings: CamSettings,
-    near: shapely.Geometry | None = None,
-    fits: Fits = lambda _: True,
-) -> Tool:
-    """The largest mill that leaves next to nothing on a wall, else the largest as good as the finest.
-
-    No mill below ``corner_mill`` is taken for the sake of sharp corners.
-    """
-    most, more = same_reach(settings.path), settings.path.bias + wear_margin(settings)
-    # What a mill leaves only shrinks with its size.
-    clean = bisect_left(mills, True, key=lambda mill: leaves_at_most(keep, mill.radius + more, most, near))
-    for mill in mills[clean:]:
-        if fits(mill):
-            return mill
-    fitting = [mill for mill in mills if fits(mill)]
-    return finishing_choice(_worthwhile(fitting, keep, settings.corner_mill, near), keep, settings, near)
-
-
-FITS = 0.9
-"""A mill is worth choosing where what larger ones leave holds a disc of this share of it."""
-
-
-def _worthwhile(
-    mills: Sequence[Tool], keep: shapely.Geometry, least: float, near: shapely.Geometry | None
-) -> Sequence[Tool]:
-    """The mills down to ``least``, mm, and finer ones only as far as they fit into what is left."""
-    coarse = [mill for mill in mills if mill.diameter >= least] or list(mills[:1])
-    for finer in mills[len(coarse) :]:
-        # On a grid, for a closing may touch itself, on which exact overlays fail.
-        left = shapely.difference(closing(keep, coarse[-1].radius), keep, grid_size=ROUGH)
-        if near is not None:
-            left = areas(shapely.intersection(areas(left), areas(near)))
-        if not shapely.is_empty(grow(left, -FITS * finer.radius, ROUGH)):
-            coarse.append(finer)
-    return coarse
-
-
-def _boring(every: Job, holes: list[Bore], chosen: list[Tool]) -> list[Tool]:
-    """A mill for bores of one size, unless one is chosen already or a drill makes them."""
-    bore = holes[0]
-    depth = -bottom_of(every, bore.top, bore.depth)
-    able = [m for m in usable_mills(every, depth) if enters(m, bore.diameter, every.settings)]
-    largest = max((mill.diameter for mill in chosen), default=math.inf)
-    mill = boring_mill([mill for mill in able if mill.diameter <= largest] or able, bore.diameter)
-    if mill is None:
-        return []
-    roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * bore.diameter]
-    other = boring_mill(roomy, bore.diameter)
-    if other is not None:
-        first, second = (
-            boring_time(every, BorePlan(bore, plan_bore(every, bore).drill, m)) for m in (other, mill)
-        )
-        if len(holes) * (first - second) <= ONE_MORE + every.settings.machine.tool_change:
-            return []
-    return [mill]
 
 
 def _drills(every: Job) -> list[Tool]:
@@ -338,9 +194,8 @@ def _drills(every: Job) -> list[Tool]:
         if not through(every, feature.top + feature.depth):
             continue
         if isinstance(feature, Bore):
-            hole = plan_bore(every, feature)
-            width, drill = feature.diameter, hole.drill
-            if drill is not None and hole.mill is None:
+            width, (drill, mill) = feature.diameter, cutters_of(every, feature)
+            if drill is not None and mill is None:
                 width = drill.diameter  # no other makes the hole to size
         elif isinstance(feature, Profile) and feature.side == "inside":
             _, radius = entry_place(shapely.Polygon(feature.loop.flatten()))

@@ -6,34 +6,31 @@ from typing import TypeVar
 
 import shapely
 
-from mechwright.motion import Array
-from mechwright.part import Bore, Feature, Pocket, Profile
-from mechwright.sections import plan_view
+from mechwright.arrays import Array
+from mechwright.contracts.part import Feature, Pocket, Profile
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS
-from mechwright_cam.job import Job
+from mechwright_cam.plane.offsets import filled
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Shape, grow, quarter
-from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.offsets import filled
-from mechwright_cam.turned import Frame
+from mechwright_cam.proof.plane import Shape, grow
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.turned import Frame
+from mechwright_cam.setup.views import SKIN, inside_of
+from mechwright_cam.shop.tool import MILLS
 
-SKIN = 2 * TOLERANCES.flatten
-"""A boundary within this of the part is a wall, or its rim, mm: what chords of both may be off together."""
-
-RUN_OUT = 3.0
+LONGEST_RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a
 lead that is as long again with the largest D."""
+
 SPARE = 3.0
 """And by so much more, mm: wear, the allowance, and what leads and groove ends go on for."""
-
 
 Length = TypeVar("Length", float, Array)
 
 
 def run_out(diameter: Length) -> Length:
     """How far beyond a rim the edge of a cutter may go that runs out there, mm."""
-    return RUN_OUT * diameter + SPARE
+    return LONGEST_RUN_OUT * diameter + SPARE
 
 
 @dataclass(frozen=True)
@@ -46,20 +43,14 @@ class Band:
         z in work coordinates, mm.
     keep
         The finished part's cross-section, tabs not counted.
+    section
+        Number of the cross-section: bands of one number have the same.
     """
 
     top: float
     bottom: float
     keep: Shape
-
-
-def inside_of(feature: Feature) -> Shape:
-    """The plan view of an opening, or of what an outside profile surrounds."""
-    if isinstance(feature, Bore):
-        radius = feature.diameter / 2
-        round_hole: Shape = shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
-        return round_hole
-    return plan_view(feature)
+    section: int = 0
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:
@@ -83,15 +74,15 @@ def bands(job: Job, extra: tuple[float, ...] = ()) -> list[Band]:
         heights |= {-feature.top, -min(feature.top + feature.depth, job.thickness)}
     ordered = sorted((h for h in heights if -job.thickness - NEAR <= h <= NEAR), reverse=True)
     layers = []
-    known: dict[tuple[Feature, ...], Shape] = {}
+    known: dict[tuple[Feature, ...], tuple[Shape, int]] = {}
     for top, bottom in pairwise(ordered):
         if top - bottom < NEAR:
             continue
         depth = -(top + bottom) / 2
         here = tuple(feature for feature in partial if feature.top < depth < feature.top + feature.depth)
         if here not in known:
-            known[here] = _section(job, here)
-        layers.append(Band(top, bottom, known[here]))
+            known[here] = _section(job, here), len(known)
+        layers.append(Band(top, bottom, *known[here]))
     return layers
 
 

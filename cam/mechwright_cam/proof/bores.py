@@ -5,12 +5,12 @@ import math
 import numpy as np
 import shapely
 
-from mechwright.part import Bore
+from mechwright.contracts.part import Bore
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.job import Job
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.sweep import ROUNDING, Sweeps
+from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.setup.job import Job
 
 AROUND = 64
 """So many places on the wall of a bore are looked at: it is a circle, and so is the path that makes it."""
@@ -35,10 +35,8 @@ def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, fl
         places = shapely.points(wall)
         # Where it opens into something else, or beyond the stock, there is no wall.
         walled = shapely.dwithin(band.keep, places, TOLERANCES.leftover)
-        underside = band.bottom <= -job.thickness + NEAR
-        above = ROUNDING if underside else TOLERANCES.leftover
         thick = np.where(walled, most, 0.0)
-        for group in sweeps.at(band.bottom + above, band.bottom + (0.0 if underside else above)):
+        for group in sweeps.foot(band.bottom, job.thickness)[1]:
             thick = np.minimum(thick, group.chords.distance(wall) - group.radius)
         best = int(np.argmax(thick))
         if thick[best] > worst:

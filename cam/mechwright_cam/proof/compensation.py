@@ -5,7 +5,6 @@ tool's centre must run beside its planned way by just the difference, and a tool
 of the finished part.
 """
 
-from collections.abc import Callable
 from copy import copy
 
 import numpy as np
@@ -14,86 +13,58 @@ from numpy.typing import NDArray
 
 from mechwright.errors import ProgramError
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import Run
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import heights
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import Paths, Pieces
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.setup.job import Job
 
-NAME = "compensation"
 SPACED = 0.05
 """Places of an arc that are compared, by the chord error between them, mm; the places are exact."""
 
 
-def planned_offsets(job: Job) -> dict[int, float]:
-    """D number to the radius that it holds as planned, mm; 0 where it holds the wear."""
-    wear = job.settings.compensation == "wear"
-    # Where a drill happens to have the number, the D is the mill's.
-    tools = sorted(job.tools, key=lambda tool: tool.kind is ToolKind.END_MILL)
-    return {tool.d_number: 0.0 if wear else tool.radius for tool in tools}
-
-
-def follows(scene: Scene, read: Callable[[float], Run]) -> Check:
-    """Whether the walls follow D, as far as it may differ from the planned one.
-
-    Parameters
-    ----------
-    scene
-        The program with D as planned.
-    read
-        Reads it with every D larger by so much, mm.
-    """
+def compensation(scene: Scene) -> Check:
+    """The walls follow D, as far as it may differ from the planned one."""
     job, limit = scene.job, scene.job.settings.wear_limit
     if not _on(scene.run).any():
-        return Check(NAME, True, "the program uses no cutter compensation")
+        return Check(True, "the program uses no cutter compensation")
     if job.settings.compensation == "computer":
-        return Check(NAME, True, "D as in the tool library; the design file plans no other")
+        return Check(True, "D as in the tool library; the design file plans no other")
     worst = 0.0
     for more in (limit, -limit):
         words = f"with D {limit:g} mm {'larger' if more > 0 else 'smaller'}"
         try:
-            run = read(more)
+            run = scene.read(more)
         except ProgramError as error:
-            return Check(NAME, False, f"{words}: {error}", value=more, limit=limit, unit="mm")
-        tools = {
-            number: tool.model_copy(update={"diameter": tool.diameter + 2 * more})
-            for number, tool in scene.tools.items()
-        }
+            return Check(False, f"{words}: {error}", value=more, limit=limit, unit="mm")
+        tools = [tool.model_copy(update={"diameter": tool.diameter + 2 * more}) for tool in scene.job.tools]
         paths = Paths(run, tools)
         off, step = _off(scene.paths, paths, limit)
         if off > TOLERANCES.gouge:
             message = f"{words} the cutter is {off:.3f} mm from where that should bring it"
-            return scene.bad(NAME, step, message, off, TOLERANCES.gouge, "mm")
+            return scene.bad(step, message, off, TOLERANCES.gouge, "mm")
         worst = max(worst, off)
         cut = _gouge(paths, job)
         if cut is not None and cut.depth > TOLERANCES.gouge:
             message = f"{words}, a cutter of that radius cuts {cut.depth:.3f} mm into the finished part"
-            return scene.bad(NAME, cut.step, message, cut.depth, TOLERANCES.gouge, "mm")
-    return Check(
-        NAME,
-        True,
-        f"walls follow D from {limit:g} mm below to {limit:g} mm above its planned radius",
-        value=worst,
-        limit=TOLERANCES.gouge,
-        unit="mm",
-    )
+            return scene.bad(cut.step, message, cut.depth, TOLERANCES.gouge, "mm")
+    message = f"walls follow D from {limit:g} mm below to {limit:g} mm above its planned radius"
+    return Check(True, message, value=worst, limit=TOLERANCES.gouge, unit="mm")
 
 
 def _on(run: Run) -> NDArray[np.bool_]:
     """(n,) steps with compensation on."""
-    return np.array([state.side != 0 for state in run.states])[run.state]
+    return run.of_states(lambda state: state.side != 0)
 
 
 def _contours(run: Run) -> list[Ints]:
     """The steps along each contour, between the moves that turn compensation on and off."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], _on(run), [False])).astype(int)))
-    moving = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC))
-    spans = [np.arange(first, last)[moving[first:last]] for first, last in edges.reshape(-1, 2).tolist()]
+    spans = [np.arange(first, last)[run.moving[first:last]] for first, last in edges.reshape(-1, 2).tolist()]
     return [span[1:] for span in spans if span.size > 1]
 
 

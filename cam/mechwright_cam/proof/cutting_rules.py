@@ -8,25 +8,25 @@ import math
 
 import numpy as np
 
-from mechwright.cutter import cutter
-from mechwright.materials import material
-from mechwright.tooling import MILLS, CuttingData, Tool, ToolKind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.contracts.materials import material
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, in_work
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
 
 BEYOND = 1.5
 """Speeds, depths, and feeds of what is no mill, may be so many times the library's: tables of makers differ
 by as much, and a wrong digit is more."""
-THIN = 3.0
+THIN_CHIPS = 3.0
 """Feed per tooth of a mill in chip loads: where it takes little, chips are thinner. Beyond, nobody feeds into
 material."""
 MIDDLE = 0.5
 """Radius of the middle of a mill in radii: beside it a quarter of the diameter may be in a wall."""
 SHAVES = 0.05
 """A mill on its way through what is cleared may shave so much off a wall, mm."""
-PLAY = 0.1
+ROUGHING_PLAY = 0.1
 """What roughing leaves on walls may be so much more than planned without being in the middle, mm."""
 
 
@@ -39,7 +39,7 @@ def cutting_data(scene: Scene) -> list[tuple[Tool, CuttingData]]:
 def cutting_speed(scene: Scene) -> Check:
     """No edge runs much faster than the tool library says, unless the spindle turns no slower."""
     run, machine = scene.run, scene.job.settings.machine
-    rpm = scene.of_states(lambda state: state.rpm)
+    rpm = scene.run.of_states(lambda state: state.rpm)
     working = in_work(scene)
     for tool, data in cutting_data(scene):
         highest = max(1000 * BEYOND * data.cutting_speed / (math.pi * tool.diameter), machine.spindle_min)
@@ -47,23 +47,19 @@ def cutting_speed(scene: Scene) -> Check:
         if fast.size:
             step = int(fast[0])
             speed = math.pi * tool.diameter * float(rpm[step]) / 1000
-            return scene.bad(
-                "cutting-speed",
-                step,
+            message = (
                 f"S{rpm[step]:g} turns T{tool.number} ({tool.name}) at {speed:.0f} m/min in "
                 f"{scene.job.part.material}, the tool library says {data.cutting_speed:g}; lower S, or set "
-                f"cutting_speed in [cam.cutting.{tool.name}]",
-                speed,
-                BEYOND * data.cutting_speed,
-                "m/min",
+                f"cutting_speed in [cam.cutting.{tool.name}]"
             )
-    return Check("cutting-speed", True, "no edge runs much faster than the tool library says")
+            return scene.bad(step, message, speed, BEYOND * data.cutting_speed, "m/min")
+    return Check(True, "no edge runs much faster than the tool library says")
 
 
 def chips(scene: Scene) -> Check:
     """Nothing is fed into material much faster than the tool library says."""
     run, paths = scene.run, scene.paths
-    rpm = scene.of_states(lambda state: state.rpm)
+    rpm = scene.run.of_states(lambda state: state.rpm)
     working = paths.steps[in_work(scene)[paths.steps] & (rpm[paths.steps] > 0)]
     for tool, data in cutting_data(scene):
         steps = working[run.tool[working] == tool.number]
@@ -72,7 +68,7 @@ def chips(scene: Scene) -> Check:
         if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
             steps, plunge = steps[plunge], plunge[plunge]
         # Straight down a flat end has no place where chips are thin.
-        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN)
+        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN_CHIPS)
         # Whole feeds are as near as some posts come to a small one.
         fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
         for index in np.flatnonzero(run.feed[steps] > fastest).tolist():
@@ -86,8 +82,8 @@ def chips(scene: Scene) -> Check:
                 f"{scene.job.part.material}, the tool library says {data.chip_load:g}; lower F, or set "
                 f"chip_load in [cam.cutting.{tool.name}]"
             )
-            return scene.bad("chips", step, message, tooth, float(share[index]) * data.chip_load, "mm")
-    return Check("chips", True, "nothing is fed into material much faster than the tool library says")
+            return scene.bad(step, message, tooth, float(share[index]) * data.chip_load, "mm")
+    return Check(True, "nothing is fed into material much faster than the tool library says")
 
 
 def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:
@@ -116,7 +112,7 @@ def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:
 def middle(scene: Scene, tool: Tool) -> float:
     """Radius of the middle of a mill, mm, 0 if it has none: what roughing leaves on a wall is beside it."""
     beside = tool.radius - MIDDLE * tool.radius
-    return MIDDLE * tool.radius if scene.job.settings.stock_to_leave + PLAY <= beside else 0.0
+    return MIDDLE * tool.radius if scene.job.settings.stock_to_leave + ROUGHING_PLAY <= beside else 0.0
 
 
 def pecks(scene: Scene) -> Check:
@@ -126,23 +122,19 @@ def pecks(scene: Scene) -> Check:
     for tool in scene.tools.values():
         if tool.kind is not ToolKind.DRILL:
             continue
-        steps: Ints = paths.steps[run.cutting[paths.steps] & (run.tool[paths.steps] == tool.number)]
+        steps: Ints = paths.cuts[run.tool[paths.cuts] == tool.number]
         top = np.minimum(paths.start[steps, 2], 0.0)
         deep = top - paths.end[steps, 2]
         for index in np.flatnonzero(deep > diameters * tool.diameter + NEAR).tolist():
             step = int(steps[index])
             found = _in_material(scene, step)
             if found > diameters * tool.diameter:
-                return scene.bad(
-                    "pecks",
-                    step,
+                message = (
                     f"T{tool.number} ({tool.name}) drills {found:.1f} mm in one go, "
-                    f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q",
-                    found,
-                    diameters * tool.diameter,
-                    "mm",
+                    f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q"
                 )
-    return Check("pecks", True, "no drill goes too deep in one go")
+                return scene.bad(step, message, found, diameters * tool.diameter, "mm")
+    return Check(True, "no drill goes too deep in one go")
 
 
 def _in_material(scene: Scene, step: int) -> float:

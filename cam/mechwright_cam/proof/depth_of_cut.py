@@ -12,23 +12,23 @@ from itertools import pairwise
 
 import numpy as np
 
-from mechwright.motion import Array
-from mechwright.tooling import MILLS, CuttingData, Tool
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data, meets_middle, middle
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.shop.tool import MILLS, CuttingData, Tool
 
 LASTING = 2.0
 """A cut that is too deep for so many diameters on end is one: in a narrow corner it is so for less."""
-SPACING = 1.0
+PLACES_APART = 1.0
 """Distance of the places of a move that are asked about, in diameters."""
-APART = 20
+MOVES_BETWEEN = 20
 """Moves shorter than that distance may have no place of their own: so many may lie between two with one."""
-CHORD = 0.1
+PIECE_CHORD = 0.1
 """Chord error of arcs here, mm: far less than the middle is narrower than the cutter."""
 HASH = np.array([3, 5, 7, 11, 13, 17, 19, 23], dtype=np.int64) ** 9
 """Odd numbers, so large that rows of coordinates come out apart; rows are compared besides."""
@@ -39,13 +39,12 @@ class _Cuts:
 
     def __init__(self, paths: Paths) -> None:
         self.paths = paths
-        self.steps = paths.steps[paths.run.cutting[paths.steps]]
-        self.low = np.minimum(paths.start[:, 2], paths.end[:, 2])
+        self.steps = paths.cuts
         self.top: Array = np.maximum(paths.start[:, 2], paths.end[:, 2])
 
     def asked(self, limit: float) -> Array:
         """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
-        height: Array = np.maximum(self.low, self.top - limit)
+        height: Array = np.maximum(self.paths.low, self.top - limit)
         return height
 
     @cached_property
@@ -72,7 +71,7 @@ class _Cuts:
 
     @cached_property
     def _points(self) -> tuple[Array, Ints]:
-        return self.paths.points(self.paths.below(np.inf, steps=self.steps), CHORD)
+        return self.paths.points(self.paths.below(np.inf, steps=self.steps), PIECE_CHORD)
 
     @cached_property
     def pieces(self) -> tuple[Array, Array, Ints]:
@@ -101,27 +100,23 @@ def depth_of_cut(scene: Scene) -> Check:
         for step, length in _lasting(
             *_suspects(cuts, tool, limit, middle(scene, tool)), LASTING * tool.diameter
         ):
-            if not meets_middle(scene, tool, step, max(limit, float(cuts.top[step] - cuts.low[step]))):
+            if not meets_middle(scene, tool, step, max(limit, float(cuts.top[step] - scene.paths.low[step]))):
                 continue
-            lasting, before = (lasting if step <= before + APART else 0.0) + length, step
+            lasting, before = (lasting if step <= before + MOVES_BETWEEN else 0.0) + length, step
             if lasting >= LASTING * tool.diameter:
-                low = -float(min(scene.paths.start[step, 2], scene.paths.end[step, 2]))
-                return scene.bad(
-                    "depth-of-cut",
-                    step,
+                low = -float(scene.paths.low[step])
+                message = (
                     f"T{tool.number} ({tool.name}) cuts more than {limit:g} mm of {job.part.material} at "
                     f"once, {BEYOND:g} times its step_down; cut in passes, or set step_down in "
-                    f"[cam.cutting.{tool.name}]",
-                    low,
-                    limit,
-                    "mm",
+                    f"[cam.cutting.{tool.name}]"
                 )
-    return Check("depth-of-cut", True, "no mill takes much more depth at once than the tool library says")
+                return scene.bad(step, message, low, limit, "mm")
+    return Check(True, "no mill takes much more depth at once than the tool library says")
 
 
 def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[tuple[int, float]]:
     """Steps with their lengths, mm, where those on end are long enough together."""
-    ends = [n for n, (a, b) in enumerate(pairwise(steps), 1) if b > a + APART]
+    ends = [n for n, (a, b) in enumerate(pairwise(steps), 1) if b > a + MOVES_BETWEEN]
     for a, b in pairwise([0, *ends, len(steps)]):
         if sum(lengths[a:b]) >= least:
             yield from zip(steps[a:b], lengths[a:b], strict=True)
@@ -147,7 +142,7 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
     if not deep.size:
         return [], []
     first, last, before = cuts.pieces
-    places, owner = _places(first, last, before, deep, SPACING * tool.diameter)
+    places, owner = _places(first, last, before, deep, PLACES_APART * tool.diameter)
     covered = np.zeros(len(places), dtype=np.bool_)
     # Most follow the same way of the same cutter, which reaches least: only what is left asks wider ones.
     numbers = paths.run.tool[before]
@@ -168,7 +163,7 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
         close = chords.distances(places[open_], place, index) <= reach
         covered[open_[place[close]]] = True
     steps, count = np.unique(owner[~covered], return_counts=True)
-    return steps.tolist(), (count * SPACING * tool.diameter).tolist()
+    return steps.tolist(), (count * PLACES_APART * tool.diameter).tolist()
 
 
 def _places(first: Array, last: Array, step: Ints, some: Ints, spacing: float) -> tuple[Array, Ints]:

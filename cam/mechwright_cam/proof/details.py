@@ -4,35 +4,39 @@ A cone that runs along a chamfer touches it all over, so two heights decide: at 
 reach the edge less the chamfer, and at the chamfer's foot the edge itself. In between both are straight.
 """
 
+import math
+
 import numpy as np
 import shapely
 
-from mechwright.details import Chamfer, Detail, Engraving, Thread
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import ToolKind
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.proof.bands import Band
 from mechwright_cam.proof.fillets import Fillet
 from mechwright_cam.proof.gouge import Gouge, deepest_cut
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Shape, closing, grow
-from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.proof.wall import Wall
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
 
 OWN = {Chamfer: ToolKind.CHAMFER, Engraving: ToolKind.CHAMFER, Thread: ToolKind.THREAD_MILL}
 """Which kind of tool may cut which detail."""
-SPACING = 0.2
+EDGE_SPACING = 0.2
 """Distance of the places along an edge or a stroke at which its cut is measured, mm."""
 FINE = 24
 """A fillet is looked at, at so many heights, for what is not as a mill: in between it is within 0.1 % of its
 radius of both."""
 FITS = 0.02
 """A thread's helix may be off in radius and pitch by so much, mm: a fraction of any thread's tolerance."""
-BESIDE = 0.003
+BESIDE_CORNER = 0.003
 """A place of a chamfer this near to what its cutter cannot reach is not asked for, mm."""
+
+BELOW = 0.3
+"""By so much a pointed tool's tip may stand below a chamfer, mm; what it leaves in corners then may stay."""
 
 
 def heights(job: Job) -> tuple[float, ...]:
@@ -95,19 +99,19 @@ def _given(detail: Detail, depth: float = 0.0) -> Shape:
             return grow(shapely.MultiLineString(list(detail.strokes)), detail.width / 2)
 
 
-def cut(paths: Paths, job: Job) -> Check:
-    """Whether every detail is there: along its whole edge, on all strokes, to the last turn."""
+def missing(paths: Paths, job: Job) -> str:
+    """What is not there of a detail: along its whole edge, on all strokes, to the last turn; else nothing."""
     for detail in job.details:
         match detail:
             case Chamfer():
-                missing = _chamfer(paths, job, detail)
+                found = _chamfer(paths, job, detail)
             case Engraving():
-                missing = _engraving(paths, detail)
+                found = _engraving(paths, detail)
             case Thread():
-                missing = _thread(paths, detail)
-        if missing:
-            return Check("details", False, f"{detail.name}: {missing}")
-    return Check("details", True, "chamfers, threads and engravings are cut")
+                found = _thread(paths, detail)
+        if found:
+            return f"{detail.name}: {found}"
+    return ""
 
 
 def _off(paths: Paths, points: Array, height: float, level: float) -> Array:
@@ -126,10 +130,11 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
     else:
         frame = shapely.box(*region.bounds).buffer(4 * width + 4)
         keep = shapely.difference(frame, grow(region, width))
-    tools = [t.diameter / 2 for t in job.tools if t.kind is ToolKind.CHAMFER]
-    wall = Wall(closing(keep, min(tools, default=0.0)))
-    points, _ = wall.at(wall.stations(SPACING))
-    near = shapely.dwithin(shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE)
+    wall = Wall(closing(keep, _blunt(job, width)))
+    points, _ = wall.at(wall.stations(EDGE_SPACING))
+    near = shapely.dwithin(
+        shapely.LinearRing(detail.loop.flatten()), shapely.points(points), width + BESIDE_CORNER
+    )
     off = _off(paths, points[near], -width + TOLERANCES.arc_fit, 0.0)
     if not off.size or off.max() > TOLERANCES.leftover:
         x, y = points[near][int(np.argmax(off))] if off.size else (0.0, 0.0)
@@ -137,8 +142,18 @@ def _chamfer(paths: Paths, job: Job, detail: Chamfer) -> str:
     return ""
 
 
+def _blunt(job: Job, width: float) -> float:
+    """Greatest radius at the top face of a pointed tool that breaks an edge: it rounds inside corners so."""
+    cones = [
+        t.tip_diameter / 2 + (width + BELOW) * math.tan(math.radians(t.point_angle / 2))
+        for t in job.tools
+        if t.kind is ToolKind.CHAMFER
+    ]
+    return max(cones, default=0.0)
+
+
 def _engraving(paths: Paths, detail: Engraving) -> str:
-    lines = shapely.segmentize([shapely.LineString(stroke) for stroke in detail.strokes], SPACING)
+    lines = shapely.segmentize([shapely.LineString(stroke) for stroke in detail.strokes], EDGE_SPACING)
     points = shapely.get_coordinates(lines)
     off = _off(paths, points, -detail.depth + TOLERANCES.arc_fit, -detail.depth + TOLERANCES.leftover)
     if off.max() > TOLERANCES.leftover:

@@ -12,17 +12,18 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright.part import Pocket
-from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import SKIN, bands, floor_of, inside_of
+from mechwright.arrays import Array
+from mechwright.contracts.part import Pocket
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.plane.offsets import polygons
+from mechwright_cam.proof.bands import bands, floor_of
 from mechwright_cam.proof.gouge import Gouge
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.plane import Boundary, Shape, grow
-from mechwright_cam.threads import prepared
-from mechwright_cam.toolpath.offsets import polygons
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import SKIN, inside_of
 
-STEPS = 6
+HEIGHTS = 6
 """A fillet's leftover is measured at so many heights, at even angles: in between it differs by 1 % of the
 radius from a straight wall, and a cutter that has made both ends has made that as well."""
 
@@ -56,7 +57,7 @@ class Fillet:
     @property
     def heights(self) -> tuple[float, ...]:
         """The heights z at which it is looked at, from just above the floor to where it ends, mm."""
-        return self.heights_in(STEPS)
+        return self.heights_in(HEIGHTS)
 
     def heights_in(self, steps: int) -> tuple[float, ...]:
         """So many heights, at even angles."""

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
-from mechwright_cam.threads import prepared
 
 DEAR = 6
 """To grow a shape by one corner takes about a sixth of the time of one question about nearness."""

@@ -6,14 +6,15 @@ from functools import lru_cache
 
 import shapely
 
-from mechwright.cutter import cutter, makes_floor
-from mechwright.part import OpenProfile, Pocket
+from mechwright.contracts.part import OpenProfile, Pocket
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import Tool
-from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import Band, floor_of, inside_of
+from mechwright_cam.plane.offsets import areas, polygons
+from mechwright_cam.proof.bands import Band, floor_of
 from mechwright_cam.proof.plane import ROUND, Shape, grow
-from mechwright_cam.toolpath.offsets import areas, polygons
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import inside_of
+from mechwright_cam.shop.cutter import cutter, makes_floor
+from mechwright_cam.shop.tool import Tool
 
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings

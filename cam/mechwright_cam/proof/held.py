@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.proof.motion_rules import bodies
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.holder import bodies
 from mechwright_cam.proof.paths import NEAR, Pieces
 from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.report import Check
@@ -39,7 +39,7 @@ def obstacles(scene: Scene) -> list[Obstacle]:
         # Without a stop it can only have been there from the start.
         since = int(stops[0]) if stops.size else -1
         if not stops.size:
-            name += ", which no M0 sets later"
+            name += f", which no {scene.control.m(0)} sets later"
         found.append(
             Obstacle(name, shapely.Point(job.clamp.centre), job.clamp.diameter / 2, job.clamp.top, since)
         )
@@ -62,9 +62,9 @@ def clamp(scene: Scene) -> Check:
             if check is not None:
                 return check
     if not every:
-        return Check("clamp", True, "there is no clamp in the way")
+        return Check(True, "there is no clamp in the way")
     held = "jaws of the vice" if scene.job.jaws else "clamp"
-    return Check("clamp", True, f"the cutter stays clear of the {held}")
+    return Check(True, f"the cutter stays clear of the {held}")
 
 
 def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float | None) -> Check | None:
@@ -82,11 +82,5 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
     if room[worst] >= 0:
         return None
     advice = "" if radius is None else "; let the tool stick out further"
-    return scene.bad(
-        "clamp",
-        int(pieces.step[worst]),
-        f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}",
-        float(room[worst]),
-        0.0,
-        "mm",
-    )
+    message = f"the {what} goes {-room[worst]:.2f} mm into {one.name}{advice}"
+    return scene.bad(int(pieces.step[worst]), message, float(room[worst]), 0.0, "mm")

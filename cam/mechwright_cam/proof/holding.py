@@ -3,44 +3,45 @@
 import numpy as np
 import shapely
 
-from mechwright.part import Profile
-from mechwright_cam.job import Job
-from mechwright_cam.proof.bands import bands, inside_of, stock_shape
+from mechwright.contracts.part import Profile
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.proof.bands import bands, stock_shape
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow, swept
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.sweep import Sweep, Sweeps
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import inside_of
 
-ROUGHLY = 0.02
+BRIDGE = 0.02
 """Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
 JAMS = 1.0
 """A loose piece wider than this is worth a remark, mm: it can be caught between cutter and part."""
-
-
-def holding(sweeps: Sweeps, job: Job) -> tuple[Check, list[str]]:
-    """Whether the tabs join the part to a frame, and remarks on pieces that come loose in openings."""
-    cut = sweeps.through(job.thickness)
-    loose = _loose(cut, job)
-    if job.jaws:
-        return _gripped(job), loose
-    if not job.tabs:
-        return Check("holding", True, "the part is held by a clamp or from below"), loose
-    if not _rim_is_whole(cut, job):
-        free = _free_tab(cut, job)
-        if free is not None:
-            message = (
-                f"the tab at X{free.x:.1f} Y{free.y:.1f} leads to no frame: the cut around the part "
-                "leaves none; give the stock a larger margin"
-            )
-            return Check("holding", False, message), loose
-    return Check("holding", True, "the tabs join the part to the frame"), loose
 
 
 TOUCHES = 0.002
 """The part touches a jaw where it is so near to its face, mm: the chords of its outline, and rounding."""
 BEARS = 0.95
 """Share of a jaw's face that the part has to touch, at every height of the jaw."""
+
+
+def holding(scene: Scene) -> Check:
+    """The tabs join the part to a frame, or the jaws of the vice grip it."""
+    job = scene.job
+    if job.jaws:
+        return _gripped(job)
+    if not job.tabs:
+        return Check(True, "the part is held by a clamp or from below")
+    cut = scene.sweeps.through(job.thickness)
+    free = None if _rim_is_whole(cut, job) else _free_tab(cut, job)
+    if free is not None:
+        message = (
+            f"the tab at X{free.x:.1f} Y{free.y:.1f} leads to no frame: the cut around the part "
+            "leaves none; give the stock a larger margin"
+        )
+        return Check(False, message)
+    return Check(True, "the tabs join the part to the frame")
 
 
 def _gripped(job: Job) -> Check:
@@ -55,8 +56,8 @@ def _gripped(job: Job) -> Check:
                     f"the {jaw.edge} jaw of the vice is {jaw.face.length:.1f} mm wide, and the part touches "
                     f"{touched.length:.1f} mm of it at Z{band.bottom:.2f}; grip it lower, or elsewhere"
                 )
-                return Check("holding", False, message)
-    return Check("holding", True, "the part stays between the jaws of the vice")
+                return Check(False, message)
+    return Check(True, "the part stays between the jaws of the vice")
 
 
 def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
@@ -78,7 +79,7 @@ def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
     for sweep in cut:
         chains = sweep.beside(region)
         near = chains[shapely.dwithin(region, chains, sweep.radius)]
-        shapes.append(swept(near, sweep.radius, ROUGHLY))
+        shapes.append(swept(near, sweep.radius, BRIDGE))
     return shapes
 
 
@@ -90,11 +91,11 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     """
     plate = stock_shape(job)
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
-    tabs = [grow(tab.shape, scrap, ROUGHLY) for tab in job.tabs]
+    tabs = [grow(tab.shape, scrap, BRIDGE) for tab in job.tabs]
     pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
     inside = shapely.point_on_surface(shapely.get_parts(job.target))
     others = pieces[~shapely.intersects(pieces[:, None], inside).any(axis=1)]
-    ends = np.array([shapely.dwithin(others, tab, ROUGHLY) for tab in tabs]).reshape(len(tabs), len(others))
+    ends = np.array([shapely.dwithin(others, tab, BRIDGE) for tab in tabs]).reshape(len(tabs), len(others))
     frame = ends.sum(axis=0) >= 2
     for tab, row in zip(job.tabs, ends, strict=True):
         if not (row & frame).any():
@@ -102,16 +103,16 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     return None
 
 
-def _loose(cut: list[Sweep], job: Job) -> list[str]:
+def loose(sweeps: Sweeps, job: Job) -> list[str]:
     """Remarks on what falls out of openings that are cut along their edge only."""
-    remarks = []
+    cut, remarks = sweeps.through(job.thickness), []
     for feature in job.features:
         through = feature.top + feature.depth >= job.thickness - NEAR
         if not through or (isinstance(feature, Profile) and feature.side == "outside"):
             continue
         opening = inside_of(feature)
         rest = shapely.get_parts(shapely.difference(opening, shapely.union_all(_swept(cut, opening))))
-        free = rest[shapely.distance(rest, opening.exterior) > ROUGHLY]
+        free = rest[shapely.distance(rest, opening.exterior) > BRIDGE]
         for piece in free[~shapely.is_empty(shapely.buffer(free, -JAMS / 2, quad_segs=4))].tolist():
             remarks.append(
                 f"a piece of {piece.area:.1f} mm² comes loose in {feature.name}; stop to take it out"

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading.run import Ints
 
 CELL = 0.3
 """Width of a cell of the grid, mm, if there are not too many."""

@@ -8,6 +8,7 @@ chain
     Pieces that follow on each other with the same tool.
 """
 
+from collections.abc import Callable, Iterable
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,13 +18,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.cutter import Cutter, cutter
-from mechwright.motion import Array
-from mechwright.tooling import Tool, ToolKind
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.shop.cutter import Cutter, cutter
+from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-CHORD = 0.0002
+PATH_CHORD = 0.0002
 """Chord error of arcs, mm: a twenty-fifth of the gouge limit."""
 FAR_ABOVE = 1000.0
 """Stands for the machine's upper end, mm: above any clamp or clearance."""
@@ -63,22 +64,44 @@ class Pieces:
 class Paths:
     """The moves of a run whose position is known, and the tools that make them."""
 
-    def __init__(self, run: Run, tools: dict[int, Tool]) -> None:
+    def __init__(self, run: Run, tools: Iterable[Tool]) -> None:
         self.run = run
-        self.tools = tools
-        known = np.array(sorted(tools), dtype=np.int64)
-        moving = np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC))
+        self.tools = {tool.number: tool for tool in tools}
+        known = np.array(sorted(self.tools), dtype=np.int64)
         self.start, self.end = run.start.copy(), run.end.copy()
         for ends in (self.start, self.end):
             height = ends[:, 2]
             height[np.isposinf(height)] = FAR_ABOVE
         placed = np.isfinite(self.start).all(axis=1) & np.isfinite(self.end).all(axis=1)
-        self.steps: Ints = np.flatnonzero(moving & placed & np.isin(run.tool, known))
+        self.steps: Ints = np.flatnonzero(run.moving & placed & np.isin(run.tool, known))
+
+    @property
+    def mills(self) -> list[Tool]:
+        """The mills that any of the steps are made with."""
+        used = set(self.run.tool[self.steps].tolist())
+        return [tool for number, tool in self.tools.items() if number in used and tool.kind in MILLS]
+
+    @property
+    def cuts(self) -> Ints:
+        """Those of the steps that are feed moves."""
+        cuts: Ints = self.steps[self.run.cutting[self.steps]]
+        return cuts
+
+    @property
+    def rapids(self) -> Ints:
+        """Those of the steps that are rapid moves."""
+        rapids: Ints = self.steps[self.run.kind[self.steps] == Kind.RAPID]
+        return rapids
+
+    @cached_property
+    def low(self) -> Array:
+        """(n,) z of the lower end of each step, mm."""
+        return np.minimum(self.start[:, 2], self.end[:, 2])
 
     @cached_property
     def radius(self) -> Array:
         """(n,) radius of the tool in the spindle, mm; NaN for an unknown one."""
-        return self._of_tool(lambda tool: tool.radius)
+        return self.of_tool(lambda tool: tool.radius)
 
     def of_kinds(self, kinds: set[ToolKind]) -> "Paths":
         """The same, with the steps of some kinds of tool only."""
@@ -91,9 +114,10 @@ class Paths:
     def cutter(self) -> Cutter:
         """The outlines (n,) of the tools in the spindle."""
         names = ("radius", "nose", "tip", "slope")
-        return Cutter(*(self._of_tool(lambda tool, name=name: getattr(cutter(tool), name)) for name in names))
+        return Cutter(*(self.of_tool(lambda tool, name=name: getattr(cutter(tool), name)) for name in names))
 
-    def _of_tool(self, value: Any) -> Array:
+    def of_tool(self, value: Callable[..., float | None]) -> Array:
+        """(n,) a value of the tool in the spindle; NaN for an unknown tool or value."""
         numbers = self.run.tool
         out = np.full(numbers.size, np.nan)
         for number, tool in self.tools.items():
@@ -121,7 +145,7 @@ class Paths:
         last = np.where(z1 > height, crossing, 1.0)
         return Pieces(steps, first, last, np.minimum(z0, z1))
 
-    def points(self, pieces: Pieces, chord: float = CHORD) -> tuple[Array, Ints]:
+    def points(self, pieces: Pieces, chord: float = PATH_CHORD) -> tuple[Array, Ints]:
         """Corners (k, 2) of all pieces, mm, and the piece (k,) that each belongs to."""
         run, step = self.run, pieces.step
         turn = run.sweep[step] * (pieces.last - pieces.first)
@@ -142,6 +166,25 @@ class Paths:
             on = arc[owner]
             flat[on] = self._on_arc(step[bent], np.repeat(np.arange(bent.size), count[bent]), t[on])
         return flat, owner
+
+    def samples(self, steps: Ints, spacing: float) -> tuple[Array, Array, Ints]:
+        """Places (k, 2) and heights (k,) along the moves, ends included, and the step (k,) of each."""
+        run = self.run
+        count = np.maximum(np.ceil(np.nan_to_num(run.length[steps]) / spacing), 1).astype(np.int64) + 1
+        owner = np.repeat(steps, count)
+        first = np.repeat(np.cumsum(count) - count, count)
+        share = (np.arange(owner.size) - first) / (np.repeat(count, count) - 1)
+        start, end = self.start[owner], self.end[owner]
+        places = start[:, :2] + (end - start)[:, :2] * share[:, None]
+        arc = run.kind[owner] == Kind.ARC
+        if arc.any():
+            centre = run.centre[owner[arc]]
+            spoke = start[arc, :2] - centre
+            angle = np.arctan2(spoke[:, 1], spoke[:, 0]) + run.sweep[owner[arc]] * share[arc]
+            radius = np.hypot(*spoke.T)
+            places[arc] = centre + radius[:, None] * np.column_stack((np.cos(angle), np.sin(angle)))
+        z: Array = start[:, 2] + (end - start)[:, 2] * share
+        return places, z, owner
 
     def _on_arc(self, step: Ints, owner: Ints, t: Array) -> Array:
         """Points (k, 2) on arcs (m,); a small difference of the two radii is spread along the arc."""
@@ -182,7 +225,7 @@ class Paths:
             return np.empty(0, dtype=object)
         return _lines(*self.points(pieces))
 
-    def chains(self, pieces: Pieces, chord: float = CHORD) -> Geometries:
+    def chains(self, pieces: Pieces, chord: float = PATH_CHORD) -> Geometries:
         """The pieces joined into chains, repeated passes once.
 
         All pieces have to be of one tool.

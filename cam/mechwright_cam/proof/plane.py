@@ -1,33 +1,18 @@
 """Polygons: buffers of known accuracy, the closing, and distances to a boundary."""
 
-import math
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
-from mechwright_cam.buffers import buffered
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.threads import prepared
-
-ROUND = 1e-4
-"""How far a buffer's round corners may lie inside the true arc, mm: a hundredth of the leftover limit."""
-
-Shape: TypeAlias = shapely.Polygon | shapely.MultiPolygon
-
-
-def quarter(radius: float, error: float = ROUND) -> int:
-    """Chords per quarter circle that stay within ``error`` of it.
-
-    >>> quarter(3.0), quarter(3.0, 0.01)
-    (97, 10)
-    """
-    half = math.acos(max(1 - error / max(abs(radius), error), 0.0))
-    return max(2, math.ceil(math.pi / 4 / half))
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.plane.buffers import buffered
+from mechwright_cam.setup.views import ROUND, Shape, quarter
 
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
@@ -52,7 +37,6 @@ def closing(keep: Shape, radius: float) -> Shape:
 
 CHUNK = 32
 """Corners of a path that are buffered at a time: a long path that crosses itself takes four times as long."""
-
 
 BACK = -0.999
 """Cosine of the turn at which a path runs back on itself, as a slot does that is cut to and fro. GEOS 3.14
@@ -124,3 +108,6 @@ class Boundary:
         line = shapely.shortest_line(self.shape.boundary, shape)
         x, y = line.coords[0]
         return float(x), float(y)
+
+
+__all__ = ["ROUND", "Boundary", "Shape", "closing", "grow"]

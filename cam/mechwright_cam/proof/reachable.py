@@ -21,13 +21,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 
-from mechwright.cutter import CORNER_SHARE, LEAST_SHARE, cutter, makes_floor
-from mechwright.tooling import Tool
-from mechwright_cam.proof.bands import SKIN
+from mechwright_cam.plane.offsets import areas, polygons
 from mechwright_cam.proof.fillets import Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
-from mechwright_cam.toolpath.offsets import areas, polygons
+from mechwright_cam.setup.views import SKIN
+from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, cutter, makes_floor
+from mechwright_cam.shop.tool import Tool
 
 Layer = tuple[float, Shape]
 
@@ -188,12 +188,11 @@ class Reach:
         return around.blocked[key]
 
     def _blocked_anew(self, tool: Tool, around: Surroundings, tip: float) -> Shape:
-        blocked: dict[int, tuple[float, Shape]] = {}
-        for top, keep in around.layers:
-            if top > tip + NEAR:
-                away = self._swept(tool, top - tip)
-                blocked[id(keep)] = max(away, blocked.get(id(keep), (0.0, keep))[0]), keep
-        shapes = [grow(keep, away) for away, keep in blocked.values()]
+        blocked: list[tuple[float, Shape]] = []
+        for top, keep in around.layers:  # of layers with one cross-section the highest asks for most
+            if top > tip + NEAR and all(keep is not other for _, other in blocked):
+                blocked.append((self._swept(tool, top - tip), keep))
+        shapes = [grow(keep, away) for away, keep in blocked]
         for fillet in around.fillets:
             if tip >= fillet.floor + fillet.radius - NEAR:
                 continue  # above it, layers say where the walls are

@@ -13,8 +13,6 @@ class Check:
 
     Parameters
     ----------
-    name
-        Stable name (``"gouge"``, ``"length-offset"``).
     passed
         The answer.
     message
@@ -25,9 +23,10 @@ class Check:
         What was found and what is allowed, in ``unit``.
     at
         Place in work coordinates, mm.
+    name
+        That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in.
     """
 
-    name: str
     passed: bool
     message: str
     line: int | None = None
@@ -35,6 +34,7 @@ class Check:
     limit: float | None = None
     unit: str = ""
     at: tuple[float, float, float] | None = None
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +76,11 @@ class Proof:
     unreachable_area_mm2, unreachable_max_mm
         Stock that no cutter of the program reaches: area seen from above, and greatest depth.
     unreachable
-        Where that is, deepest first; at most :data:`mechwright_cam.proof.leftover.SPOTS`.
+        Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`.
     rapids_in_stock
         Number of rapid moves that meet material.
     time_estimate_s
-        See :mod:`mechwright_cam.timing`.
+        See :mod:`mechwright_cam.proof.timing`.
     cutting_length_mm
         Length of all feed moves.
     operations
@@ -115,17 +115,17 @@ class Proof:
     @property
     def tool_times_s(self) -> dict[int, float]:
         """T number to its time, s."""
-        times: dict[int, float] = {}
-        for operation in self.operations:
-            times[operation.tool] = times.get(operation.tool, 0.0) + operation.time_s
-        return times
+        return self._by_tool("time_s")
 
     @property
     def tool_cutting_s(self) -> dict[int, float]:
         """T number to its time at a feed, s: what wears its edges."""
+        return self._by_tool("cutting_s")
+
+    def _by_tool(self, name: str) -> dict[int, float]:
         times: dict[int, float] = {}
         for operation in self.operations:
-            times[operation.tool] = times.get(operation.tool, 0.0) + operation.cutting_s
+            times[operation.tool] = times.get(operation.tool, 0.0) + getattr(operation, name)
         return times
 
     def require(self) -> None:
@@ -148,12 +148,8 @@ class Proof:
         """Plain data for ``proof.json``; lengths to a tenth of a micrometre."""
         data = asdict(self)
         data["checks"] = {
-            name: {
-                key: value
-                for key, value in asdict(check).items()
-                if key != "name" and value not in (None, "")
-            }
-            for name, check in self.checks.items()
+            name: {key: value for key, value in check.items() if key != "name" and value not in (None, "")}
+            for name, check in data["checks"].items()
         }
         data["tool_times_s"] = self.tool_times_s
         data["tool_cutting_s"] = self.tool_cutting_s

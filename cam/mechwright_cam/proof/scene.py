@@ -1,35 +1,110 @@
 """What all rules look at."""
 
-from collections.abc import Callable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
-from mechwright.tooling import Tool
-from mechwright_cam.interpreter import LINUXCNC, Dialect, Kind, Run, State
-from mechwright_cam.job import Job
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Run, State
+from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
+from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.ramped import deepest_in_tab
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
+from mechwright_cam.proof.sweep import Sweeps
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Scene:
-    """A run, the job it should make, and where its tools go."""
+    """A program, the job that it should make, and all that follows from the two: each thing worked out once.
 
-    run: Run
+    Parameters
+    ----------
+    text
+        The program as the control would get it, from this project's posts or from anywhere; several files,
+        name to text, if they are run one after the other.
+    job
+        The part, its stock, its holding and the tools on the machine.
+    control
+        The control that reads it.
+    block_delete
+        Whether the switch is on that skips lines which start with ``/``.
+    """
+
+    text: str | Mapping[str, str]
     job: Job
-    tools: dict[int, Tool]
-    paths: Paths
-    stock: Stock
-    dialect: Dialect = LINUXCNC
+    control: Control
+    block_delete: bool = False
 
-    def where(self, step: int) -> tuple[float, float, float]:
-        """End of a step."""
-        x, y, z = self.run.end[step].tolist()
-        return x, y, z
+    @cached_property
+    def run(self) -> Run:
+        """The program as run; raises ProgramError that names file and line."""
+        return self.read()
+
+    def read(self, more: float = 0.0) -> Run:
+        """Run the program on the machine of the job, each D as a radius ``more`` mm larger than planned."""
+        diameters = {number: 2 * (d + more) for number, d in planned_offsets(self.job).items()}
+        upper_end = self.job.settings.machine.retract_z
+        return self.control.read(
+            self.text, block_delete=self.block_delete, upper_end=upper_end, diameters=diameters
+        )
+
+    @cached_property
+    def tools(self) -> dict[int, Tool]:
+        """T number to tool."""
+        return {tool.number: tool for tool in self.job.tools}
+
+    @cached_property
+    def paths(self) -> Paths:
+        """Where the tools go."""
+        return Paths(self.run, self.job.tools)
+
+    @cached_property
+    def sweeps(self) -> Sweeps:
+        """What they cut, by height."""
+        return Sweeps(self.paths)
+
+    @cached_property
+    def stock(self) -> Stock:
+        """The plate while the program runs."""
+        return Stock(self.paths, self.job)
+
+    @cached_property
+    def gouge(self) -> Gouge | None:
+        """The deepest cut into the finished part."""
+        paths, job = self.paths, self.job
+        return _deepest(
+            [
+                *deepest(paths, job, bands(job, heights(job))),
+                *(cut for fillet in fillets(job) for cut in deepest_in_fillet(paths, job, fillet)),
+            ]
+        )
+
+    @cached_property
+    def in_tab(self) -> Gouge | None:
+        """The deepest cut into a tab."""
+        tabs = self.job.tabs
+        upright = [tab for tab in tabs if not tab.ramped]
+        cuts = [
+            deepest_cut(self.paths, shapely.union_all([t.shape for t in upright if t.top == top]), top)
+            for top in sorted({tab.top for tab in upright})
+        ]
+        return _deepest([*cuts, *(deepest_in_tab(self.paths, tab) for tab in tabs if tab.ramped)])
+
+    @cached_property
+    def remains(self) -> Remains:
+        """The stock that stays around the part."""
+        return remains(self.sweeps, self.job)
 
     def line(self, step: int) -> int:
         """Line of a step, in its file."""
@@ -45,38 +120,40 @@ class Scene:
         """Machine state in a step."""
         return self.run.states[int(self.run.state[step])]
 
-    def of_states(self, value: Callable[[State], Any]) -> NDArray[Any]:
-        """(n,) a value of the state each step runs in."""
-        return np.array([value(state) for state in self.run.states])[self.run.state]
-
     def bad(
         self,
-        name: str,
         step: int,
         message: str,
         value: float | None = None,
         limit: float | None = None,
         unit: str = "",
+        at: tuple[float, float, float] | None = None,
     ) -> Check:
-        """A failed check that blames one step."""
-        at = self.where(step)
+        """A failed check that blames one step, at its end unless another place is given."""
+        x, y, z = self.run.end[step].tolist() if at is None else at
+        at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
         text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
-        return Check(name, False, text, self.line(step), value, limit, unit, at)
+        return Check(False, text, self.line(step), value, limit, unit, at)
 
 
-Rule = Callable[[Scene], Check]
+def planned_offsets(job: Job) -> dict[int, float]:
+    """D number to the radius that it holds as planned, mm; 0 where it holds the wear."""
+    wear = job.settings.compensation == "wear"
+    # Where a drill happens to have the number, the D is the mill's.
+    tools = sorted(job.tools, key=lambda tool: tool.kind is ToolKind.END_MILL)
+    return {tool.d_number: 0.0 if wear else tool.radius for tool in tools}
+
+
+def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
+    found = [cut for cut in cuts if cut is not None]
+    return max(found, key=lambda cut: cut.depth, default=None)
 
 
 def first(which: NDArray[np.bool_]) -> int | None:
     """The first step of a mask (n,), None if there is none."""
     found = np.flatnonzero(which)
     return int(found[0]) if found.size else None
-
-
-def moving(run: Run) -> NDArray[np.bool_]:
-    """(n,) whether the step moves the tool in work coordinates."""
-    return np.isin(run.kind, (Kind.RAPID, Kind.FEED, Kind.ARC))
 
 
 def in_work(scene: Scene) -> NDArray[np.bool_]:

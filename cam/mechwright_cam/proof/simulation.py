@@ -19,16 +19,16 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.cutter import approach, cutter
-from mechwright.motion import Array
-from mechwright.tooling import Tool
-from mechwright_cam.interpreter import Kind, Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.cutter import approach, cutter
+from mechwright_cam.shop.tool import Tool
 
 CELLS = 1_000_000
 """Cells of the grid: on a plate of a hand's size they are a tenth of a millimetre wide."""
@@ -93,10 +93,9 @@ class Simulation:
         return {"air_mm": round(self.air_mm, 1), "feed_mm": round(self.feed_mm, 1), "tools": works}
 
 
-def simulate(run: Run, job: Job) -> Simulation:
+def simulate(paths: Paths, job: Job) -> Simulation:
     """Cut the stock on a grid, move by move, in the order of the program."""
-    tools = {tool.number: tool for tool in job.tools}
-    paths = Paths(run, tools)
+    run, tools, steps = paths.run, paths.tools, paths.cuts
     x0, y0, x1, y1 = job.stock
     cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS))
     shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
@@ -106,7 +105,6 @@ def simulate(run: Run, job: Job) -> Simulation:
         floors[_inside(air.shape, job, shape, cell)] = air.top
     through = floors >= -NEAR
     heights[through] = -job.thickness
-    steps = paths.steps[run.cutting[paths.steps]]
     volume, depth = np.zeros(len(run)), np.zeros(len(run))
     for number, mine in _runs_of_one_tool(run, steps):
         _cut(paths, job, tools[number], mine, heights, floors, cell, volume, depth)
@@ -144,7 +142,7 @@ def _cut(
     depth: Array,
 ) -> None:
     """Lower the grid under each sample of the path; what was there before is what the move takes."""
-    places, z, owner = _samples(paths, steps, 2 * math.sqrt(2 * tool.radius * cell))
+    places, z, owner = paths.samples(steps, 2 * math.sqrt(2 * tool.radius * cell))
     low = z < -NEAR
     places, z, owner = places[low], z[low], owner[low]
     disc = _disc(tool, cell)
@@ -177,26 +175,6 @@ def _cut(
             volume[step] += float(taken.sum()) * cell * cell
             depth[step] = max(depth[step], most)
             np.minimum(stock, tip, out=stock)
-
-
-def _samples(paths: Paths, steps: Ints, spacing: float) -> tuple[Array, Array, Ints]:
-    """Places (k, 2) and heights (k,) along the moves, ends included, and the step (k,) of each."""
-    run = paths.run
-    count = np.maximum(np.ceil(np.nan_to_num(run.length[steps]) / spacing), 1).astype(np.int64) + 1
-    owner = np.repeat(steps, count)
-    first = np.repeat(np.cumsum(count) - count, count)
-    share = (np.arange(owner.size) - first) / (np.repeat(count, count) - 1)
-    start, end = paths.start[owner], paths.end[owner]
-    places = start[:, :2] + (end - start)[:, :2] * share[:, None]
-    arc = run.kind[owner] == Kind.ARC
-    if arc.any():
-        centre = run.centre[owner[arc]]
-        spoke = start[arc, :2] - centre
-        angle = np.arctan2(spoke[:, 1], spoke[:, 0]) + run.sweep[owner[arc]] * share[arc]
-        radius = np.hypot(*spoke.T)
-        places[arc] = centre + radius[:, None] * np.column_stack((np.cos(angle), np.sin(angle)))
-    z: Array = start[:, 2] + (end - start)[:, 2] * share
-    return places, z, owner
 
 
 def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
@@ -235,8 +213,8 @@ def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Wor
     np.maximum.at(feed, window, run.feed[steps])
     width = np.clip(taken / np.maximum(path * deep, NEAR), 0.0, tool.diameter)
     angle = np.arccos(np.clip(1 - width / tool.radius, -1.0, 1.0))
-    rpm = np.array([state.rpm for state in run.states])[run.state[steps[0]]]
-    tooth = feed / max(float(rpm) * tool.flutes, NEAR)
+    rpm = run.states[run.state[steps[0]]].rpm
+    tooth = feed / max(rpm * tool.flutes, NEAR)
     chip = tooth * np.sin(np.minimum(angle, np.pi / 2)) * approach(tool, deep)
     removal = taken / path * feed / 1000
     removal[~long], chip[~long], angle[~long] = 0.0, 0.0, 0.0

@@ -5,14 +5,13 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
 from mechwright_cam.proof.plane import Shape, grow
-from mechwright_cam.threads import prepared
+from mechwright_cam.setup.job import Job
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
@@ -29,9 +28,7 @@ class Stock:
         self.paths = paths
         self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
         self.air = [air for air in job.gone if air.top < -NEAR]
-        cutting = np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))
-        low = np.minimum(paths.start[paths.steps, 2], paths.end[paths.steps, 2])
-        self.cuts: Ints = paths.steps[cutting & (low < 0)]
+        self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
 
     @cached_property
     def extents(self) -> tuple[Array, Array]:
@@ -60,6 +57,14 @@ class Stock:
         near: Ints = steps[shapely.dwithin(body, lines, reach)]
         return near
 
+    @cached_property
+    def rapids(self) -> list[int]:
+        """The rapids that meet material; straight up follows the tool's own hole."""
+        paths, rapid = self.paths, self.paths.rapids
+        way = (paths.end - paths.start)[rapid]
+        low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
+        return [step for step in low.tolist() if self.meets(step)]
+
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
         """Whether the tool, moving straight as this step does, meets material that earlier steps left.
 
@@ -67,8 +72,7 @@ class Stock:
         which begins so far above the cutter's tip: shank or holder.
         """
         paths = self.paths
-        start, end = paths.start[step], paths.end[step]
-        z = float(min(start[2], end[2])) + lift
+        z = float(paths.low[step]) + lift
         if z >= -NEAR:
             return False
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))

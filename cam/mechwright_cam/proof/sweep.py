@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from threading import Lock
 
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
-from mechwright_cam.interpreter import Kind
-from mechwright_cam.interpreter.run import Ints
+from mechwright.arrays import Array
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
@@ -75,22 +76,33 @@ class Sweeps:
     def __init__(self, paths: Paths) -> None:
         self.paths = paths
         self._known: dict[tuple[float, float], list[Sweep]] = {}
+        self._one_by_one = Lock()
 
     def at(self, height: float, level: float) -> list[Sweep]:
         """What is cut at ``level`` by feed moves that go down to ``height``, smallest radius first."""
-        if (height, level) not in self._known:
-            self._known[height, level] = self._cut(height, level)
-        return self._known[height, level]
+        with self._one_by_one:  # rules that are asked side by side want the same ones
+            if (height, level) not in self._known:
+                self._known[height, level] = self._cut(height, level)
+            return self._known[height, level]
 
     def _cut(self, height: float, level: float) -> list[Sweep]:
         paths = self.paths
-        cutting = paths.steps[np.isin(paths.run.kind[paths.steps], (Kind.FEED, Kind.ARC))]
-        pieces = distinct(paths, _settled(paths, paths.below(height, steps=cutting), level))
+        pieces = distinct(paths, _settled(paths, paths.below(height, steps=paths.cuts), level))
         pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
         radius = np.round(paths.radius_at(pieces, level), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])
         ]
+
+    def foot(self, bottom: float, thickness: float) -> tuple[float, list[Sweep]]:
+        """The height z, mm, at which a band above ``bottom`` is measured, and what is cut there.
+
+        Above a floor it is as high as stock may be left, which cusps are; the underside is cut through.
+        """
+        if bottom <= -thickness + NEAR:
+            return bottom, self.at(bottom + ROUNDING, bottom)
+        level = bottom + TOLERANCES.leftover
+        return level, self.at(level, level)
 
     def through(self, thickness: float) -> list[Sweep]:
         """What is cut at the underside of a plate."""

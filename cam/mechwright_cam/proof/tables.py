@@ -2,13 +2,11 @@
 
 import re
 
-from mechwright_cam.interpreter.run import TableWrite
+from mechwright_cam.controls.reading.run import TableWrite
+from mechwright_cam.proof.offset_rules import LAST_DECIMAL
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 
-NAME = "offset-tables"
-LENGTH = 1e-3
-"""A value in the program is the measured one if it differs by its last decimal at most, mm."""
 _ROWS = (
     (r"G(5[4-9])", 2, -53),
     (r"G59\.([1-3])", 2, 6),
@@ -22,8 +20,8 @@ def offset_tables(scene: Scene) -> Check:
     for write in scene.run.writes:
         wrong = _wrong(scene, write)
         if wrong:
-            return scene.bad(NAME, write.step, f"{_spelt(write)} {wrong}")
-    return Check(NAME, True, "the program writes no offset but the job's own")
+            return scene.bad(write.step, f"{_spelt(write)} {wrong}")
+    return Check(True, "the program writes no offset but the job's own")
 
 
 def _wrong(scene: Scene, write: TableWrite) -> str:
@@ -31,7 +29,7 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
     if write.incremental:
         return "while G91 is in force may add to what the table holds; write G90 before it"
     job = scene.job
-    offset, lengths = job.settings.work_offset, scene.dialect.length_write
+    offset, lengths = job.settings.work_offset, scene.control.length_write
     own: dict[str, tuple[str, float | None]] = {}
     if (write.table, write.number) == _place_of(offset):
         own = {
@@ -49,7 +47,7 @@ def _wrong(scene: Scene, write: TableWrite) -> str:
         key, planned = own[letter]
         if planned is None:
             return f"sets {letter}{value:g}, and {key} is not given; measure it, or take it out"
-        if not abs(value - planned) <= LENGTH:
+        if not abs(value - planned) <= LAST_DECIMAL:
             return f"sets {letter}{value:g}, {key} is {planned:g}; write that, or take it out"
     return ""
 
@@ -66,8 +64,8 @@ def _allowed(scene: Scene) -> str:
     """The G10 that may stand in a program of this job."""
     offset = scene.job.settings.work_offset
     words = "its own: G10 L{} P{} for {}".format(*_place_of(offset), offset)
-    if scene.dialect.length_write is not None:
-        words += f", L{scene.dialect.length_write[0]} for the lengths of its tools"
+    if scene.control.length_write is not None:
+        words += f", L{scene.control.length_write[0]} for the lengths of its tools"
     return words
 
 

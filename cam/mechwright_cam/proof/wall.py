@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
 from mechwright_cam.proof.plane import Shape
 
 

@@ -18,27 +18,27 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.motion import Array
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright.tooling import MILLS
-from mechwright_cam.interpreter import Run
-from mechwright_cam.interpreter.run import Ints
-from mechwright_cam.job import Job
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import Band, asked, bands
-from mechwright_cam.proof.leftover import BESIDE, TAB_SLACK, VISIBLE, play
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.beyond import VISIBLE
+from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
 from mechwright_cam.proof.wall import Wall
-from mechwright_cam.threads import prepared
+from mechwright_cam.proof.wall_stock import HINTED
+from mechwright_cam.proof.wanted import TAB_SLACK, play
+from mechwright_cam.setup.job import Job
 
-SAMPLES = 6000
+MOST_SAMPLES = 6000
 """Places along all walls of one height, at most."""
-SPACING = 0.05
+WALL_SPACING = 0.05
 """They are no nearer to each other, mm: nothing on a wall is finer than the cutters."""
 LISTED = 5
 """So many of the worst places of each kind are listed."""
-APART = 0.1
+LISTED_APART = 0.1
 """Listed places are so far from each other, as a share of the plate's larger side."""
 SEEN = 0.002
 """A wall of a higher layer that is so near to a measured one is the same, mm."""
@@ -86,31 +86,16 @@ class Walls:
         """Plain data for ``proof.json``, mm to a tenth of a micrometre."""
 
         def rows(places: tuple[Place, ...]) -> list[dict[str, float]]:
-            return [
-                {
-                    "x": round(place.x, 4),
-                    "y": round(place.y, 4),
-                    "z": round(place.z, 4),
-                    "off_mm": round(place.off, 4),
-                }
-                for place in places
-            ]
+            names = {"x": "x", "y": "y", "z": "z", "off": "off_mm"}
+            return [{key: round(getattr(one, name), 4) for name, key in names.items()} for one in places]
 
-        return {
-            "places": len(self.off),
-            "left": rows(self.left),
-            "cut": rows(self.cut),
-            "corners": rows(self.corners),
-        }
+        worst = {"left": self.left, "cut": self.cut, "corners": self.corners}
+        return {"places": len(self.off), **{kind: rows(places) for kind, places in worst.items()}}
 
 
-def wall_deviation(run: Run, job: Job) -> Walls:
+def wall_deviation(sweeps: Sweeps, job: Job) -> Walls:
     """Measure the cut along every wall of a job."""
-    tools = {tool.number: tool for tool in job.tools}
-    paths = Paths(run, tools)
-    sweeps = Sweeps(paths)
-    used = [tools[number] for number in set(run.tool[paths.steps].tolist())]
-    mills = [tool for tool in used if tool.kind in MILLS]
+    mills = sweeps.paths.mills
     smallest = min((tool.radius for tool in mills), default=0.0)
     widest = max((tool.diameter for tool in mills), default=0.0)
     nose = max((tool.nose for tool in mills), default=0.0)
@@ -123,7 +108,7 @@ def wall_deviation(run: Run, job: Job) -> Walls:
         wall = Wall(band.keep)
         if wall.length == 0:
             continue
-        points, outward = wall.at(wall.stations(max(SPACING, wall.length / SAMPLES)))
+        points, outward = wall.at(wall.stations(max(WALL_SPACING, wall.length / MOST_SAMPLES)))
         told = _in_stock(points, job) & ~_within([*aside, *seen], points)
         if drawn is not None:
             told &= _within([drawn], points)
@@ -146,7 +131,7 @@ def wall_deviation(run: Run, job: Job) -> Walls:
         return Walls(none, none, none[:, 0], none[:, 0], flags, numbers, (), (), ())
     points, outward, z, off, corner = (np.concatenate(rows) for rows in zip(*found, strict=True))
     x0, y0, x1, y1 = job.stock
-    apart = APART * max(x1 - x0, y1 - y0)
+    apart = LISTED_APART * max(x1 - x0, y1 - y0)
     worst = [
         _worst(points, z, off, chosen, sign, apart)
         for chosen, sign in ((~corner & (off > 0), 1), (off < 0, -1), (corner, 1))
@@ -183,7 +168,7 @@ def _off(points: Array, outward: Array, groups: list[Sweep]) -> Array:
     for group in groups:
         # The path of every cutter that came to the wall counts: one of them may have cut too deep.
         beside = points + group.radius * outward
-        off = np.minimum(off, group.chords.distance_beside(points, beside, BESIDE) - group.radius)
+        off = np.minimum(off, group.chords.distance_beside(points, beside, HINTED) - group.radius)
     open_ = np.flatnonzero(off > TOLERANCES.leftover)
     for group in groups:
         if open_.size:

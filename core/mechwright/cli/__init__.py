@@ -1,4 +1,4 @@
-"""The command line. Only here do families and CAM meet."""
+"""The command line."""
 
 import os
 import sys
@@ -6,12 +6,12 @@ import sys
 
 def main() -> None:
     """Run the command line; errors become a line each and exit code 2, or 1 for a failed proof."""
-    from mechwright.cli.app import app
+    from mechwright.cli.app import make_app
     from mechwright.errors import ProofError
 
     try:
         try:
-            app()
+            make_app()()
         finally:
             _flush()
     except Exception as error:  # noqa: BLE001,RUF100 - a traceback is of no use to a machinist

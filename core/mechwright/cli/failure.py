@@ -36,13 +36,13 @@ def _unexpected(error: Exception) -> str:
 
 def _owner(error: Exception) -> str:
     """The plugin whose code was running, innermost first; the program itself if it was none."""
-    from mechwright.host import host
+    from mechwright.plugins.host import host
 
     found = host()
     owners = {
         type(entry.item).__module__.partition(".")[0]: f"plugin {entry.plugin} of {entry.distribution}"
-        for kind in (found.families, found.posts, found.exporters)
-        for entry in kind.values()
+        for entries in found.registered.values()
+        for entry in entries.values()
     }
     modules = [
         str(frame.f_globals.get("__name__", "")) for frame, _ in traceback.walk_tb(error.__traceback__)

@@ -2,70 +2,72 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import typer
 
-from mechwright.design import unknown
-from mechwright.design_text import requirement_template, template
+from mechwright.cli.hosting import open_host
+from mechwright.contracts.family import Family
+from mechwright.contracts.table import Table
+from mechwright.designs.requirement import require_synthesis
+from mechwright.designs.tables import unknown
+from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
-from mechwright.files import write_new
-from mechwright.host import Host, host
-from mechwright.requirement import require_synthesis
-
-
-def warn_broken(found: Host) -> None:
-    """Name the plugins that could not be used, on standard error."""
-    for broken in found.broken:
-        typer.echo(f"mechwright: warning: {broken}", err=True)
+from mechwright.output.folder import write_new
+from mechwright.plugins.host import Registered
 
 
 def families(as_json: bool) -> None:
-    """List what is installed."""
-    found = host()
+    """List what is installed: families with what they can be asked for, and all else by its kind."""
+    found = open_host(warn=not as_json)
+    others = {
+        contract.plural: sorted(items)
+        for contract, items in sorted(found.registered.items(), key=lambda item: item[0].plural)
+        if contract is not Family
+    }
     if as_json:
         listing = {
-            "families": [
-                {
-                    "name": name,
-                    "title": item.item.title,
-                    "summary": item.item.summary,
-                    "distribution": item.distribution,
-                    "parameters": item.item.Params.model_json_schema(),
-                    "requirements": {
-                        kind: model.model_json_schema() for kind, model in item.item.requirements.items()
-                    },
-                }
-                for name, item in sorted(found.families.items())
-            ],
-            "controls": sorted(found.posts),
-            "formats": sorted(found.exporters),
+            "families": [_described(entry) for _, entry in sorted(found.of(Family).items())],
+            **others,
             "broken": [
                 {"distribution": b.distribution, "plugin": b.plugin, "reason": b.reason} for b in found.broken
             ],
         }
         typer.echo(json.dumps(listing, indent=2))
         return
-    warn_broken(found)
-    for name, item in sorted(found.families.items()):
-        typer.echo(f"{name}  ({item.distribution})\n    {item.item.title}: {item.item.summary}")
-        if item.item.requirements:
-            typer.echo(f"    synthesis: {', '.join(item.item.requirements)}")
-    typer.echo(f"controls: {', '.join(sorted(found.posts)) or 'none'}")
-    typer.echo(f"formats:  {', '.join(sorted(found.exporters)) or 'none'}")
+    for name, entry in sorted(found.of(Family).items()):
+        typer.echo(f"{name}  ({entry.distribution})\n    {entry.item.title}: {entry.item.summary}")
+        if entry.item.requirements:
+            typer.echo(f"    synthesis: {', '.join(entry.item.requirements)}")
+    width = max(map(len, others), default=0)
+    for plural, names in others.items():
+        typer.echo(f"{plural + ':':{width + 1}} {', '.join(names)}")
+
+
+def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
+    """A family for programs: its names, and the schemas of its tables."""
+    family = entry.item
+    return {
+        "name": family.name,
+        "title": family.title,
+        "summary": family.summary,
+        "distribution": entry.distribution,
+        "parameters": family.Params.model_json_schema(),
+        "requirements": {kind: model.model_json_schema() for kind, model in family.requirements.items()},
+    }
 
 
 def new(name: str, kind: str, output: Path | None, force: bool) -> None:
     """Write or print a design file, or a requirement file of the kind that is asked for."""
-    found = host()
-    warn_broken(found)
+    found = open_host()
     family = found.family(name)
     if kind:
         require_synthesis(family, "--requirement")
         if kind not in family.requirements:
             raise DesignError(f"--requirement: {unknown(kind, tuple(family.requirements), 'kind')}")
-        text, command = requirement_template(family, kind, name), "mechwright synthesize"
+        text, command = requirement_template(family, kind, name, found.all(Table)), "mechwright synthesize"
     else:
-        text, command = template(family, name), "mechwright build"
+        text, command = template(family, name, found.all(Table)), "mechwright build"
     if output is None:
         typer.echo(text, nl=False)
     else:

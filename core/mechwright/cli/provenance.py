@@ -6,13 +6,25 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from mechwright import __version__
-from mechwright.family import Family
-from mechwright.host import Host
+from mechwright.contracts.family import Family
+from mechwright.contracts.table import Table
+from mechwright.designs.design import Design
+from mechwright.designs.files import read_text
+from mechwright.plugins.host import Host
 
 
-def facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:
+def facts(design: Design, found: Host) -> dict[str, Any]:
+    """Facts of a run on a design: the hash of its file and of all that its tables name."""
+    inputs = {design.path.name: design.digest}
+    for name, value in design.tables.items():
+        named = found.get(Table, name).inputs(value, design.path)
+        inputs |= {name: read_text(file)[1] for name, file in named.items()}
+    return run_facts(design.name, design.family, inputs, found)
+
+
+def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:
     """Facts of a run; ``inputs`` is file name to SHA-256."""
-    origin = found.families[family.name].distribution
+    origin = found.of(Family)[family.name].distribution
     packages = {"cadquery", "ezdxf", "numpy", "scipy", "shapely", origin} - {"mechwright"}
     return {
         "design": name,

@@ -5,17 +5,16 @@ from pathlib import Path
 
 import typer
 
-from mechwright.cli.listing import warn_broken
+from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
-from mechwright.cli.provenance import facts
-from mechwright.design import read_text
-from mechwright.design_text import design_text
-from mechwright.files import Output, check_folder, write_folder
-from mechwright.findings import Severity, errors
-from mechwright.host import host
-from mechwright.part import check_name
-from mechwright.requirement import load_requirement
-from mechwright.synthesis import Candidate
+from mechwright.cli.provenance import run_facts
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.part import check_name
+from mechwright.contracts.synthesis import Candidate
+from mechwright.designs.files import read_text
+from mechwright.designs.requirement import load_requirement
+from mechwright.designs.text import design_text
+from mechwright.output.folder import Output, check_folder, write_folder
 
 FIGURES = 3
 """Figures of a candidate on its line of the listing; synthesis.json has all of them."""
@@ -23,8 +22,7 @@ FIGURES = 3
 
 def synthesize(path: Path, folder: Path) -> None:
     """Write the designs that meet a requirement, best first."""
-    found = host()
-    warn_broken(found)
+    found = open_host()
     asked = load_requirement(path, found)
     check_folder(folder)
     with fraction() as progress:
@@ -34,18 +32,15 @@ def synthesize(path: Path, folder: Path) -> None:
             typer.echo(f"mechwright: {path}: {finding}", err=True)
     if errors(result.findings):
         raise typer.Exit(1)
-    inputs = {path.name: asked.digest}
+    inputs = {path.name: asked.digest, **{name: read_text(file)[1] for name, file in asked.inputs.items()}}
     output = Output()
-    cam = asked.cam
-    if asked.tool_library is not None:
-        text, inputs[cam.tool_library] = read_text(asked.tool_library)
-        cam = cam.model_copy(update={"tool_library": asked.tool_library.name})
-        output.add(cam.tool_library, text)
+    for name, file in asked.files.items():
+        output.add(name, read_text(file)[0])
     listing = []
     width = len(str(len(result.candidates)))
     for number, candidate in enumerate(result.candidates, start=1):
         name = check_name(f"{asked.name}-{number:0{width}}", "name of a design")
-        output.add(f"{name}.toml", design_text(asked.family, name, candidate.params, cam))
+        output.add(f"{name}.toml", design_text(asked.family, name, candidate.params, asked.tables))
         found_in_it = [finding.as_dict() for finding in asked.family.check(candidate.params)]
         listing.append({"design": f"{name}.toml", **candidate.as_dict(), "findings": found_in_it})
         typer.echo(f"{name}.toml: {_line(candidate)}")
@@ -57,7 +52,7 @@ def synthesize(path: Path, folder: Path) -> None:
         "candidates": listing,
     }
     output.add("synthesis.json", json.dumps(summary, indent=2) + "\n")
-    write_folder(folder, output, "synthesize", facts(asked.name, asked.family, inputs, found))
+    write_folder(folder, output, "synthesize", run_facts(asked.name, asked.family, inputs, found))
     count = len(result.candidates)
     typer.echo(f"{folder}: {count} design{'s' * (count != 1)} written, best first, and synthesis.json")
 

@@ -18,9 +18,9 @@ from functools import cache
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import BSpline, bernstein
-from mechwright.motion import Array
 
 Curves = Callable[[Array], Array]
 """Points (count, m, 2), mm, of ``count`` curves at parameters (m,) in [0, 1]."""

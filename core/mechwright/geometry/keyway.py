@@ -72,6 +72,12 @@ KEYS = tuple(
 )
 """Parallel keys, high form, after DIN 6885-1:1968."""
 
+LEAST_WIDTH = 0.3
+"""Smallest bore, keyway or relief, mm: there are no end mills for smaller ones."""
+
+SMALLEST_EDGE = 0.01
+"""Straight length, mm, that must stay between reliefs, and between relief and bore."""
+
 TOP_CLEARANCE = 0.2
 """Gap over a key of no standard width, mm: t1 + t2 - h of the smallest standard sizes."""
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Arc, Line, Point, Segment, circle
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:

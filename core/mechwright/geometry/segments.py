@@ -18,8 +18,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
-from mechwright.motion import Array
 
 Point = tuple[float, float]
 

@@ -15,17 +15,17 @@ from typing import Literal
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.fit import fit_curves
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment
 from mechwright.geometry.trim import trimmed
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 STEPS = 20
 """Newton steps to the crossing of two neighbours: each doubles the digits, four or five are enough."""
-SAMPLES = 201
+BEND_SAMPLES = 201
 """Points of a spline at which its curvature is looked at."""
 
 
@@ -154,13 +154,13 @@ def _too_sharp(place: Point, radius: float, distance: float) -> str:
 
 def _check_bends(spline: BSpline, distance: float) -> None:
     """Raise GeometryError if a spline bends more sharply towards the distance than that is long."""
-    t = np.linspace(0.0, 1.0, SAMPLES)
+    t = np.linspace(0.0, 1.0, BEND_SAMPLES)
     rate = spline.derivative(t)
     second = np.gradient(rate, t, axis=0)
     speed = np.hypot(*rate.T)
     cross = rate[:, 0] * second[:, 1] - rate[:, 1] * second[:, 0]
     turning = np.sign(distance) * np.inf  # where it stops, at a cusp, it bends either way
-    bend = np.divide(cross, speed**3, out=np.full(SAMPLES, turning), where=speed > TOLERANCES.closure)
+    bend = np.divide(cross, speed**3, out=np.full(BEND_SAMPLES, turning), where=speed > TOLERANCES.closure)
     worst = int(np.argmax(bend * distance))
     if bend[worst] * distance >= 1 - TOLERANCES.outline:
         x, y = spline.at(t[worst])[0].tolist()
@@ -183,7 +183,7 @@ def _trimmed_to_each_other(one: Segment, two: Segment, distance: float) -> tuple
             f"{abs(distance):g} mm to its inner side; make them longer, or round the corner"
         )
     near = min(places, key=lambda place: math.dist(place, (x, y)))
-    samples = np.linspace(0.0, 1.0, SAMPLES)
+    samples = np.linspace(0.0, 1.0, BEND_SAMPLES)
     t, u = (float(samples[np.argmin(np.hypot(*(s.at(samples) - near).T))]) for s in (one, two))
     for _ in range(STEPS):
         gap = two.at(u)[0] - one.at(t)[0]

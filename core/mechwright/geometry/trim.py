@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Segment
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
     import shapely
 
-SAMPLES = 65
+SPAN_SAMPLES = 65
 """Points of each smooth piece between which a crossing is looked for: shorter stretches are not seen."""
 HALVINGS = 40
 """Bisections of a crossing: to rounding."""
@@ -94,7 +94,7 @@ def stretches(loop: Loop, region: "shapely.Geometry") -> list[Segment]:
     found: list[Segment] = []
     for segment in loop.segments:
         breaks = segment.breaks()
-        t = np.unique(np.concatenate([np.linspace(a, b, SAMPLES) for a, b in pairwise(breaks)]))
+        t = np.unique(np.concatenate([np.linspace(a, b, SPAN_SAMPLES) for a, b in pairwise(breaks)]))
         within = inside(segment.at(t))
         if within.all():
             found.append(segment)

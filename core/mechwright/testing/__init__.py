@@ -15,7 +15,7 @@ imports it.
 import pytest
 
 # A failed assertion of a contract shows its values in a plugin's tests as well.
-pytest.register_assert_rewrite("mechwright.testing.family", "mechwright.testing.post")
+pytest.register_assert_rewrite("mechwright.testing.family")
 
 from mechwright.testing.compare import (
     assert_derivative,
@@ -25,19 +25,15 @@ from mechwright.testing.compare import (
     assert_same_outline,
 )
 from mechwright.testing.family import FamilyContract
-from mechwright.testing.post import PostContract
-from mechwright.testing.programs import sample_program
 from mechwright.testing.strategies import parameters, tables
 
 __all__ = [
     "FamilyContract",
-    "PostContract",
     "assert_derivative",
     "assert_monotone",
     "assert_points_close",
     "assert_rotations",
     "assert_same_outline",
     "parameters",
-    "sample_program",
     "tables",
 ]

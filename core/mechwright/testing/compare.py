@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mechwright.arrays import Array
 from mechwright.geometry import Outline
-from mechwright.motion import Array
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:

@@ -23,14 +23,16 @@ from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.materials import material
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
+from mechwright.contracts.plugin import HOOK_API
 from mechwright.errors import MechwrightError, PluginError
-from mechwright.family import HOOK_API, Family
-from mechwright.findings import Finding, Stage, errors
-from mechwright.host import host
-from mechwright.materials import material
-from mechwright.motion import Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
+from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
 from mechwright.testing.imports import heavy_imports
@@ -82,7 +84,8 @@ class FamilyContract:
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Run every test that takes a ``design`` once for each example."""
         if "design" in metafunc.fixturenames:
-            metafunc.parametrize("design", self.examples, ids=[_title(table) for table in self.examples])
+            titles = [json.dumps(dict(table), default=str)[1:-1][:60] for table in self.examples]
+            metafunc.parametrize("design", self.examples, ids=[title or "defaults" for title in titles])
 
     def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
         """Random tables; by default every field anywhere inside its bounds."""
@@ -201,7 +204,7 @@ class FamilyContract:
     def test_solids(self, design: Mapping[str, Any]) -> None:
         """The CAD kernel makes every part, and the same file each time."""
         try:
-            step = host().exporter("step")
+            step = host().get(Exporter, "step")
         except PluginError as error:
             pytest.skip(str(error))
         for part, again in zip(self._parts(design), self._parts(design), strict=True):
@@ -216,8 +219,8 @@ class FamilyContract:
     def test_programs_are_proven(self, design: Mapping[str, Any], tmp_path: Path) -> None:
         """Every plate part of the design is machined, by a program that has been proven."""
         file = self._file(design)
-        if not host().posts:
-            pytest.skip("no post is installed")
+        if not any(contract.kind == "control" for contract in host().registered):
+            pytest.skip("no control is installed")
         proofs = commands.machine(file, tmp_path)
         plates = {part.name for part in self._parts(design) if part.outline is not None}
         assert plates == set(proofs), "a plate part without a program"
@@ -232,7 +235,7 @@ class FamilyContract:
 
     def _file(self, design: Mapping[str, Any]) -> Mapping[str, Any]:
         """The design file of an example; skips the test if the family is not installed."""
-        registered = host().families.get(self.family.name)
+        registered = host().of(Family).get(self.family.name)
         if registered is None or type(registered.item) is not self.family:
             pytest.skip(f"family {self.family.name} is not installed")
         table = self.params(design).model_dump(mode="json", exclude_none=True)
@@ -393,8 +396,3 @@ class FamilyContract:
 
 def _none(faults: Sequence[str]) -> None:
     assert not faults, "; ".join(faults)
-
-
-def _title(table: Mapping[str, Any]) -> str:
-    """Name of an example in the list of tests."""
-    return json.dumps(dict(table), default=str)[1:-1][:60] if table else "defaults"

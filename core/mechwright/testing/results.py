@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
 from mechwright.errors import MechwrightError
-from mechwright.family import Family
-from mechwright.parameters import Parameters
-from mechwright.part import Part
 
 _SAMPLES = 13
 """Samples of the motions that are compared: a whole turn in steps of 30 degrees shows any change."""

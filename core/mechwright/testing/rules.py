@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.findings import Finding, Severity, Stage
+from mechwright.contracts.finding import Finding, Severity, Stage
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Outline
-from mechwright.motion import Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Bore, Part, Pocket, Profile
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import kind
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
-from mechwright.materials import MATERIALS
-from mechwright.parameters import Parameters
+from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.parameters import Parameters
 
 P = TypeVar("P", bound=Parameters)
 
@@ -47,7 +47,7 @@ def tables(params: type[Parameters]) -> st.SearchStrategy[dict[str, Any]]:
 def parameters(params: type[P]) -> st.SearchStrategy[P]:
     """Parameter objects that pass validation.
 
-    >>> from mechwright.tooling import Hold
+    >>> from mechwright_cam.shop.holding import Hold
     >>> from hypothesis import find
     >>> find(parameters(Hold), lambda hold: hold.tabs > 4).tabs
     5

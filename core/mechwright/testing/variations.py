@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from enum import Enum
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from mechwright.parameters import Parameters
+from mechwright.contracts.parameters import Parameters
 from mechwright.testing.strategies import NAMES, bounds, rules
 
 _FACTORS = (1.02, 0.98, 1.15, 0.85, 1.5, 0.6)
@@ -15,7 +15,7 @@ _FACTORS = (1.02, 0.98, 1.15, 0.85, 1.5, 0.6)
 def variations(start: Parameters, name: str) -> Iterator[Any]:
     """Give other values for field ``name``, the likeliest to be accepted first, as a design file says them.
 
-    >>> from mechwright.tooling import Hold
+    >>> from mechwright_cam.shop.holding import Hold
     >>> list(variations(Hold(), "method")), next(variations(Hold(), "tabs"))
     (['bore', 'vice'], 5)
     """

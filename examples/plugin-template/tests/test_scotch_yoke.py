@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from mechwright_scotch_yoke.family import ScotchYoke, ScotchYokeParams, StrokeRequirement
 
-from mechwright.findings import errors
+from mechwright.contracts.finding import errors
 from mechwright.testing import FamilyContract, assert_points_close
 
 

@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from mechwright.findings import Finding, Severity, Stage, at_stage
+from mechwright import Finding, Severity, Stage, at_stage
 from mechwright_scotch_yoke.plates import FILLET, GAP, yoke_mass
 
 if TYPE_CHECKING:

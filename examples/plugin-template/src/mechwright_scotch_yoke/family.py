@@ -5,12 +5,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from mechwright.family import Family
-from mechwright.findings import Finding
-from mechwright.motion import Motion
-from mechwright.parameters import Parameters
-from mechwright.part import Part
-from mechwright.synthesis import Progress, Synthesis
+from mechwright import Family, Finding, Motion, Parameters, Part, Progress, Synthesis
 from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright.motion import Channel, Motion, Poses, Scalar
+from mechwright import Channel, Motion, Poses, Scalar
 from mechwright_scotch_yoke.checks import peak_force
 from mechwright_scotch_yoke.plates import yoke_mass
 

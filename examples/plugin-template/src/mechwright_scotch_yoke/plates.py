@@ -3,9 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright.materials import material
-from mechwright.part import Instance, Part
+from mechwright import Arc, Instance, Line, Loop, Outline, Part, circle, material
 
 if TYPE_CHECKING:
     from mechwright_scotch_yoke.family import ScotchYokeParams

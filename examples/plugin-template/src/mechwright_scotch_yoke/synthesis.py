@@ -2,9 +2,8 @@
 
 import math
 
-from mechwright.findings import Finding, Severity, errors
-from mechwright.motion import Scalar
-from mechwright.synthesis import Candidate, Synthesis
+from mechwright import Candidate, Finding, Scalar, Severity, Synthesis
+from mechwright.contracts.finding import errors
 from mechwright_scotch_yoke import checks
 from mechwright_scotch_yoke.family import ScotchYokeParams, StrokeRequirement
 

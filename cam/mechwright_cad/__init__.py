@@ -1,0 +1,1 @@
+"""Solids, their files, their collisions, and the page on which they move."""

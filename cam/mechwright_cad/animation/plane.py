@@ -1,0 +1,84 @@
+"""A mechanism whose bodies stay in parallel planes: their layers as paths, seen from above."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import shapely
+
+from mechwright_cad.animation.figures import DRAWN, hexadecimal
+from mechwright_cad.interference.bodies import Body, label_of
+from mechwright_cad.interference.slabs import Slab, slabs_of
+
+LINE_CHORD = 0.02
+"""Chord error of what is drawn, mm: a tenth of a line's width on the screen."""
+
+MARGIN = 0.04
+"""Free border around the motion, as a share of its greater side."""
+
+
+def layers_of(body: Body, *, solids: bool) -> list[dict[str, Any]]:
+    """What is seen of a body, each layer with the height of its top; nothing of a solid that is not made."""
+    turn, place = body.poses.rotation[0], float(body.poses.position[0, 2])
+    return [
+        {
+            "body": body.instance.body,
+            "name": label_of(body),
+            "colour": hexadecimal(body.part.colour_of(body.instance)),
+            "top": round(place + max(slab.bottom * turn[2, 2], slab.top * turn[2, 2]), DRAWN),
+            "path": path_of(slab.polygon),
+        }
+        for slab in _slabs(body, solids)
+    ]
+
+
+def _slabs(body: Body, solids: bool) -> Sequence[Slab]:
+    if body.is_plate:
+        return slabs_of(body.part, body.instance)
+    if not solids:
+        return ()
+    from mechwright_cad.interference.prisms import prisms_of
+
+    return prisms_of(body.part, body.instance) or _shadow(body)
+
+
+def _shadow(body: Body) -> list[Slab]:
+    """The outline of a solid that is no prism, as high as it is."""
+    from mechwright_cad.animation.space import mesh_of_body
+
+    points, triangles = mesh_of_body(body)
+    corners = points[triangles][:, :, :2]
+    flat = shapely.polygons(corners)
+    shape = shapely.union_all(flat[shapely.area(flat) > 0], grid_size=10.0**-DRAWN / 2)
+    bottom, top = float(points[:, 2].min()), float(points[:, 2].max())
+    return [Slab(piece, bottom, top) for piece in shapely.get_parts(shape)]
+
+
+def path_of(polygon: shapely.Polygon) -> str:
+    """The ``d`` of an SVG path: every loop of the polygon, mm, y upwards.
+
+    >>> path_of(shapely.box(0, 0, 2, 1.5))
+    'M2 0L2 1.5L0 1.5L0 0Z'
+    """
+    slim = shapely.simplify(polygon, LINE_CHORD)
+    loops = []
+    for ring in (slim.exterior, *slim.interiors):
+        points = np.round(shapely.get_coordinates(ring)[:-1], DRAWN) + 0.0
+        loops.append("M" + "L".join(f"{x:g} {y:g}" for x, y in points.tolist()) + "Z")
+    return "".join(loops)
+
+
+def window(bodies: Sequence[Body], *, solids: bool, paths: Sequence[Any] = ()) -> list[float]:
+    """What the picture shows, mm: left, bottom, width and height of all that the bodies come to."""
+    found = [np.asarray(path)[:, :2] for path in paths]
+    for body in bodies:
+        for slab in _slabs(body, solids):
+            hull = shapely.get_coordinates(shapely.convex_hull(slab.polygon).simplify(LINE_CHORD))
+            moved = body.poses.transform(np.column_stack((hull, np.zeros(len(hull)))))
+            found.append(moved[..., :2].reshape(-1, 2))
+    if not found:
+        return [-1.0, -1.0, 2.0, 2.0]
+    every = np.concatenate(found)
+    low, high = every.min(axis=0), every.max(axis=0)
+    border = MARGIN * float((high - low).max())
+    return [round(value, DRAWN) for value in (*(low - border), *(high - low + 2 * border))]

@@ -1,0 +1,77 @@
+"""What the page shows, as plain data: bodies and their poses, what is drawn of them, paths, channels."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Part
+from mechwright_cad.animation.figures import MICRON, poses_of, rounded, significant
+from mechwright_cad.interference.bodies import bodies_of, label_of
+from mechwright_cad.interference.path import flat
+
+PAGE_SAMPLES = 361
+"""Samples of the motion that the page holds: every degree of a turn, and straight on between two of them."""
+
+CLOSED = 1e-6
+"""What an end may differ from the beginning, mm, parts of 1 and turns, of a motion that goes round."""
+
+
+def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, Any]:
+    """The content of the page.
+
+    Parameters
+    ----------
+    parts
+        With their instances.
+    motion
+        With ``PAGE_SAMPLES`` samples, or any other number of them.
+    solids
+        Whether to draw parts that are no plates, which takes the CAD kernel.
+
+    Raises
+    ------
+    GeometryError
+        An instance names a body that the motion does not have, or a part cannot be made.
+    """
+    bodies = bodies_of(parts, motion)
+    plane = all(flat(one.rotation, one.position) is not None for one in motion.poses.values())
+    paths = {name: motion.path(name) for name in motion.traces}
+    # Where no bodies are known, the points whose paths are drawn still move.
+    used = {body.instance.body for body in bodies} or {trace.body for trace in motion.traces.values()}
+    unmade = [] if solids else [label_of(body) for body in bodies if not body.is_plate]
+    found: dict[str, Any] = {
+        "input": motion.input_name,
+        "round": _goes_round(motion),
+        "channels": {
+            name: {"unit": channel.unit, "values": significant(channel.values)}
+            for name, channel in motion.channels.items()
+        },
+        "poses": {name: poses_of(poses, plane=plane) for name, poses in motion.poses.items() if name in used},
+        "traces": {name: rounded(path[:, : 2 if plane else 3], MICRON) for name, path in paths.items()},
+        "missing": list(dict.fromkeys(unmade)),
+    }
+    if plane:
+        from mechwright_cad.animation.plane import layers_of, window
+
+        layers = [layer for body in bodies for layer in layers_of(body, solids=solids)]
+        found["layers"] = sorted(layers, key=lambda layer: layer["top"])
+        found["window"] = window(bodies, solids=solids, paths=list(paths.values()))
+    else:
+        from mechwright_cad.animation.space import meshes_of, upwards
+
+        found["meshes"], found["ball"] = meshes_of(bodies, solids=solids, paths=list(paths.values()))
+        found["up"] = upwards(bodies, found["ball"]["centre"])
+    return found
+
+
+def _goes_round(motion: Motion) -> bool:
+    """Whether the motion begins anew at its end: after whole turns of the input, or where it began."""
+    channel = motion.channels[motion.input_name]
+    turns = abs(float(channel.values[-1] - channel.values[0])) / math.tau
+    if channel.unit == "rad" and turns > 0.5 and abs(turns - round(turns)) < CLOSED:
+        return True
+    ends = [np.abs(x[-1] - x[0]).max() for p in motion.poses.values() for x in (p.position, p.rotation)]
+    return bool(ends and max(ends) < CLOSED)

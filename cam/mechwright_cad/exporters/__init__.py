@@ -1,0 +1,12 @@
+"""File formats of parts. This package is light; the modules that write import their libraries."""
+
+from mechwright_cad.exporters.curve_kinds import Curves
+from mechwright_cad.exporters.formats import (
+    DxfExporter,
+    GlbExporter,
+    StepExporter,
+    StlExporter,
+    ThreeMfExporter,
+)
+
+__all__ = ["Curves", "DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]

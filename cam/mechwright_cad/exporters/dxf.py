@@ -1,0 +1,260 @@
+"""DXF drawings (R2010, millimetres) of outlines. Imports ezdxf, and never the CAD kernel.
+
+Layers hold what a reader needs to tell apart: ``OUTLINE`` the outer loop, ``BORE`` round openings,
+``OPENING`` all others, ``POCKET`` edges of recesses as far as they lie on the plate, ``CHAMFER`` where a
+broken edge ends, ``ENGRAVE`` the strokes of engravings, ``THREAD`` three quarters of a thread's nominal
+circle (ISO 6410-1), ``CENTRE`` the axes of the part and its bores and the centre
+lines of grooves, ``TEXT`` lines that say what it is.
+"""
+
+import io
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ezdxf import units
+from ezdxf._options import options  # noqa: PLC2701 (ezdxf.options, which is public, has no type)
+from ezdxf.filemanagement import new
+
+from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread, chamfer_lines, detail_note
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
+from mechwright.contracts.sections import blind
+from mechwright.errors import GeometryError
+from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
+from mechwright.geometry.segments import Point
+from mechwright.geometry.trim import stretches
+from mechwright.tolerances import TOLERANCES
+from mechwright_cad.exporters.curve_kinds import Curves
+from mechwright_cad.exporters.curves import cubic, vertices
+
+if TYPE_CHECKING:
+    import shapely
+    from ezdxf.document import Drawing
+    from ezdxf.layouts.layout import Modelspace
+
+LAYERS = {
+    "OUTLINE": (7, "CONTINUOUS", 35),
+    "BORE": (5, "CONTINUOUS", 35),
+    "OPENING": (4, "CONTINUOUS", 35),
+    "POCKET": (3, "CONTINUOUS", 25),
+    "CHAMFER": (2, "CONTINUOUS", 18),
+    "ENGRAVE": (6, "CONTINUOUS", 18),
+    "THREAD": (4, "CONTINUOUS", 18),
+    "CENTRE": (1, "CENTER", 18),
+    "TEXT": (8, "CONTINUOUS", 18),
+}
+"""Layer to colour index, line type and line weight in hundredths of a millimetre (ISO 128: 0.35 and 0.18)."""
+
+_CENTRE_LINE = [2.5, 1.25, -0.5, 0.25, -0.5]
+"""Whole length, then dash, gap, dot-like dash, gap, mm."""
+
+OVERHANG = 2.0
+"""How far a centre line goes beyond its circle, mm (ISO 128-2: 2 to 3)."""
+
+TEXT_HEIGHT = 3.5
+"""Height of letters, mm (ISO 3098)."""
+
+
+def part(part: Part, curves: Curves = "spline") -> bytes:
+    """The drawing of a plate part, in its own coordinates.
+
+    Raises
+    ------
+    GeometryError
+        The part has no outline, or a segment cannot be had in the wanted curves.
+    """
+    if part.outline is None:
+        raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
+    fits = [f"{f.name}: %%c{f.fit.text}" for f in part.features if isinstance(f, Bore) and f.fit]
+    said = [detail_note(detail, part.thickness) for detail in part.details]
+    text = [f"{part.name}, {part.material}, {part.thickness:g} mm", *map(_note, blind(part)), *fits, *said]
+    return drawing(part.outlines, "\n".join(text), curves, blind(part), part.axes, part.details)
+
+
+def _note(feature: Feature) -> str:
+    """What the plan view cannot show of a recess."""
+    radius = feature.floor_radius if isinstance(feature, Pocket) else 0.0
+    round_ = f", floor radius R{radius:g}" if radius > 0 else ""
+    if feature.top > 0:
+        down = f"from {feature.top:g} to {feature.top + feature.depth:g} mm below the top"
+        return f"{feature.name}: {down}{round_}"
+    return f"{feature.name}: {feature.depth:g} mm deep{round_}"
+
+
+def drawing(
+    outlines: Sequence[Outline],
+    text: str = "",
+    curves: Curves = "spline",
+    recesses: Sequence[Feature] = (),
+    axes: Sequence[Point] = ((0.0, 0.0),),
+    details: Sequence[Detail] = (),
+) -> bytes:
+    """The drawing of plates, of the recesses in them and of their details, with lines of text below."""
+    import shapely
+
+    with _fixed_metadata():
+        document = new("R2010", units=units.MM)
+        document.header["$MEASUREMENT"] = 1
+        document.linetypes.add("CENTER", _CENTRE_LINE, description="Center ____ _ ____ _")
+        unused = DETAIL_LAYERS - {_LAYER_OF[type(detail)] for detail in details}
+        for name, (colour, linetype, weight) in LAYERS.items():
+            if name in unused:
+                continue
+            document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
+        space = document.modelspace()
+        for outline in outlines:
+            _loop(space, outline.outer, "OUTLINE", curves)
+            for loop in outline.inner:
+                _loop(space, loop, "BORE" if loop.is_circle else "OPENING", curves)
+        plates = shapely.union_all([outline.polygon() for outline in outlines])
+        for feature in recesses:
+            _recess(space, feature, plates, curves)
+        for detail in details:
+            _detail(space, detail, plates, curves)
+        inner = [loop for outline in outlines for loop in outline.inner]
+        _centres(space, inner, [f for f in recesses if isinstance(f, Bore)], axes)
+        x0, y0, x1, y1 = plates.bounds
+        _frame(document, (x0, y0, x1, y1))
+        for row, line in enumerate(text.splitlines()):
+            place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
+            space.add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
+        _order_classes(document)
+        stream = io.StringIO()
+        document.write(stream)
+    return stream.getvalue().encode(document.output_encoding)
+
+
+def _recess(space: "Modelspace", feature: Feature, plates: "shapely.Geometry", curves: Curves) -> None:
+    """The edges of a recess, cut off where it is open."""
+    match feature:
+        case Bore():
+            loops: tuple[Loop, ...] = (Loop((circle(feature.centre, feature.diameter / 2),)),)
+        case Profile():
+            loops = (feature.loop,)
+        case Pocket():
+            loops = (feature.boundary, *feature.islands)
+    if isinstance(feature, OpenProfile) and feature.side == "on":
+        for segment in feature.path:
+            _segment(space, segment, {"layer": "CENTRE"}, simple=curves != "spline")
+    for loop in loops:
+        _on_plate(space, loop, plates, "POCKET", curves)
+
+
+def _on_plate(
+    space: "Modelspace", loop: Loop, plates: "shapely.Geometry", layer: str, curves: Curves
+) -> None:
+    """A loop as far as it lies on the plates."""
+    attributes = {"layer": layer}
+    edges = stretches(loop, plates)
+    if edges == list(loop.segments):
+        _loop(space, loop, layer, curves)
+        return
+    for edge in edges:
+        if curves in ("spline", "spline3"):
+            _segment(space, edge, attributes, simple=curves == "spline3")
+            continue
+        if curves == "polyline":
+            rows = [(x, y, 0.0) for x, y in edge.flatten(TOLERANCES.outline).tolist()]
+        else:
+            rows = [(corner.x, corner.y, corner.bulge) for corner in vertices(edge, TOLERANCES.arc_fit)]
+            rows.append((*edge.end, 0.0))
+        space.add_lwpolyline(rows, format="xyb", dxfattribs=attributes)
+
+
+_LAYER_OF: dict[type[Detail], str] = {Chamfer: "CHAMFER", Engraving: "ENGRAVE", Thread: "THREAD"}
+DETAIL_LAYERS = frozenset(_LAYER_OF.values())
+"""Layers of a drawing only where there is something on them."""
+
+THREAD_ARC = (100.0, 10.0)
+"""A thread's circle runs from here on counter-clockwise, degrees: three quarters of a turn (ISO 6410-1)."""
+
+
+def _detail(space: "Modelspace", detail: Detail, plates: "shapely.Geometry", curves: Curves) -> None:
+    layer = _LAYER_OF[type(detail)]
+    match detail:
+        case Chamfer():
+            for loop in chamfer_lines(detail):
+                _on_plate(space, loop, plates, layer, curves)
+        case Engraving():
+            for stroke in detail.strokes:
+                space.add_lwpolyline(stroke, dxfattribs={"layer": layer})
+        case Thread():
+            space.add_arc(detail.centre, detail.diameter / 2, *THREAD_ARC, dxfattribs={"layer": layer})
+
+
+def _loop(space: "Modelspace", loop: Loop, layer: str, curves: Curves) -> None:
+    attributes = {"layer": layer}
+    first = loop.segments[0]
+    if loop.is_circle and isinstance(first, Arc):
+        space.add_circle(first.centre, first.radius, dxfattribs=attributes)
+    elif curves == "polyline":
+        space.add_lwpolyline(loop.flatten(TOLERANCES.outline).tolist(), close=True, dxfattribs=attributes)
+    elif curves == "arc":
+        corners = [corner for segment in loop.segments for corner in vertices(segment, TOLERANCES.arc_fit)]
+        rows = [(corner.x, corner.y, corner.bulge) for corner in corners]
+        space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=attributes)
+    else:
+        for segment in loop.segments:
+            _segment(space, segment, attributes, simple=curves == "spline3")
+
+
+def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], *, simple: bool) -> None:
+    match segment:
+        case Line():
+            space.add_line(segment.start, segment.end, dxfattribs=attributes)
+        case Arc():
+            # DXF arcs run counter-clockwise.
+            angles = (segment.start_angle, segment.start_angle + segment.sweep)
+            start, end = (math.degrees(angle) for angle in sorted(angles))
+            space.add_arc(segment.centre, segment.radius, start % 360, end % 360, dxfattribs=attributes)
+        case BSpline():
+            curve = cubic(segment, TOLERANCES.flatten) if simple else segment
+            points = [(x, y, 0.0) for x, y in curve.points]
+            space.add_open_spline(points, curve.degree, curve.knots, dxfattribs=attributes)
+        case _:
+            raise GeometryError(
+                f"a segment of type {type(segment).__name__} cannot be drawn; use the three kinds"
+            )
+
+
+def _centres(
+    space: "Modelspace", inner: Sequence[Loop], blind_bores: Sequence[Bore], axes: Sequence[Point]
+) -> None:
+    bores = [loop.segments[0] for loop in inner if loop.is_circle]
+    crosses = {arc.centre: arc.radius for arc in bores if isinstance(arc, Arc)}
+    crosses |= {bore.centre: bore.diameter / 2 for bore in blind_bores if bore.centre not in crosses}
+    for axis in axes:
+        if not any(math.dist(axis, centre) <= TOLERANCES.closure for centre in crosses):
+            crosses[axis] = OVERHANG
+    for (x, y), radius in crosses.items():
+        arm = radius + OVERHANG
+        space.add_line((x - arm, y), (x + arm, y), dxfattribs={"layer": "CENTRE"})
+        space.add_line((x, y - arm), (x, y + arm), dxfattribs={"layer": "CENTRE"})
+
+
+def _frame(document: "Drawing", bounds: tuple[float, float, float, float]) -> None:
+    """What a viewer shows when the file is opened."""
+    x0, y0, x1, y1 = bounds
+    document.modelspace().reset_extents((x0, y0, 0.0), (x1, y1, 0.0))
+    document.set_modelspace_vport(1.2 * max(y1 - y0, x1 - x0), center=((x0 + x1) / 2, (y0 + y1) / 2))
+
+
+def _order_classes(document: "Drawing") -> None:
+    """Bring the class table into one order; some of it comes out of sets, which differ by process."""
+    document.classes.add_required_classes(document.dxfversion)
+    classes = document.classes.classes
+    ordered = {key: classes[key] for key in sorted(classes)}
+    classes.clear()
+    classes.update(ordered)
+
+
+@contextmanager
+def _fixed_metadata() -> Iterator[None]:
+    """No time stamps and random identifiers, so that the same outline gives the same bytes."""
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = before

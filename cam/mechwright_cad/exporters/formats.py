@@ -1,0 +1,96 @@
+"""The exporters that are registered. Nothing heavy is imported before one of them writes."""
+
+from typing import TYPE_CHECKING
+
+from mechwright.contracts.exporter import Exporter
+from mechwright_cad.exporters.curve_kinds import Curves
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+
+
+class StepExporter(Exporter):
+    """Solids as STEP AP214, with names and colours."""
+
+    name = "step"
+    suffix = ".step"
+    modules = ("mechwright_cad.exporters.step",)
+
+    def part(self, part: "Part") -> bytes:
+        """One solid; raises GeometryError if it is not right."""
+        from mechwright_cad.exporters import step
+
+        return step.part(part)
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes | None:
+        """One product per part, one named occurrence per instance."""
+        from mechwright_cad.exporters import step
+
+        return step.assembly(name, parts, motion, sample)
+
+
+class DxfExporter(Exporter):
+    """Outlines as DXF R2010 in millimetres."""
+
+    name = "dxf"
+    suffix = ".dxf"
+
+    def __init__(self, curves: Curves = "spline") -> None:
+        self.curves = curves
+
+    def part(self, part: "Part") -> bytes:
+        """One drawing; raises GeometryError for a part that has no outline."""
+        from mechwright_cad.exporters import dxf
+
+        return dxf.part(part, self.curves)
+
+
+class StlExporter(Exporter):
+    """Triangles as binary STL in millimetres."""
+
+    name = "stl"
+    suffix = ".stl"
+    modules = ("mechwright_cad.exporters.mesh",)
+
+    def part(self, part: "Part") -> bytes:
+        """One closed mesh."""
+        from mechwright_cad.exporters import mesh
+
+        return mesh.stl(part)
+
+
+class ThreeMfExporter(Exporter):
+    """Triangles as 3MF, with names and colours."""
+
+    name = "3mf"
+    suffix = ".3mf"
+    modules = ("mechwright_cad.exporters.mesh",)
+
+    def part(self, part: "Part") -> bytes:
+        """One object."""
+        from mechwright_cad.exporters import mesh
+
+        return mesh.threemf(part)
+
+
+class GlbExporter(Exporter):
+    """Triangles as binary glTF, for viewers."""
+
+    name = "glb"
+    suffix = ".glb"
+    modules = ("mechwright_cad.exporters.mesh",)
+
+    def part(self, part: "Part") -> bytes:
+        """One node."""
+        from mechwright_cad.exporters import mesh
+
+        return mesh.glb_part(part)
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes | None:
+        """One mesh per part, one named node per instance."""
+        from mechwright_cad.exporters import mesh
+
+        return mesh.glb_assembly(name, parts, motion, sample)

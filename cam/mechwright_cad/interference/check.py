@@ -1,0 +1,205 @@
+"""The check itself: every pair of bodies, over the whole motion."""
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from itertools import combinations, product
+from typing import Any
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Instance, Part
+from mechwright_cad.interference import plates
+from mechwright_cad.interference.bodies import Body, bodies_of
+from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
+from mechwright_cad.interference.report import Collision, Gap, Instant, Report
+from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
+
+FEWEST_SAMPLES = 181
+"""Samples that the check starts with, every 2 degrees of a turn; more where the motion bends faster."""
+
+MOST_SAMPLES = 2881
+"""More samples than this, every eighth of a degree, are not asked for: a motion with a kink never gets
+smooth, and a kink's error is below a hundredth of a millimetre there."""
+
+FAITHFUL = 2e-4
+"""Error of the motion between samples that needs no more samples, mm: hardly a part of a contact."""
+
+_USUAL = 100.0
+"""Reach of parts that are no plates, mm."""
+
+_LOOKS_IN_PLAN = 33
+"""Instants at which the depth of a collision of plates is measured before it is refined."""
+
+_LOOKS_IN_SPACE = 9
+"""The same for solids, of which a look takes some ten times as long."""
+
+_ROUNDS = 4
+"""Refinements of the deepest instant, each on four times closer ones."""
+
+_CLOSER = np.array((-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0))
+
+
+def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) -> Report:
+    """Look for bodies that stand in each other at any instant of a motion.
+
+    Parts of one body are compared as well, at rest. Plates that stay parallel are compared exactly in the
+    plane; all other bodies as triangles in space.
+
+    Parameters
+    ----------
+    parts
+        With their instances.
+    motion
+        Sampled so finely that a cubic through the samples is the motion (see :func:`faithful_motion`).
+    solids
+        Whether to compare bodies that need triangles, which takes the CAD kernel where a part is a solid.
+
+    Raises
+    ------
+    GeometryError
+        An instance names a body that the motion does not have, or a part cannot be made.
+    """
+    bodies = bodies_of(parts, motion)
+    collisions: list[Collision] = []
+    gaps: list[Gap] = []
+    skipped: set[str] = set()
+    count = 0
+    for one, two in combinations(bodies, 2):
+        rotation, position = relative(one.poses, two.poses)
+        layers = [_slabs(body.part, body.instance, solids) for body in (one, two)]
+        up = flat(rotation, position) if all(layers) else None
+        if up is None and not solids:
+            skipped |= {body.name for body in (one, two) if not body.is_plate} or {one.name, two.name}
+            continue
+        count += 1
+        if up is None:
+            hit = _in_space(one, two, space_path(rotation, position))
+            if hit is not None:
+                collisions.append(_collision(one, two, motion, *hit))
+            continue
+        path = plane_path(rotation, position)
+        height = float(position[0, 2])
+        for a, b in product(*layers):
+            other = b if up else b.face_down()
+            common = min(a.top, other.top + height) - max(a.bottom, other.bottom + height)
+            if common <= TOUCH:
+                continue
+            found = plates.meetings(a, other, path)
+            if found.hits.size:
+                time, depth, (x, y) = _deepest(a, other, path, found.hits)
+                z = max(a.bottom, other.bottom + height) + common / 2
+                hit = (time, min(depth, common), np.array((x, y, z)))
+                collisions.append(_collision(one, two, motion, *hit))
+            elif found.closest is not None and not path.still:
+                gap = plates.gap(a, other, path, found.closest)
+                if gap > TOUCH:
+                    gaps.append(Gap(one.name, two.name, _instant(motion, found.closest), gap))
+    worst: dict[tuple[str, str], Collision] = {}
+    for hit_ in sorted(collisions, key=lambda item: -item.depth):
+        worst.setdefault((hit_.first, hit_.second), hit_)
+    return Report(
+        count,
+        tuple(worst.values()),
+        min(gaps, key=lambda gap: gap.distance, default=None),
+        tuple(sorted(skipped)),
+    )
+
+
+@lru_cache(maxsize=128)
+def _slabs(part: Part, instance: Instance, solids: bool) -> tuple[Slab, ...]:
+    """The layers of a plate, or of a solid if it has some and solids are asked for."""
+    if part.outline is not None:
+        return slabs_of(part, instance)
+    if not solids:
+        return ()
+    from mechwright_cad.interference.prisms import prisms_of
+
+    return prisms_of(part, instance) or ()
+
+
+def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | None:
+    """Time, depth and place (3,) of the deepest overlap of two bodies in space, in the first one's frame."""
+    from mechwright_cad.interference import meshes
+    from mechwright_cad.interference.surface import surface_of
+
+    first, second = surface_of(one.part, one.instance), surface_of(two.part, two.instance)
+    hits = meshes.meetings(first, second, path)
+    if not hits.size:
+        return None
+    return deepest(lambda time: meshes.depth(first, second, path, time), hits, path, _LOOKS_IN_SPACE)
+
+
+def _deepest(a: Slab, b: Slab, path: Path, hits: Array) -> tuple[float, float, Array]:
+    """Time, depth and place (2,) of the deepest overlap: on a grid over the hits, then refined."""
+    return deepest(lambda time: plates.depth(a, b, path, time), hits, path, _LOOKS_IN_PLAN)
+
+
+def deepest(
+    depth: Callable[[float], tuple[float, Array]], hits: Array, path: Path, looks: int
+) -> tuple[float, float, Array]:
+    """Time, in samples, depth, mm, and place of the deepest overlap around the times of some hits (n,)."""
+    last = float(path.samples - 1)
+    # A long collision has a hit in each interval; its ends count as well.
+    some = hits[np.unique(np.linspace(0, len(hits) - 1, looks).round().astype(int))]
+    seen = [(float(time), *depth(float(time))) for time in some]
+    best = max(seen, key=lambda item: item[1])
+    if path.still:
+        return best
+    reach = max(1.0, float(np.diff(some).max(initial=0.0)) if len(some) > 1 else 1.0)
+    for _ in range(_ROUNDS):
+        for time in np.clip(best[0] + reach * _CLOSER, 0.0, last):
+            look = (float(time), *depth(float(time)))
+            if look[1] > best[1]:
+                best = look
+        reach /= 4
+    return best
+
+
+def _collision(one: Body, two: Body, motion: Motion, time: float, depth: float, at: Array) -> Collision:
+    turn, place = space_path(one.poses.rotation, one.poses.position).at(np.array([time]))
+    x, y, z = (turn[0] @ at + place[0]).tolist()
+    return Collision(one.name, two.name, _instant(motion, time), depth, (x, y, z))
+
+
+def _instant(motion: Motion, time: float) -> Instant:
+    channel = motion.channels[motion.input_name]
+    value = float(np.interp(time, np.arange(motion.samples), channel.values))
+    return Instant(motion.input_name, value, channel.unit)
+
+
+def faithful_motion(family: Family[Any], params: Parameters, parts: Sequence[Part]) -> Motion:
+    """The motion of a design with as many samples as a cubic between them needs."""
+    samples = FEWEST_SAMPLES
+    motion = family.solve(params, samples)
+    reach = _reach(parts)
+    while samples < MOST_SAMPLES and _error(motion, reach) > FAITHFUL:
+        samples = 2 * samples - 1
+        motion = family.solve(params, samples)
+    return motion
+
+
+def _error(motion: Motion, reach: float) -> float:
+    paths = [space_path(poses.rotation, poses.position) for poses in motion.poses.values()]
+    return max((path.error(reach) for path in paths), default=0.0)
+
+
+def _reach(parts: Sequence[Part]) -> float:
+    """Greatest distance, mm, of a plate's corner from its own axis; a solid's is not asked for."""
+    far = [np.abs(part.outline.bounds).max() for part in parts if part.outline is not None]
+    return float(np.hypot(1, 1) * max(far, default=_USUAL))
+
+
+def interference_findings(
+    family: Family[Any], params: Parameters, *, solids: bool, parts: Sequence[Part] | None = None
+) -> list[Finding]:
+    """What the check says of a design whose own check found no error; ``parts`` if they are known already."""
+    parts = family.parts(params) if parts is None else parts
+    if sum(len(part.instances) for part in parts) < 2:
+        return []
+    motion = faithful_motion(family, params, parts)
+    return list(interference(parts, motion, solids=solids).findings())

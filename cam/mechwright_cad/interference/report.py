@@ -1,0 +1,130 @@
+"""What an interference check says."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
+
+MOST = 5
+"""Collisions that are printed one by one, the deepest ones: a design with more has one cause for many."""
+
+
+@dataclass(frozen=True, slots=True)
+class Instant:
+    """A value of the input channel."""
+
+    name: str
+    value: float
+    unit: str
+
+    def __str__(self) -> str:
+        if self.unit == "rad":
+            return f"{self.name} = {math.degrees(self.value):.3f} deg"
+        return f"{self.name} = {self.value:.4f} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """Two bodies that stand in each other.
+
+    Parameters
+    ----------
+    first, second
+        Their names in the assembly.
+    instant
+        Where in the motion the overlap is deepest.
+    depth
+        The greatest distance, mm, of a point of one body's surface, inside the other one, from its surface;
+        of two plates at most the height that they have in common.
+    at
+        The place, mm, in the frame of the mechanism.
+    """
+
+    first: str
+    second: str
+    instant: Instant
+    depth: float
+    at: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """The smallest gap that was seen between two bodies that move past each other, mm."""
+
+    first: str
+    second: str
+    instant: Instant
+    distance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The result of a check over a whole motion.
+
+    Parameters
+    ----------
+    pairs
+        Number of pairs of bodies compared.
+    collisions
+        The deepest one first; none if the mechanism is clear.
+    closest
+        The smallest gap above contact among plates, where one was looked at in detail.
+    skipped
+        Names of bodies that were not compared with all others because solids were not asked for.
+    """
+
+    pairs: int
+    collisions: tuple[Collision, ...]
+    closest: Gap | None = None
+    skipped: tuple[str, ...] = ()
+
+    @property
+    def clear(self) -> bool:
+        """Whether nothing that was compared collides."""
+        return not self.collisions
+
+    @of_stage(Stage.PARTS)
+    def findings(self) -> Iterator[Finding]:
+        """An error for each of the deepest collisions, or a note that there is none."""
+        for place, hit in enumerate(self.collisions[:MOST]):
+            rest = len(self.collisions) - MOST
+            more = f"; {rest} more pairs collide" if place == MOST - 1 and rest > 0 else ""
+            x, y, z = hit.at
+            yield Finding(
+                "interference.collision",
+                Severity.ERROR,
+                "",
+                f"{hit.first} and {hit.second} stand in each other, {hit.depth:.3f} mm deep at "
+                f"{hit.instant}, near X{x:.2f} Y{y:.2f} Z{z:.2f}{more}",
+                hit.depth,
+                0.0,
+                "mm",
+                "give them heights of their own, or change the sizes that bring them together",
+            )
+        if self.skipped:
+            yield Finding(
+                "interference.solids",
+                Severity.NOTE,
+                "",
+                f"{', '.join(self.skipped)}: no plates in parallel planes; "
+                "the commands model and build compare them",
+            )
+        if self.clear and self.pairs:
+            seen = ""
+            if self.closest is not None:
+                gap = self.closest
+                seen = (
+                    f"; the smallest gap seen is {gap.distance:.3f} mm, between {gap.first} and {gap.second} "
+                    f"at {gap.instant}"
+                )
+            compared = "one pair" if self.pairs == 1 else f"{self.pairs} pairs"
+            yield Finding(
+                "interference.clear",
+                Severity.NOTE,
+                "",
+                f"no two bodies collide over the whole motion ({compared} compared){seen}",
+                None if self.closest is None else self.closest.distance,
+                None,
+                "mm" if self.closest is not None else "",
+            )

@@ -1,0 +1,210 @@
+"""Plates as slabs: a polygon between two heights, with the loops that bound it.
+
+Coordinates are those of the body: x and y of the part, z upwards with the height of the instance added.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import pairwise
+
+import numpy as np
+import shapely
+
+from mechwright.arrays import Array
+from mechwright.contracts.part import Instance, Part, Profile
+from mechwright.contracts.sections import plan_view
+from mechwright.errors import GeometryError
+from mechwright.tolerances import TOLERANCES
+
+LOOP_CHORD = 0.0015
+"""Chord error of the loops that are swept against each other, mm: three times fewer edges than with that of
+drawings. Overlaps are measured on the finer polygons."""
+
+TOUCH = 0.005
+"""Overlap that passes as contact, mm: what two fitted outlines (``outline`` each) and their chords
+(``LOOP_CHORD`` each) can put on a fit without clearance, where nothing overlaps in truth."""
+
+SURE_IN_PLAN = 2 * TOUCH
+"""Every overlap deeper than this is found, mm: fits and chords may hide as much as they may feign."""
+
+_ROUND = 1e-6
+"""Corners of a loop that are so equally far from one point, mm, lie on a circle; a thousandth of an outline's
+own deviation."""
+
+_LEAST_ROUND = 8
+"""Corners of a circle, at least: fewer are a polygon that happens to have a circle through its corners."""
+
+_SHARP = 0.01
+"""Cosine of a corner's angle from which it is sharper than a right one."""
+
+_NO_EDGES = np.empty((0, 2, 2))
+
+_THIN = 1e-6
+"""Layers thinner than this are rounding, mm."""
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A circle: centre (2,) and radius, mm."""
+
+    centre: Array
+    radius: float
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A loop of a slab: its corners (n, 2), mm, whether it is a hole, and the circle that it is, if any."""
+
+    points: Array
+    hole: bool
+    circle: Circle | None = None
+
+    @classmethod
+    def of(cls, points: Array, hole: bool) -> "Ring":
+        """Look at a closed polygon (n, 2) with fine chords, the first not repeated, and thin it out."""
+        slim = shapely.simplify(shapely.Polygon(points), LOOP_CHORD - TOLERANCES.flatten)
+        few = shapely.get_coordinates(slim.exterior)[:-1]
+        if len(points) < _LEAST_ROUND:
+            return cls(few, hole)
+        middle = _circle_centre(points)
+        reach = np.hypot(*(points - middle).T)
+        radius = float(reach.mean())
+        edge = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
+        sagitta = float(edge.max()) ** 2 / (8 * radius)
+        if np.ptp(reach) < _ROUND and sagitta < LOOP_CHORD:
+            return cls(few, hole, Circle(middle, radius))
+        return cls(few, hole)
+
+    def shrunk(self) -> list["Ring"]:
+        """The loop moved into the material by ``TOUCH``; of a thinner body nothing is left."""
+        inwards = TOUCH if self.hole else -TOUCH
+        if self.circle is not None:
+            centre, radius = self.circle.centre, self.circle.radius + inwards
+            if radius <= 0:
+                return []
+            points = centre + (self.points - centre) * (radius / self.circle.radius)
+            return [Ring(points, self.hole, Circle(centre, radius))]
+        moved = shapely.buffer(shapely.Polygon(self.points), inwards, join_style="mitre")
+        return [
+            Ring(shapely.get_coordinates(piece.exterior)[:-1], self.hole)
+            for piece in shapely.get_parts(moved)
+            if not piece.is_empty
+        ]
+
+
+@dataclass(frozen=True)
+class Slab:
+    """A layer of a plate.
+
+    Parameters
+    ----------
+    polygon
+        Its cross-section, within ``TOLERANCES.flatten``, mm.
+    bottom, top
+        Its heights in the body, mm.
+    """
+
+    polygon: shapely.Polygon
+    bottom: float
+    top: float
+
+    @cached_property
+    def rings(self) -> tuple[Ring, ...]:
+        """The loops, within ``LOOP_CHORD``."""
+        loops = [self.polygon.exterior, *self.polygon.interiors]
+        return tuple(
+            Ring.of(shapely.get_coordinates(loop)[:-1], place > 0) for place, loop in enumerate(loops)
+        )
+
+    @cached_property
+    def core(self) -> tuple[Ring, ...]:
+        """The loops moved into the material by ``TOUCH``."""
+        return tuple(piece for ring in self.rings for piece in ring.shrunk())
+
+    @cached_property
+    def points(self) -> Array:
+        """The edges (n, 2, 2), mm, at corners that are sharper than a right angle."""
+        return np.concatenate(
+            [_sharp(ring.points) for ring in self.rings if ring.circle is None] or [_NO_EDGES]
+        )
+
+    @cached_property
+    def core_shape(self) -> shapely.Geometry:
+        """The cross-section without its skin of ``TOUCH``."""
+        return shapely.buffer(self.polygon, -TOUCH)
+
+    @cached_property
+    def disc(self) -> Circle | None:
+        """The outside of a round slab without openings."""
+        return self.rings[0].circle if len(self.rings) == 1 else None
+
+    @cached_property
+    def around(self) -> Circle:
+        """A circle about the slab."""
+        x0, y0, x1, y1 = self.polygon.bounds
+        middle = np.array(((x0 + x1) / 2, (y0 + y1) / 2))
+        return Circle(middle, float(np.hypot(*(self.rings[0].points - middle).T).max()) + LOOP_CHORD)
+
+    def face_down(self) -> "Slab":
+        """The slab turned over about x."""
+        turned = shapely.transform(self.polygon, lambda points: points * (1.0, -1.0))
+        return Slab(shapely.orient_polygons(turned), -self.top, -self.bottom)
+
+
+def _sharp(points: Array) -> Array:
+    """The edges (n, 2, 2) at sharp corners of a polygon that has the material on its left or on its right."""
+    into = points - np.roll(points, 1, axis=0)
+    out = np.roll(points, -1, axis=0) - points
+    cosine = (into * out).sum(axis=1) / np.maximum(np.hypot(*into.T) * np.hypot(*out.T), 1e-300)
+    at = np.flatnonzero(cosine < -_SHARP)
+    before = np.stack((np.roll(points, 1, axis=0)[at], points[at]), axis=1)
+    after = np.stack((points[at], np.roll(points, -1, axis=0)[at]), axis=1)
+    return np.concatenate((before, after))
+
+
+def _circle_centre(points: Array) -> Array:
+    """Centre (2,) of the circle that fits points (n, 2) best: x² + y² is linear in 1, x and y on it."""
+    origin = points.mean(axis=0)
+    near = points - origin
+    rows = np.column_stack((2 * near, np.ones(len(near))))
+    solution = np.linalg.lstsq(rows, (near**2).sum(axis=1), rcond=None)[0]
+    centre: Array = origin + solution[:2]
+    return centre
+
+
+@lru_cache(maxsize=128)
+def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
+    """The layers of a plate in its body, from the top down.
+
+    The outline has every opening that goes through; features that do not are taken from the layers they
+    reach. A layer in several pieces gives several slabs.
+
+    Raises
+    ------
+    GeometryError
+        The part is no plate, or its outline cuts itself.
+    """
+    if part.outline is None:
+        raise GeometryError(f"part {part.name} is no plate")
+    thickness = part.thickness
+    partial = [f for f in part.features if f.top > _THIN or f.top + f.depth < thickness - _THIN]
+    depths = {0.0, thickness}
+    for feature in partial:
+        depths |= {min(max(depth, 0.0), thickness) for depth in (feature.top, feature.top + feature.depth)}
+    slabs: list[Slab] = []
+    for upper, lower in pairwise(sorted(depths)):
+        if lower - upper < _THIN:
+            continue
+        shape: shapely.Geometry = part.outline.polygon()
+        for feature in partial:
+            if feature.top < (upper + lower) / 2 < feature.top + feature.depth:
+                inside = plan_view(feature)
+                outside = isinstance(feature, Profile) and feature.side == "outside"
+                shape = shape.intersection(inside) if outside else shape.difference(inside)
+        base = instance.z + thickness
+        slabs += [
+            Slab(piece, base - lower, base - upper)
+            for piece in shapely.get_parts(shape)
+            if isinstance(piece, shapely.Polygon) and piece.area > 0
+        ]
+    return tuple(slabs)

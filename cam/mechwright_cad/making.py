@@ -1,0 +1,186 @@
+"""The solids of a build: whether they collide, their files, and the page on which they move.
+
+All of it takes the CAD kernel, which takes long to import; in ``build`` a second process does it beside
+drawings and programs, where there is a core for that.
+"""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, cast
+
+from mechwright.beside import Beside
+from mechwright.build import Build
+from mechwright.contracts.exporter import Exporter
+from mechwright.contracts.finding import Finding, errors
+from mechwright.contracts.holes import joined
+from mechwright.cores import cores
+from mechwright.designs.design import Design
+from mechwright.errors import MechwrightError
+from mechwright.output.folder import Output
+
+if TYPE_CHECKING:
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+
+IN_SPACE = frozenset({"model", "build"})
+"""Commands that make solids; the others look at plates alone, for which no CAD kernel is needed."""
+
+Made = tuple[list[Finding], dict[str, bytes]]
+"""What collides, and the files, name to content."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """What is to be done: a design whose own check has found no error, and where its assembly stands.
+
+    ``known`` are the parts, if they have been made: it takes no work to make them again, but in a second
+    process, to which only plates can be sent.
+    """
+
+    design: Design
+    exporters: Sequence[Exporter]
+    motion: "Motion"
+    sample: int
+    known: "Sequence[Part] | None" = None
+
+    @cached_property
+    def parts(self) -> "Sequence[Part]":
+        """The parts of the design."""
+        return self.design.parts() if self.known is None else self.known
+
+    def collisions(self) -> list[Finding]:
+        """Which bodies stand in each other while the mechanism moves. Imports the CAD kernel."""
+        return collisions(self.design, self.parts, solids=True)
+
+    def files(self) -> dict[str, bytes]:
+        """Every part, and the assembly, in every format: file name to content.
+
+        Raises
+        ------
+        GeometryError
+            A part cannot be made or is not right.
+        OutputError
+            Two files would have one name.
+        """
+        made = Output()
+        placed = any(part.instances for part in self.parts)
+        for exporter in self.exporters:
+            for part in self.parts:
+                made.add(part.name + exporter.suffix, exporter.part(part))
+            name = self.design.name
+            assembly = exporter.assembly(name, self.parts, self.motion, self.sample) if placed else None
+            if assembly is not None:
+                made.add("assembly" + exporter.suffix, assembly)
+        return made.files
+
+
+def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list[Finding]:
+    """Which bodies stand in each other while the mechanism moves; ``solids`` imports the CAD kernel.
+
+    What is pressed or screwed into a hole is meant to.
+    """
+    from mechwright_cad.interference import interference_findings
+
+    met = [joined(part) for part in parts]
+    return interference_findings(design.family, design.params, solids=solids, parts=met)
+
+
+def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:
+    """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
+    from mechwright_cad.animation import MOTION, page_of
+
+    page = page_of(design.name, design.family, design.params, solids=solids, parts=parts)
+    return {MOTION: page.encode()}
+
+
+def compared_and_made(work: Work) -> Made:
+    """Whether bodies collide; and the files of a build with its page, if none do."""
+    met = work.collisions()
+    made = {} if errors(met) else work.files() | motion_page(work.design, work.parts, solids=True)
+    return met, made
+
+
+class Solids:
+    """The solids of one build, compared and written in this process, or in a second one.
+
+    The second process is begun only if it gains something: if there is other work meanwhile, if a library
+    that the exporters need is not imported yet, and if there is a core to do it.
+    """
+
+    def __init__(self, build: Build) -> None:
+        self._build = build
+        named = ["step", *(name for name in build.wanted.formats if name != "step")]
+        if build.wanted.command == "build":  # drawings are written with the programs
+            named = [name for name in named if name != "dxf"]
+        self._exporters = [build.host.get(Exporter, name) for name in named]
+        self._second: Beside | None = None
+        self._made: Made | None = None
+
+    def warm(self) -> None:
+        """Begin the second process, if it gains something."""
+        modules = {module for exporter in self._exporters for module in exporter.modules}
+        heavy = sorted(modules - set(sys.modules))
+        if heavy and cores() > 1:
+            self._second = Beside(heavy)
+            self._build.when_closed(self._second.close)
+
+    @property
+    def beside(self) -> bool:
+        """Whether a second process is at it: other work comes first then."""
+        return self._second is not None
+
+    @cached_property
+    def _work(self) -> Work:
+        build = self._build
+        motion, sample = build.pose
+        return Work(build.design, self._exporters, motion, sample, build.parts)
+
+    def begin(self) -> None:
+        """Give the second process its work: a design whose own check has found no error."""
+        if self._second is not None and self._made is None:
+            plates = all(part.build is None for part in self._build.parts)
+            work = self._work if plates else Work(*(getattr(self._work, key) for key in _SENT))
+            self._second.ask(compared_and_made, work)
+
+    def collisions(self) -> list[Finding]:
+        """Which bodies collide, and what else there is to say of that."""
+        if self._second is not None:
+            return self._result()[0]
+        if self._build.wanted.command in IN_SPACE:
+            return self._work.collisions()
+        return collisions(self._build.design, self._build.parts, solids=False)
+
+    def files(self) -> dict[str, bytes]:
+        """Every part, and the assembly, in every format."""
+        from mechwright_cad.animation import MOTION
+
+        if self._second is not None:
+            return {name: content for name, content in self._result()[1].items() if name != MOTION}
+        return self._work.files()
+
+    def page(self) -> dict[str, bytes]:
+        """The page on which the mechanism moves."""
+        from mechwright_cad.animation import MOTION
+
+        if self._second is not None:
+            return {MOTION: self._result()[1][MOTION]}
+        build = self._build
+        if build.wanted.command in IN_SPACE:
+            return motion_page(build.design, build.parts, solids=True)
+        try:
+            return motion_page(build.design, build.parts, solids=False)
+        except MechwrightError as error:  # the mechanism moves all the same
+            build.faults.append(f"{MOTION} shows no bodies, which cannot be drawn: {error}")
+            return motion_page(build.design, (), solids=False)
+
+    def _result(self) -> Made:
+        if self._made is None:
+            assert self._second is not None  # noqa: S101 - all callers have asked
+            self._made = cast(Made, self._second.result(tuple))
+        return self._made
+
+
+_SENT = ("design", "exporters", "motion", "sample")
+"""Fields of :class:`Work` that can be sent to a second process whatever the parts are made of."""

@@ -1,0 +1,75 @@
+"""What the CAD room registers beside exporters: solids, the page of the motion, and what collides."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from mechwright.build import Build, Inspection, Page
+from mechwright.contracts.finding import Finding, Stage
+
+if TYPE_CHECKING:
+    from mechwright_cad.making import Solids
+
+
+def _solids(build: Build) -> "Solids":
+    from mechwright_cad.making import Solids
+
+    return build.made(Solids)
+
+
+class SolidFiles(Page):
+    """Every part and the assembly, in every format that is wanted."""
+
+    name = "solids"
+    commands = frozenset({"model", "build"})
+    doing = "solids"
+
+    def warm(self, build: Build) -> None:
+        """Have the CAD kernel imported beside the programs of a build."""
+        if build.wanted.command == "build":
+            _solids(build).warm()
+
+    def begin(self, build: Build) -> None:
+        """Have the solids made beside the programs."""
+        _solids(build).begin()
+
+    def late(self, build: Build) -> bool:
+        """Whether a second process makes them."""
+        return _solids(build).beside
+
+    def files(self, build: Build) -> dict[str, bytes]:
+        """File name to content."""
+        return _solids(build).files()
+
+
+class MotionPage(Page):
+    """``motion.html``, on which the mechanism moves."""
+
+    name = "motion-page"
+    commands = frozenset({"solve", "build"})
+    doing = "motion"
+
+    def late(self, build: Build) -> bool:
+        """Whether a second process makes it."""
+        return _solids(build).beside
+
+    def files(self, build: Build) -> dict[str, bytes]:
+        """The page."""
+        return _solids(build).page()
+
+
+class Interference(Inspection):
+    """Bodies that stand in each other while the mechanism moves."""
+
+    name = "interference"
+    commands = frozenset({"check", "solve", "model", "cam", "build"})
+    stage = Stage.PARTS
+    order = 10
+    doing = "interference"
+
+    def late(self, build: Build) -> bool:
+        """Whether a second process compares them."""
+        return _solids(build).beside
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """What meets, and where."""
+        return _solids(build).collisions()

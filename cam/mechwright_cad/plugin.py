@@ -1,0 +1,21 @@
+"""What the CAD room registers: exporters, solids, the page of the motion, and what collides."""
+
+from mechwright.contracts.plugin import Plugin
+from mechwright.plugins.hookspecs import hookimpl
+from mechwright_cad.exporters import DxfExporter, GlbExporter, StepExporter, StlExporter, ThreeMfExporter
+from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+
+
+@hookimpl
+def mechwright_register() -> list[type[Plugin]]:
+    """The file formats, the pages, and the inspection."""
+    return [
+        StepExporter,
+        DxfExporter,
+        StlExporter,
+        ThreeMfExporter,
+        GlbExporter,
+        SolidFiles,
+        MotionPage,
+        Interference,
+    ]

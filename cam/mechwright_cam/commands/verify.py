@@ -1,0 +1,113 @@
+"""Proving programs that come from anywhere."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import typer
+
+from mechwright.build import Build, Wanted
+from mechwright.cli.hosting import open_host
+from mechwright.cli.perform import refuse
+from mechwright.contracts.finding import errors
+from mechwright.designs.files import SIZE_LIMIT, read_text
+from mechwright.errors import DesignError, PluginError, ProgramError
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.machining import Machining, machine, second_setup
+from mechwright_cam.planning import choose_tools
+from mechwright_cam.planning.prepare import cut_plates, library_of
+from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
+from mechwright_cam.proof.judge import prove
+from mechwright_cam.proof.report import Proof
+from mechwright_cam.proof.rule import Rule
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.shop.table import settings_of
+
+PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
+"""Bytes: surfacing programs are long, but not longer than this."""
+
+
+def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, control: str = "") -> None:
+    """Prove a program in one file, or in several that are run in order; exit code 1 if it is not proven."""
+    with Build(path, open_host(), Wanted("verify")) as build:
+        _ = build.design
+        # Comments may be of any age.
+        texts = {str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1")[0] for file in programs}
+        if len(texts) < len(programs):
+            raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
+        program, *rest = texts
+        text = texts if rest else texts[program]
+        program += f" to {rest[-1]}" if rest else ""
+        if stopping := errors(build.findings):
+            refuse(stopping, path)
+        try:
+            proof = proof_of(build, part_name, text, control)
+        except ProgramError as error:  # of several files it names the one
+            raise ProgramError(f"{program}: {error}" if len(texts) == 1 else str(error)) from error
+    if as_json:
+        typer.echo(json.dumps(proof.as_dict(), indent=2))
+    else:
+        for check in proof.checks.values():
+            if check.passed:
+                typer.echo(f"pass [{check.name}] {check.message}")
+        for check in proof.failures:
+            typer.echo(f"mechwright: {program}: FAIL [{check.name}] {check.message}", err=True)
+        typer.echo(f"{program}: " + ("proven" if proof.ok else "does not cut the part"))
+    raise typer.Exit(0 if proof.ok else 1)
+
+
+def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], control: str = "") -> Proof:
+    """Prove a program for one part of a design, with every cutter of the library at hand.
+
+    Parameters
+    ----------
+    build
+        Of the design.
+    part_name
+        A part or nest; with ``-underside`` behind it, its second side.
+    text
+        One text, or several files by name in the order they are run.
+    control
+        Name of the control that reads it; by default that of the design.
+    """
+    design = build.design
+    library, assignments = library_of(design), build.made(Machining).assignments
+    known = {
+        part.name: part for part in (*build.parts, *cut_plates(design, build.parts, library, assignments))
+    }
+    name = part_name if part_name in known else part_name.removesuffix(UNDERSIDE)
+    if name not in known:
+        raise DesignError(
+            f"--part: {part_name!r} is no part of {design.path}; it has: {', '.join(sorted(known))}"
+        )
+    reader, rules = _reader(build, control), build.host.all(Rule)
+    part, underside = known[name], name != part_name
+    cam = settings_of(design).of(part.name)
+    library = library.cutting(cam.cutting)
+    if underside or sides(part)[1]:
+        jobs, found = lay_out_setups(part, cam, library, assignments)
+        chosen = [job for job in jobs if (job.side == "underside") == underside]
+        if errors(found) or not chosen:
+            fault = str(errors(found)[0]) if errors(found) else f"part {part.name} is cut from above only"
+            raise DesignError(f"{design.path}: {fault}")
+        (job,) = chosen
+        if underside:  # on the plate as our own program for the first side leaves it
+            own = build.made(Machining).control
+            job = second_setup(machine(jobs[0], own, assignments=assignments, rules=rules), job)
+    else:
+        job = make_job(part, cam, choose_tools(part, cam, library, assignments))
+    job = replace(job, tools=library.measured(cam.measured.lengths).tools)
+    return prove(text, job, reader, rules)
+
+
+def _reader(build: Build, name: str) -> Control:
+    """The control that reads the program."""
+    if not name:
+        return build.made(Machining).control
+    try:
+        return build.host.get(Control, name)
+    except PluginError:
+        known = ", ".join(sorted(build.host.of(Control)))
+        raise PluginError(f"--control: {name!r} is not known; one of: {known}") from None

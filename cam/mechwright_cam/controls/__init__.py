@@ -1,0 +1,1 @@
+"""Controls: how each writes programs, reads them, and what it keeps of tools and work offsets."""

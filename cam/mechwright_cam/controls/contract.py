@@ -1,0 +1,144 @@
+"""The contract of a control: all that there is to know about one kind of machine control, in one class."""
+
+from abc import abstractmethod
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.contracts.plugin import Plugin
+from mechwright_cam.controls.corners import EXACT, Corners
+from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.work_offsets import G54_TO_G59, WorkOffsets
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from mechwright.contracts.finding import Finding
+    from mechwright_cam.controls.reading.run import Run
+    from mechwright_cam.program.moves import Program
+    from mechwright_cam.shop.machine import Machine
+    from mechwright_cam.shop.posting import ToolChange
+    from mechwright_cam.shop.settings import CamSettings
+    from mechwright_cam.shop.tool import Tool
+
+
+class Control(Plugin):
+    """Writes programs, reads them, and knows its tables, its limits and its words for the operator.
+
+    Pages and proof ask the control itself, never its name: a control that inherits from another and changes
+    one fact is told of rightly everywhere. Controls that read RS274 words derive from
+    :class:`mechwright_cam.controls.gcode.GcodeControl`.
+    """
+
+    kind = "control"
+    plural = "controls"
+    texts = ("title", "suffix")
+
+    title: ClassVar[str]
+    """Name for people."""
+    suffix: ClassVar[str] = ".nc"
+    """Ending of program files."""
+    offsets: ClassVar[OffsetTables] = OffsetTables()
+    """What it keeps of each tool."""
+    work_offsets: ClassVar[tuple[WorkOffsets, ...]] = (G54_TO_G59,)
+    """The work offsets it has."""
+    by_hand: ClassVar["ToolChange"] = "pause"
+    """How a control without a tool change has tools changed, unless the design file says so itself."""
+
+    # -- programs -----------------------------------------------------------------------------------------
+
+    @abstractmethod
+    def write(self, program: "Program") -> str:
+        """The program text, lines ended by a line feed."""
+
+    def files(self, program: "Program") -> dict[str, str]:
+        """The program as files, stem to text, in the order in which they are run; most controls take one."""
+        return {program.name: self.write(program)}
+
+    @abstractmethod
+    def read(
+        self,
+        program: "str | Mapping[str, str]",
+        *,
+        block_delete: bool = False,
+        upper_end: float = 0.0,
+        diameters: "Mapping[int, float] | None" = None,
+    ) -> "Run":
+        """Run a program as the control would, wherever it comes from.
+
+        Parameters
+        ----------
+        program
+            The text, or several files by name in the order in which they are run.
+        block_delete
+            Whether lines that start with ``/`` are skipped.
+        upper_end
+            Machine Z of a full retract, mm: to there or higher is the machine's upper end.
+        diameters
+            D number to the diameter of the cutter that it stands for, mm.
+
+        Raises
+        ------
+        ProgramError
+            The control would stop, or the reader would have to guess. The message names file and line.
+        """
+
+    @property
+    def decimals(self) -> int:
+        """Decimals of a coordinate, mm, that the control keeps."""
+        return 4
+
+    @property
+    def corners(self) -> Corners:
+        """How far the control leaves the path between two moves."""
+        return EXACT
+
+    @property
+    def length_write(self) -> tuple[int, str] | None:
+        """L of the G10 that sets a tool's length, and the letter of the length; None without such a table."""
+        return None
+
+    # -- limits and tables --------------------------------------------------------------------------------
+
+    def check(self, settings: "CamSettings") -> "Sequence[Finding]":  # noqa: ARG002 - for controls with limits
+        """What the control cannot do of what a design file asks for."""
+        return ()
+
+    def check_tools(self, settings: "CamSettings", tools: "Sequence[Tool]") -> "Sequence[Finding]":  # noqa: ARG002
+        """What the control cannot do with the tools of a job, whose lengths are those measured."""
+        return ()
+
+    @abstractmethod
+    def tool_table(self, tools: "Sequence[Tool]") -> tuple[str, str]:
+        """File name and text of the control's tool table; two empty strings if it has none."""
+
+    def offset_table(self, tools: "Sequence[Tool]", settings: "CamSettings") -> tuple[str, str]:  # noqa: ARG002
+        """The tool table of a job with cutter compensation, whose D offsets it holds as well.
+
+        By default that of :meth:`tool_table`.
+        """
+        return self.tool_table(tools)
+
+    # -- words for the operator, in programs, on setup sheets and in the proof's advice -------------------
+
+    def m(self, code: int) -> str:
+        """The control's word for a usual M code: 0 stop, 3 and 5 spindle, 6 tool, 7 to 9 coolant, 30 end."""
+        return f"M{code}"
+
+    def change_words(self, tool: int) -> str:
+        """What changes to a tool."""
+        return f"T{tool} {self.m(6)}"
+
+    def length_words(self, tool: int) -> str:
+        """What puts a tool's length offset in force."""
+        return f"G43 H{tool}"
+
+    def setting_words(self, offset: str) -> str:
+        """What sets a work offset, without its axes."""
+        return next(row for row in self.work_offsets if row.has(offset)).setting(offset)
+
+    def retract_words(self, machine: "Machine") -> str:
+        """What goes to the upper end of a machine."""
+        return f"G53 G0 Z{machine.retract_z:g}"
+
+    def table_words(self, table: str) -> str:
+        """What to do with the file of the tool table."""
+        return f"{table} lists the tools: enter the measured lengths there."

@@ -1,0 +1,187 @@
+"""How controls differ in reading the same text."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from mechwright_cam.controls.corners import EXACT, Corners
+
+PECK_CLEARANCE = 0.254
+"""How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
+USUAL_M = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
+"""M codes that mean the same on nearly every mill."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """What one control understands, and what it means by it.
+
+    Parameters
+    ----------
+    g_codes, m_codes
+        Codes that are interpreted, G codes in tenths (``591`` is G59.1).
+    m_words
+        Usual M codes that the control spells otherwise, each with its own; the usual one is then none of its
+        words, unless it spells another of them.
+    unsupported
+        G codes in tenths that the control knows and this interpreter refuses, each with what to do instead.
+    inert
+        G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
+        letters that belong to it.
+    inert_m
+        M codes that change nothing the proof asks about.
+    dwell_unit
+        Seconds per unit of P in G4.
+    bare_dwell_unit
+        The same for a P without a decimal point; None if the point makes no difference.
+    absolute_centres
+        Whether I and J are absolute coordinates at the start of a program.
+    semicolon_comments
+        Whether ``;`` starts a comment that runs to the end of the line.
+    peck_clearance
+        How far above the last depth the next peck of G83 starts, and how far G73 draws back, mm.
+    arc_absolute, arc_relative
+        The control refuses an arc whose two radii differ by more than both, in mm and as a part of the
+        radius.
+    line_length
+        Longest line, characters.
+    change_stops_spindle
+        Whether M6 stops the spindle.
+    percent_ends
+        Whether a second ``%`` line ends the program as M2 does.
+    percent
+        Whether a line may be a ``%`` at all.
+    arc_most
+        The control refuses any arc whose radii differ by more, mm.
+    counts_code
+        Whether blanks and comments count for the length of a line.
+    decimals
+        Decimals of a coordinate, mm, that the control keeps.
+    point_needed
+        Whether a length or feed without a decimal point would mean thousandths; it is refused then.
+    program_numbers
+        Whether a line may be a program number, O1234.
+    tool_by_t
+        Whether a tool counts as changed at its T word, by hand, because there is no M6.
+    macros
+        Gives the lines that are run of a program that works out its values and its way, such as
+        :class:`mechwright_cam.controls.reading.macros.Macros`; None if the control has no such programs.
+    numbers_needed
+        Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
+    home_cancels_length
+        Whether G28 of Z may end G43, so that it has to be stated anew.
+    length_write
+        L of the G10 that sets a tool's length, and the letter of the length; None without such a table.
+    bare_home
+        Whether G28 without an axis sends all of them home.
+    corners
+        How far the control leaves the path between two moves.
+    forbidden
+        Characters that the control obeys out of the stream, wherever they stand.
+    name
+        Name for messages; a control gives its own title.
+    """
+
+    g_codes: frozenset[int]
+    m_codes: frozenset[int] = USUAL_M
+    m_words: tuple[tuple[int, int], ...] = ()
+    unsupported: tuple[tuple[int, str], ...] = ()
+    inert: tuple[tuple[int, str], ...] = ()
+    inert_m: frozenset[int] = frozenset()
+    dwell_unit: float = 1.0
+    bare_dwell_unit: float | None = None
+    absolute_centres: bool = False
+    semicolon_comments: bool = True
+    peck_clearance: float = PECK_CLEARANCE
+    arc_absolute: float = 0.0283
+    arc_relative: float = 0.001
+    line_length: int = 255
+    change_stops_spindle: bool = True
+    percent_ends: bool = True
+    percent: bool = True
+    arc_most: float = math.inf
+    counts_code: bool = False
+    decimals: int = 4
+    point_needed: bool = False
+    program_numbers: bool = False
+    tool_by_t: bool = False
+    forbidden: str = ""
+    macros: Callable[..., Any] | None = None
+    home_cancels_length: bool = False
+    numbers_needed: str = ""
+    length_write: tuple[int, str] | None = (1, "Z")
+    bare_home: bool = True
+    corners: Corners = EXACT
+    name: str = "the control"
+
+    def m(self, code: int) -> int:
+        """The control's own M code for a usual one.
+
+        >>> dialect = Dialect(frozenset(), m_words=((8, 108),))
+        >>> dialect.m(8), dialect.m(9)
+        (108, 9)
+        """
+        return dict(self.m_words).get(code, code)
+
+    def usual_m(self, code: int) -> int | None:
+        """The usual M code for one of the control's own; None for a usual one that is none of its words.
+
+        >>> dialect = Dialect(frozenset(), m_words=((8, 108),))
+        >>> dialect.usual_m(108), dialect.usual_m(9), dialect.usual_m(8)
+        (8, 9, None)
+        """
+        for usual, own in self.m_words:
+            if code == own:
+                return usual
+        return None if code in dict(self.m_words) else code
+
+
+CENTRE = "shift the origin with a work offset"
+FEEDS = "write feeds in units per minute (G94)"
+_TAPPING = "tapping is not simulated"
+_MACRO = "macros and subprograms are not read; post the program without them"
+
+RETURN = 300
+"""G30: to the second reference point."""
+MILLING = frozenset(
+    {
+        0,
+        10,
+        20,
+        30,
+        40,
+        280,
+        RETURN,
+        530,
+        170,
+        180,
+        190,
+        410,
+        420,
+        200,
+        210,
+        400,
+        430,
+        490,
+        800,
+        810,
+        820,
+        830,
+    }
+    | {540, 550, 560, 570, 580, 590, 610, 640, 900, 910, 940, 100, 730, 850, 890, 980, 990}
+)
+"""G codes that Fanuc and those who follow it share, in tenths."""
+NOT_SIMULATED = (
+    (650, _MACRO),
+    (660, _MACRO),
+    (740, _TAPPING),
+    (840, _TAPPING),
+    (520, CENTRE),
+    (920, CENTRE),
+    (930, FEEDS),
+    (950, FEEDS),
+    (680, "rotation is not simulated"),
+    (510, "scaling is not simulated"),
+)
+"""G codes that they share as well, and that are refused, each with what to do."""

@@ -1,0 +1,101 @@
+"""Fanuc controls (0i, 30i and their kin) with custom of the trade: see docs/controls.md."""
+
+from collections.abc import Sequence
+
+from mechwright_cam.controls.corners import Corners
+from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.offsets import DOffset, OffsetTables
+from mechwright_cam.controls.work_offsets import FANUC_OFFSETS, G54_TO_G59
+from mechwright_cam.controls.writing.text import comment_lines
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+OFFSETS_NUMBER = 7999
+"""O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""
+
+
+class Fanuc(GcodeControl):
+    """Fanuc: percent signs and an O number, retract by G91 G28, numbers with a point, P in milliseconds.
+
+    Milling, offset memory C, conventional decimal point.
+    """
+
+    name = "fanuc"
+    title = "Fanuc"
+    dialect = Dialect(
+        g_codes=MILLING | {541},
+        unsupported=NOT_SIMULATED,
+        inert=((90, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
+        inert_m=frozenset({19}),
+        bare_dwell_unit=0.001,
+        semicolon_comments=False,
+        peck_clearance=1.0,
+        decimals=3,
+        point_needed=True,
+        percent_ends=False,
+        program_numbers=True,
+        home_cancels_length=True,
+        numbers_needed="DH",
+        length_write=(10, "R"),
+        bare_home=False,
+        # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed.
+        corners=Corners(
+            looser=((51, "R", frozenset({10.0}), "write R10 (precision), or leave the level to the machine"),)
+        ),
+    )
+    offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)
+    work_offsets = (G54_TO_G59, FANUC_OFFSETS)
+    capitals = True
+    retract_motion = ""
+    forbidden = '%;@&!?"<>{}|\\^`~$'
+
+    def frame(self, out: Writer) -> None:
+        """Percent sign and program number."""
+        out.line("%")
+        name = "".join(comment_lines(out.program.name, forbidden=self.forbidden, upper=True)[:1])
+        out.line(f"O{out.program.posting.program_number:04d}", f"({name})")
+
+    def retract_lines(self, z: float) -> Sequence[str]:  # noqa: ARG002 - the reference point is the control's
+        """To the reference point of Z, from where the tool stands: G91 makes that the way."""
+        return f"G91 G28 Z{self.length(0.0)}", "G90"
+
+    def end(self, out: Writer) -> None:
+        """End, rewind, and the closing percent sign."""
+        super().end(out)
+        out.line("%")
+
+    def tool_words(self, tool: Tool) -> list[str]:
+        """The length as geometry offset (offset memory C)."""
+        return [f"G10 L10 P{tool.number} R{self.length(tool.length or 0.0)}"]
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """A program that sets the lengths that have been measured; none if none has."""
+        return self._offsets_file(tools, ())
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same, and the D offsets: geometry (L12) as planned, wear (L13) 0."""
+        return self._offsets_file(tools, self.offsets.of_tools(tools, settings))
+
+    def table_words(self, table: str) -> str:
+        """What to do with the file of offsets."""
+        return (
+            f"{table} is a program: run it once for new cutters, and H and D are set as far as known."
+            " Run again later it takes back what was corrected at the machine."
+        )
+
+    def _offsets_file(self, tools: Sequence[Tool], offsets: Sequence[DOffset]) -> tuple[str, str]:
+        measured = {tool.number: tool for tool in tools if tool.length is not None}
+        if not measured and not offsets:
+            return "", ""
+        what = "TOOL LENGTHS, RUN ONCE"
+        if offsets:
+            what = f"TOOL LENGTHS, {offsets[0].quantity.upper()} IN D, RUN ONCE FOR NEW CUTTERS"
+        lines = ["%", f"O{OFFSETS_NUMBER:04d}", f"({what})", "G21 G90"]
+        for _, tool in sorted(measured.items()):
+            lines += self.tool_words(tool)
+        for offset in sorted(offsets, key=lambda offset: offset.number):
+            value = self.length(offset.planned)
+            lines += [f"G10 L12 P{offset.number} R{value}", f"G10 L13 P{offset.number} R0."]
+        return "tool-offsets.nc", "\n".join([*lines, self.m(30), "%"]) + "\n"

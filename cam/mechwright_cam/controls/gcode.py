@@ -1,0 +1,91 @@
+"""What all controls share that read RS274 words: a program from its first line to its last, and back.
+
+A control is a subclass that says how it spells what differs, and how it reads (``dialect``).
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from mechwright.contracts.finding import Finding
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.reading.read import interpret_files
+from mechwright_cam.controls.reading.run import Run
+from mechwright_cam.controls.writing.checks import check_program, unmet
+from mechwright_cam.controls.writing.sections import Sections
+from mechwright_cam.controls.writing.writer import Writer, with_numbers
+from mechwright_cam.program.moves import Program
+from mechwright_cam.shop.settings import CamSettings
+
+
+class GcodeControl(Sections):
+    """A control that reads RS274 words."""
+
+    def write(self, program: Program) -> str:
+        """The program text, lines ended by a line feed.
+
+        Raises
+        ------
+        ProgramError
+            The program has no moves, or a section that does not start with a Rapid to x and y; the offsets
+            that it should set have not been measured.
+        """
+        check_program(program, self)
+        out = Writer(program, self.decimals, self.dialect.point_needed)
+        self.frame(out)
+        self.head(out)
+        self.safe_start(out)
+        if program.posting.offsets:
+            self.set_offsets(out)
+        self.retract(out)
+        for place, section in enumerate(program.sections):
+            if place and program.posting.optional_stops and out.lines[-1] != self.m(0):
+                out.line(self.m(1))
+            self.section(out, section)
+        self.go_home(out)
+        self.end(out)
+        step = program.posting.line_numbers
+        lines = with_numbers(out.lines, step) if step else out.lines
+        return "\n".join(lines) + "\n"
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
+        return tuple(unmet(settings, self))
+
+    def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
+        """Run a program by the rules of the control's dialect."""
+        return interpret_files(program, replace(self.dialect, name=self.title), **settings)
+
+    def head(self, out: Writer) -> None:
+        """Write what the operator has to know before the start."""
+        program = out.program
+        self.comment(out, f"program {program.name}, {self.title}")
+        for note in program.notes:
+            self.comment(out, note)
+        self.comment(out, f"origin {program.work_offset}, Z0 on top of the stock, units mm and mm/min")
+        for tool in program.tools:
+            self.comment(out, self.tool_note(tool))
+        for offset in self.offsets.of_program(program):
+            self.comment(out, self.d_note(offset))
+
+    def safe_start(self, out: Writer) -> None:
+        """Set every mode that the program relies on."""
+        out.line(*self.modes)
+        out.line(*self.blending(out.program.posting.exact_stop))
+
+    def set_offsets(self, out: Writer) -> None:
+        """Write the measured work offset and tool lengths into the control's tables."""
+        program, places = out.program, out.program.measured
+        missing = [f"cam.measured.{axis}" for axis in "xyz" if getattr(places, axis) is None]
+        missing += [f"cam.measured.lengths.{tool.name}" for tool in program.tools if tool.length is None]
+        if missing:
+            raise ProgramError(
+                f"cam.post.offsets: program {program.name} is to set its offsets, and {missing[0]} is not "
+                "given; measure it, or leave the offsets to the operator"
+            )
+        axes = [a.upper() + out.length(getattr(places, a)) for a in "xyz"]
+        self.comment(out, "measured offsets")
+        out.line(self.setting_words(program.work_offset), *axes)
+        for tool in program.tools:
+            for line in self.tool_words(tool):
+                out.line(line)

@@ -1,0 +1,164 @@
+"""Grbl 1.1, from its documents and sources."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from mechwright.contracts.finding import Finding, Severity
+from mechwright_cam.controls.corners import EXACT
+from mechwright_cam.controls.dialect import CENTRE, FEEDS, RETURN, USUAL_M, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program, ToolSection
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+_NO_D = "there is G40 only; post the path of the tool's centre"
+_REALTIME = "?!~"
+"""Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
+
+
+class Grbl(GcodeControl):
+    """Grbl: no tool change, no cycles, no table of lengths; arcs by I and J only; lines of 80 characters.
+
+    Tools are changed by hand, between files of one tool each: at a stop (M0) Grbl reads nothing but the word
+    to go on, so it can neither jog nor probe, and a new tool cannot be touched off. A tool whose length is
+    known gets it by G43.1; where one is not, every tool is touched off on the stock anew.
+    """
+
+    name = "grbl"
+    title = "Grbl 1.1"
+    dialect = Dialect(
+        g_codes=frozenset(
+            {0, 10, 20, 30, 40, 100, 280, RETURN, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900}
+            | {910, 911, 540, 550, 560, 570, 580, 590, 610, 940}
+        ),
+        m_codes=USUAL_M - {6},
+        unsupported=(
+            (410, _NO_D),
+            (420, _NO_D),
+            (430, "there is no table of lengths; write G43.1 Z"),
+            *((probing, "probing is not simulated") for probing in (382, 383, 384, 385)),
+            (920, CENTRE),
+            (930, FEEDS),
+        ),
+        arc_absolute=0.005,
+        arc_most=0.5,
+        line_length=80,
+        counts_code=True,
+        percent=False,
+        decimals=3,
+        tool_by_t=True,
+        forbidden=_REALTIME,
+        length_write=None,
+        corners=EXACT,  # the path is always followed: junction deviation ($11) slows down, and rounds nothing
+    )
+    offsets = OffsetTables(lengths=False, length_word="G43.1", d=None)
+    forbidden = "%$;" + _REALTIME
+    highest_tool = 255
+    by_hand = "files"
+    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+
+    def files(self, program: Program) -> dict[str, str]:
+        """A file for each change of tool, or the program with a stop for each."""
+        if (program.posting.tool_change or self.by_hand) == "pause":
+            return super().files(program)
+        posting = program.posting.model_copy(update={"tool_change": "files"})
+        runs = [list(run) for _, run in groupby(program.sections, key=lambda section: section.tool.number)]
+        files = {}
+        for place, run in enumerate(runs, start=1):
+            note = f"file {place} of {len(runs)}, {self._load(run[0])}"
+            name = f"{program.name}-{place}-t{run[0].tool.number}"
+            one = replace(
+                program, name=name, sections=tuple(run), notes=(*program.notes, note), posting=posting
+            )
+            files[name] = self.write(one)
+        return files
+
+    def check(self, settings: CamSettings) -> Sequence[Finding]:
+        """Also: the retract must stay off the homing switch."""
+        found = list(super().check(settings))
+        if settings.machine.retract_z >= 0:
+            found.append(
+                Finding(
+                    "cam.retract",
+                    Severity.WARNING,
+                    "cam.machine.retract_z",
+                    "machine Z0 is where the homing switch is",
+                    settings.machine.retract_z,
+                    0.0,
+                    "mm",
+                    "retract below it, by more than the pull-off ($27), such as -2",
+                )
+            )
+        return found
+
+    def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
+        """A tool that is loaded at a stop has to have a known length."""
+        unknown = [tool.name for tool in tools if tool.length is None]
+        if settings.post.tool_change != "pause" or not unknown:
+            return ()
+        return [
+            Finding(
+                "cam.tool-change",
+                Severity.WARNING,
+                "cam.post.tool_change",
+                f"at a stop (M0) Grbl can neither jog nor probe, so {', '.join(unknown)} cannot be touched "
+                "off there",
+                remedy="leave tool_change out for one file per tool, or give their lengths in "
+                "[cam.measured.lengths]",
+            )
+        ]
+
+    def blending(self, exact: bool) -> list[str]:
+        """Grbl always follows the path exactly; it knows G61 only."""
+        return ["G61"] if exact else []
+
+    def retract_words(self, machine: Machine) -> str:
+        """What goes to the upper end of a machine, off the homing switch."""
+        words = super().retract_words(machine)
+        if machine.retract_z >= 0:
+            words += ", after setting cam.machine.retract_z below the homing switch, such as -2"
+        return words
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """Name the tool, and wait for it unless it is in a file of its own, or in the spindle."""
+        if section.tool.number == out.tool:
+            return
+        out.tool = section.tool.number
+        out.line(f"T{section.tool.number}")
+        if out.program.posting.tool_change != "files":
+            self.message(out, self._load(section))
+            out.line(self.m(0))
+            self.retract(out)  # whoever has touched off has left the tool low
+
+    def _load(self, section: ToolSection) -> str:
+        tool = section.tool
+        touch = "" if tool.length is not None else ", touch it off on the stock as Z0"
+        return f"load T{tool.number} {tool.name}{touch}"
+
+    def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:
+        """Write the length itself, or rely on the tool having been touched off."""
+        if section.tool.length is None:
+            out.line("G49")
+        else:
+            out.line(self.offsets.length_word, "Z" + out.length(section.tool.length))
+        out.line(out.motion_word("G0"), *out.axis_words(None, None, z, rapid=True))
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """There are no cycles."""
+        self.drill_in_moves(out, hole)
+
+    def tool_words(self, tool: Tool) -> list[str]:  # noqa: ARG002 - there is no table to set
+        """Lengths stand in the program."""
+        return []
+
+    def tool_note(self, tool: Tool) -> str:
+        """Without an H number."""
+        return super().tool_note(tool).replace(f" H{tool.number} ", " ", 1)
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:  # noqa: ARG002
+        """There is none."""
+        return "", ""

@@ -1,0 +1,43 @@
+"""Haas mills (Next Generation Control and before)."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mechwright_cam.controls.corners import Corners
+from mechwright_cam.controls.fanuc import Fanuc
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.work_offsets import G54_TO_G59, HAAS_OFFSETS
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill
+
+
+class Haas(Fanuc):
+    """Haas: as Fanuc, but for G53 retracts, G154 work offsets, and cycles with every word in every block.
+
+    The next peck starts as setting 22 comes from the factory, 0.05 inch above the last depth.
+    """
+
+    name = "haas"
+    title = "Haas"
+    dialect = replace(
+        Fanuc.dialect,
+        g_codes=Fanuc.dialect.g_codes - {541} | {1540},
+        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, "")),
+        inert_m=frozenset({19, 31, 33, 88, 89}),
+        peck_clearance=1.27,
+        bare_home=True,
+        # Corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further.
+        corners=Corners(looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),)),
+    )
+    offsets = replace(Fanuc.offsets, d_setting="setting 40")
+    work_offsets = (G54_TO_G59, HAAS_OFFSETS)
+    highest_tool = 200
+    retract_motion = "G0"
+
+    def retract_lines(self, z: float) -> Sequence[str]:
+        """To the upper end of travel, in machine coordinates."""
+        return GcodeControl.retract_lines(self, z)
+
+    def drill(self, out: Writer, hole: Drill) -> None:
+        """Drill with a cycle, stated in full: an edited or restarted block then means what it says."""
+        self.cycle(out, hole, every_word=True)

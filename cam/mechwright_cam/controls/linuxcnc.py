@@ -1,0 +1,74 @@
+"""LinuxCNC 2.9 and later, from its documents and sources."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.corners import Corners
+from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.reading.macros import Macros
+from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
+from mechwright_cam.controls.writing.text import comment_lines, number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+
+class LinuxCnc(GcodeControl):
+    """LinuxCNC: G43 with H, G53 retracts, cycles G81 to G83, arcs with incremental I and J.
+
+    Three axes. The limits of arcs are those of its interpreter's source in millimetres.
+    """
+
+    name = "linuxcnc"
+    title = "LinuxCNC"
+    dialect = Dialect(
+        macros=Macros,
+        # Without P, or without any word, it keeps up its speed however far it leaves the path.
+        corners=Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True),
+        g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911},
+        unsupported=(
+            (RETURN, "retract with G53 G0 Z0 or G28"),
+            (840, "tapping is not simulated"),
+            (920, "shift the origin with the work offset, G54 to G59.3"),
+            (930, FEEDS),
+            (950, FEEDS),
+        ),
+    )
+    work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
+    highest_tool = 99999
+    active_comments = (
+        *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
+        *("PROBEOPEN", "PROBECLOSE", "PY"),
+    )
+
+    def blending(self, exact: bool) -> list[str]:
+        """How corners are taken.
+
+        G64 without P would let the control round corners without limit: P keeps it within the tolerance of
+        arcs.
+        """
+        return ["G61"] if exact else ["G64", "P" + number(TOLERANCES.arc_fit)]
+
+    def message(self, out: Writer, text: str) -> None:
+        """Show a message on the control's screen."""
+        for line in comment_lines(text):
+            out.line(f"(MSG, {line})")
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """``tool.tbl``: pocket, length, diameter and name; a length not measured yet stands at 0."""
+        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same with the diameters that D takes: an own row where D has a number of its own."""
+        return _table(self.offsets.rows(tools, settings))
+
+
+def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
+    return "tool.tbl", "".join(
+        f"T{place} P{place} Z{number(tool.length or 0.0)} D{number(value)} "
+        + " ".join(filter(None, (f";{tool.name} {tool.kind}", note)))
+        + "\n"
+        for place, (tool, value, note) in sorted(rows.items())
+    )

@@ -1,0 +1,63 @@
+"""Mach3 mill, by common practice; G4 in seconds."""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+
+from mechwright_cam.controls.corners import EXACT
+from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.writing.text import number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import Drill, Program
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+
+class Mach3(GcodeControl):
+    """Mach3: arcs by G91.1, G53 retracts, a tool change that runs the machine's own macro."""
+
+    name = "mach3"
+    title = "Mach3"
+    dialect = Dialect(
+        g_codes=MILLING | {901, 911},
+        unsupported=NOT_SIMULATED,
+        inert=((500, ""), (690, "")),
+        inert_m=frozenset({48, 49}),
+        semicolon_comments=False,
+        numbers_needed="H",
+        corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
+    )
+    forbidden = "%;"
+    highest_tool = 254
+    modes = ("G17", "G21", "G40", "G49", "G80", "G90", "G91.1", "G94")
+
+    def head(self, out: Writer) -> None:
+        """Tell the setting that the program relies on, where it does."""
+        super().head(out)
+        if _waits(out.program):
+            self.comment(out, "dwells are in seconds: G04 dwell in ms must be off")
+
+    def tool_table(self, tools: Sequence[Tool]) -> tuple[str, str]:
+        """``mach3-tools.csv``: what to type into the tool table, which is binary itself."""
+        return _table({tool.number: (tool, tool.diameter, "") for tool in tools})
+
+    def offset_table(self, tools: Sequence[Tool], settings: CamSettings) -> tuple[str, str]:
+        """The same with the diameters that D takes: an own row where D has a number of its own."""
+        return _table(self.offsets.rows(tools, settings))
+
+
+def _table(rows: Mapping[int, tuple[Tool, float, str]]) -> tuple[str, str]:
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["tool", "description", "diameter", "height"])
+    for place, (tool, diameter, note) in sorted(rows.items()):
+        height = "" if tool.length is None else number(tool.length)
+        words = ", ".join(filter(None, (f"{tool.name} {tool.kind}", note)))
+        table.writerow([place, words, number(diameter), height])
+    return "mach3-tools.csv", text.getvalue()
+
+
+def _waits(program: Program) -> bool:
+    moves = (m for section in program.sections for operation in section.operations for m in operation.moves)
+    return program.machine.spindle_delay > 0 or any(isinstance(m, Drill) and m.dwell > 0 for m in moves)

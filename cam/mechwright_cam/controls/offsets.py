@@ -1,0 +1,92 @@
+"""What a control keeps in its tables of tool offsets, and what a D offset of it has to hold.
+
+Glossary
+--------
+H
+    Number of a length offset: by so much the tool is longer than the spindle nose, or than another tool.
+D
+    Number of an offset for cutter compensation.
+geometry, wear
+    Two columns of one offset, which the control adds up: the tool as planned, and what it has become.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from mechwright_cam.program.moves import Program
+from mechwright_cam.shop.posting import Compensation, Posting
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool, ToolKind
+
+Quantity = Literal["radius", "diameter"]
+
+
+@dataclass(frozen=True)
+class DOffset:
+    """A D offset: its number, what it holds when the tool is as planned, how much that may change, mm."""
+
+    number: int
+    tool: Tool
+    quantity: Quantity
+    planned: float
+    limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetTables:
+    """What a control keeps of each tool.
+
+    Parameters
+    ----------
+    lengths
+        Whether it keeps lengths, for G43 H. Without, tools are touched off one by one.
+    length_word
+        The word that gives a tool its length in the program instead, such as ``"G43.1"``; empty if there is
+        none.
+    d
+        What a D offset holds; ``"setting"`` if a setting of the machine says which, and so ``d_value`` of the
+        design file; None without cutter compensation.
+    d_setting
+        Where the machine is told which.
+    wear
+        Whether D has columns of geometry and wear.
+    """
+
+    lengths: bool = True
+    length_word: str = ""
+    d: Literal["radius", "diameter", "setting"] | None = "diameter"
+    d_setting: str = ""
+    wear: bool = False
+
+    def of_program(self, program: Program) -> list[DOffset]:
+        """The D offsets that a program uses."""
+        planned = program.posting, program.compensation, program.wear_limit
+        return [self.d_offset(tool, *planned) for tool in program.compensated]
+
+    def of_tools(self, tools: Sequence[Tool], cam: CamSettings) -> list[DOffset]:
+        """Those that tools need which may finish walls with cutter compensation."""
+        planned = cam.post, cam.compensation, cam.wear_limit
+        return [self.d_offset(tool, *planned) for tool in tools if tool.kind is ToolKind.END_MILL]
+
+    def rows(self, tools: Sequence[Tool], cam: CamSettings) -> dict[int, tuple[Tool, float, str]]:
+        """A table whose D are numbers of tools: to each number the tool, its diameter or D, and a note."""
+        rows = {tool.number: (tool, tool.diameter, "") for tool in tools}
+        return rows | {
+            d.number: (d.tool, d.planned, f"D of T{d.tool.number}") for d in self.of_tools(tools, cam)
+        }
+
+    def d_offset(self, tool: Tool, posting: Posting, compensation: Compensation, wear: float) -> DOffset:
+        """The D offset of a tool, when its radius may be off by ``wear`` mm; ValueError if there is none.
+
+        >>> tool = Tool(name="mill-6", number=3, kind="end-mill", diameter=6, flute_length=12)
+        >>> offset = OffsetTables().d_offset(tool, Posting(), "control", 0.1)
+        >>> offset.quantity, offset.planned, offset.limit
+        ('diameter', 6.0, 0.2)
+        """
+        if self.d is None:
+            raise ValueError("a control without cutter compensation has no D offsets")
+        quantity = posting.d_value if self.d == "setting" else self.d
+        factor = 1 if quantity == "radius" else 2
+        planned = 0.0 if compensation == "wear" else factor * tool.radius
+        return DOffset(tool.d_number, tool, quantity, planned, factor * wear)

@@ -1,0 +1,191 @@
+"""From a line of text to its words.
+
+Glossary
+--------
+block
+    One line of a program.
+word
+    A letter and a number, such as ``X12.5``.
+"""
+
+import re
+from dataclasses import dataclass, field
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.groups import G_GROUP, M_GROUP, spell
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+_WORD = re.compile(rf"([A-Z@^])({NUMBER})")
+_LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
+_LENGTHS = frozenset("IJKQRXYZ")
+_PROGRAM = re.compile(r"[O:]\d{1,5}")
+POLAR = frozenset("@^")
+"""LinuxCNC's polar coordinates: distance from X0 Y0, and angle, degrees."""
+_OTHER_AXES = frozenset("ABCUVW")
+
+
+@dataclass(slots=True)
+class Block:
+    """One line: its codes, its other words by letter, its comments, and the letters without a point."""
+
+    line: int
+    g: list[int] = field(default_factory=list)
+    m: list[int] = field(default_factory=list)
+    words: dict[str, float] = field(default_factory=dict)
+    comments: list[str] = field(default_factory=list)
+    bare: set[str] = field(default_factory=set)
+    deleted: bool = False
+
+
+def fail(line: int, reason: str) -> ProgramError:
+    """The error for one line, ready to raise."""
+    return ProgramError(f"line {line}: {reason}")
+
+
+def read_block(line: int, text: str, dialect: Dialect) -> Block:
+    """Split a line into words.
+
+    Parameters
+    ----------
+    line
+        Its number, from 1.
+    text
+        The line without its end.
+    dialect
+        The control that would read it.
+
+    Raises
+    ------
+    ProgramError
+        A comment is not closed, a number is bad, a letter comes twice, or two codes exclude each other.
+
+    Examples
+    --------
+    >>> block = read_block(7, "N10 g01 X-.5 (to the edge) F200", Dialect(frozenset({10})))
+    >>> block.g, block.words, block.comments
+    ([10], {'X': -0.5, 'F': 200.0}, ['to the edge'])
+    """
+    block = Block(line)
+    for character in dialect.forbidden:
+        if character in text:
+            raise fail(line, f"{dialect.name} obeys {character!r} wherever it stands; take it out")
+    if not dialect.counts_code:
+        _check_length(line, text, dialect)
+    code = _strip_comments(block, text, dialect) if "(" in text or ";" in text or ")" in text else text
+    code = "".join(code.split()).upper()
+    if dialect.counts_code:
+        _check_length(line, code, dialect)
+    if dialect.program_numbers and _PROGRAM.fullmatch(code):
+        return block
+    if code.startswith("/"):
+        block.deleted = True
+        code = code[1:]
+    position = 0
+    while position < len(code):
+        match = _WORD.match(code, position)
+        if match is None:
+            raise fail(line, _explain(code[position:]))
+        _add(block, match[1], match[2], dialect, first=position == 0)
+        position = match.end()
+    if dialect.point_needed and block.bare & _LENGTHS:
+        _check_points(block, dialect)
+    return block
+
+
+def _check_length(line: int, text: str, dialect: Dialect) -> None:
+    if len(text) > dialect.line_length:
+        raise fail(line, f"{len(text)} characters; {dialect.name} reads at most {dialect.line_length}")
+
+
+def _check_points(block: Block, dialect: Dialect) -> None:
+    """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case."""
+    for letter in sorted(block.bare & _LENGTHS):
+        value = block.words[letter]
+        if value and not (letter in "RXYZ" and 100 in block.g) and not (letter == "X" and 40 in block.g):
+            raise fail(
+                block.line,
+                f"{letter}{value:g} has no decimal point, and {dialect.name} may read thousandths; "
+                f"write {letter}{value:g}.",
+            )
+
+
+def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
+    kept = []
+    position = 0
+    while position < len(text):
+        character = text[position]
+        if character == "(":
+            end = text.find(")", position)
+            if end < 0:
+                raise fail(block.line, "the comment is not closed; put a ) at its end")
+            comment = text[position + 1 : end]
+            if "(" in comment:
+                raise fail(block.line, "a comment stands inside a comment")
+            block.comments.append(comment.strip())
+            position = end
+        elif character == ")":
+            raise fail(block.line, "a ) without its (")
+        elif character == ";" and dialect.semicolon_comments:
+            block.comments.append(text[position + 1 :].strip())
+            break
+        else:
+            kept.append(character)
+        position += 1
+    return "".join(kept)
+
+
+def _explain(rest: str) -> str:
+    letter = rest[0]
+    if letter in "#[O=<":
+        return "parameters, expressions and O-words are not read; post the program without them"
+    if letter == "%":
+        return "a % stands in a line of its own"
+    if letter == "/":
+        return "a / stands at the start of its line"
+    if letter in _LETTERS | _OTHER_AXES:
+        if rest[1:2] in {"#", "["}:
+            return "parameters, expressions and O-words are not read; post the program without them"
+        return f"{letter} is followed by no number: {rest[:12]!r}"
+    return f"{letter!r} starts no word: {rest[:12]!r}"
+
+
+def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: bool) -> None:
+    value = float(number)
+    if letter == "G":
+        _add_code(block, "G", block.g, round(value * 10), value * 10, G_GROUP)
+    elif letter == "M":
+        usual = dialect.usual_m(round(value))
+        if usual is None:
+            raise fail(block.line, f"M{number} is no code that {dialect.name} is known to read")
+        _add_code(block, "M", block.m, usual, value + usual - round(value), M_GROUP)
+    elif letter == "N":
+        if not first:
+            raise fail(block.line, "a line number stands at the start of its line")
+    elif letter == "O":
+        raise fail(block.line, _explain("O"))
+    elif letter in POLAR and not dialect.macros:
+        raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
+    elif letter in _OTHER_AXES:
+        raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")
+    elif letter not in _LETTERS | POLAR:
+        raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
+    elif letter in block.words:
+        raise fail(block.line, f"two {letter} words")
+    else:
+        block.words[letter] = value
+        if "." not in number:
+            block.bare.add(letter)
+
+
+def _add_code(
+    block: Block, letter: str, codes: list[int], code: int, exact: float, groups: dict[int, str]
+) -> None:
+    if abs(code - exact) > 1e-9 or code < 0:  # rounding of the product only; no control has such a code
+        raise fail(block.line, f"{letter}{exact / (10 if letter == 'G' else 1):g} is no code")
+    group = groups.get(code)
+    for other in codes:
+        if other == code or (group is not None and groups.get(other) == group):
+            names = [spell(c) if letter == "G" else f"M{c}" for c in (other, code)]
+            raise fail(block.line, f"{names[0]} and {names[1]} exclude each other ({group or 'twice'})")
+    codes.append(code)

@@ -1,0 +1,143 @@
+"""The machine that runs the words.
+
+Order of execution within a line and the meaning of each code follow RS274/NGC (Kramer, Proctor, Messina:
+The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's documents.
+"""
+
+import math
+from collections.abc import Mapping
+
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.blocks import Block, fail
+from mechwright_cam.controls.reading.groups import spell
+from mechwright_cam.controls.reading.motions import Moving
+from mechwright_cam.controls.reading.run import Kind, Remark
+
+HIGHEST_PARAMETER = 5000
+"""Parameters beyond this are probe results, offsets and states of the machine."""
+
+
+class Machine(Moving):
+    """The machine while a program runs; lengths in mm.
+
+    Parameters
+    ----------
+    dialect
+        The control.
+    upper_end
+        Machine Z of a full retract, mm.
+    diameters
+        D number to diameter, mm.
+    """
+
+    def __init__(self, dialect: Dialect, upper_end: float, diameters: Mapping[int, float]) -> None:
+        super().__init__(dialect)
+        self.upper_end = upper_end
+        self.diameters = diameters
+        self.sticky = {}
+
+    def system_value(self, name: float | str) -> float:
+        """A parameter that the machine keeps; numbered ones that nothing has set are 0."""
+        place = {"_x": self.x, "_y": self.y, "_z": self.z, 5420: self.x, 5421: self.y, 5422: self.z}
+        known = {
+            **place,
+            "_feed": self.feed / self.scale,
+            "_rpm": self.state.rpm,
+            "_current_tool": float(self.state.tool),
+            "_selected_tool": float(-1 if self.selected is None else self.selected),
+            "_metric": float(self.scale == 1.0),
+            "_imperial": float(self.scale != 1.0),
+            "_absolute": float(self.absolute),
+            "_incremental": float(not self.absolute),
+        }
+        if name in known:
+            value = known[name]
+            if name in place:
+                if not math.isfinite(value):
+                    raise ValueError(f"#{name} is asked for, and the text does not say where the tool is")
+                value /= self.scale
+            return value
+        if isinstance(name, str):
+            raise ValueError(f"#<{name}> has no value")
+        if name > HIGHEST_PARAMETER:
+            raise ValueError(f"#{name:g} is kept by the machine, and not known here")
+        return 0.0
+
+    def run(self, block: Block) -> None:
+        """Run one block."""
+        for comment in block.comments:
+            self.remarks.append(Remark(block.line, comment, self.steps))
+        if not (block.g or block.m or block.words):
+            return
+        self._check_codes(block)
+        words = block.words
+        self._units(block)  # first, so that every length of this line is read in the units it states
+        self._speeds(block, words)
+        self._tool(block, words)
+        if block.m:
+            self._spindle_and_coolant(block)
+        if 40 in block.g:
+            seconds = self._waiting(block, words)
+            if seconds < 0:
+                raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
+            self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
+        self._modes(block, words)
+        self._length_offset(block)
+        self._work_offset(block, words)
+        self._tables(block, words)
+        self._keep_state()
+        if 280 in block.g or 300 in block.g:
+            self._home(block, words)
+        self._move(block, words)
+        if words:
+            raise fail(block.line, f"{next(iter(words))} means nothing in this line")
+        self._stop(block)
+
+    def _waiting(self, block: Block, words: dict[str, float]) -> float:
+        """The time of G4, s."""
+        bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
+        if bare is not None and "X" in words:
+            return words.pop("X") * (bare if "X" in block.bare else unit)
+        seconds = self._take(block, "P", "G4 needs a time, P")
+        return seconds * (bare if bare is not None and "P" in block.bare else unit)
+
+    def _check_codes(self, block: Block) -> None:
+        for code in block.g:
+            if code in self.dialect.g_codes:
+                continue
+            letters = dict(self.dialect.inert).get(code)
+            if letters is not None:
+                self._check_looser(block, code)
+                for letter in letters:
+                    block.words.pop(letter, None)
+                continue
+            for refused, remedy in self.dialect.unsupported:
+                if code == refused:
+                    raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
+            raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
+        for code in block.m:
+            if code not in self.dialect.m_codes | self.dialect.inert_m:
+                raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+
+    def _check_looser(self, block: Block, code: int) -> None:
+        """Refuse a word that lets the control leave the path further than its setting."""
+        for looser, letter, kept, remedy in self.dialect.corners.looser:
+            value = block.words.get(letter)
+            if code == looser and value is not None and value not in kept:
+                raise fail(
+                    block.line,
+                    f"{spell(code)} {letter}{value:g} lets {self.dialect.name} round corners further than "
+                    f"the setting of the machine; {remedy}",
+                )
+
+    def _stop(self, block: Block) -> None:
+        for code in block.m:
+            if code in {0, 1}:
+                by_hand = self.dialect.tool_by_t and self.rows and self.rows[-1][0] == Kind.TOOL
+                self._row(Kind.MAYBE if code else Kind.STOP, block.line, self.x, self.y, self.z)
+                if by_hand:  # whoever has touched the tool off has left it somewhere
+                    self._lose_place()
+                    self.z = math.nan
+            elif code in {2, 30}:
+                self._row(Kind.END, block.line, self.x, self.y, self.z)
+                self.ended = True

@@ -1,0 +1,223 @@
+"""The modes of the machine: what a word changes and leaves changed."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.blocks import Block, fail
+from mechwright_cam.controls.reading.compensation import Compensation
+from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
+from mechwright_cam.controls.reading.run import Coolant, Kind, TableWrite
+
+INCH = 25.4
+PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
+"""G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
+AXES = "XYZ"
+CENTRES = {"X": "I", "Y": "J", "Z": "K"}
+"""The word for the centre along each axis."""
+_COOLANT: dict[tuple[bool, bool], Coolant] = {
+    (False, False): "off",
+    (True, False): "mist",
+    (False, True): "flood",
+    (True, True): "both",
+}
+
+
+class Modal(Compensation):
+    """A machine that knows its modes, and does not move yet."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        super().__init__(dialect)
+        self.scale = 1.0
+        self.absolute = True
+        self.absolute_centres = dialect.absolute_centres
+        self.selected: int | None = None
+        self.to_initial = True
+        self.state = self.states[0]
+        self.plane = 170
+        self.motion: int | None = None
+        self.offsets_are_zero = False
+        self.diameters: Mapping[int, float] = {}
+
+    @property
+    def moves_plainly(self) -> bool:
+        """Whether X, Y and Z are where the tool goes, and arcs lie in the XY plane."""
+        return self.absolute and self.plane == 170 and not self.side and self.left is None
+
+    def _take(self, block: Block, letter: str, missing: str) -> float:
+        try:
+            return block.words.pop(letter)
+        except KeyError:
+            raise fail(block.line, missing) from None
+
+    def _whole(self, block: Block, letter: str, value: float) -> int:
+        if value < 0 or value != int(value):
+            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
+        return int(value)
+
+    def _set(self, **changes: Any) -> None:
+        self.state = replace(self.state, **changes)
+
+    def _state(self, group: str) -> None:
+        self._set(stated=self.state.stated | {group})
+
+    def _keep_state(self) -> None:
+        kept = self.states[self.index]
+        if self.state is not kept and self.state != kept:
+            self.states.append(self.state)
+            self.index = len(self.states) - 1
+
+    def _units(self, block: Block) -> None:
+        for code in block.g:
+            if code in GROUPS["units"]:
+                self.scale = INCH if code == 200 else 1.0
+                self._state("units")
+
+    def _speeds(self, block: Block, words: dict[str, float]) -> None:
+        if "F" in words:
+            self.feed = words.pop("F") * self.scale
+            if self.feed < 0:
+                raise fail(block.line, "F is below 0")
+        if "S" in words:
+            rpm = words.pop("S")
+            if rpm < 0:
+                raise fail(block.line, "S is below 0")
+            self._set(rpm=rpm)
+
+    def _tool(self, block: Block, words: dict[str, float]) -> None:
+        if "T" in words:
+            self.selected = self._whole(block, "T", words.pop("T"))
+            if self.dialect.tool_by_t and self.selected != self.state.tool:
+                self._set(tool=self.selected, length_offset=None, length=None)
+                self._keep_state()
+                self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
+        if 6 in block.m:
+            if self.selected is None:
+                raise fail(block.line, "M6 without a tool; write T before it")
+            self._set(tool=self.selected)
+            if self.dialect.change_stops_spindle:
+                self._set(spindle=0)
+            self._keep_state()
+            self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
+
+    def _spindle_and_coolant(self, block: Block) -> None:
+        for code in block.m:
+            if code in M_GROUPS["spindle"]:
+                self._set(spindle={3: 1, 4: -1, 5: 0}[code])
+        mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
+        if 9 in block.m:
+            if 7 in block.m or 8 in block.m:
+                raise fail(block.line, "M9 excludes M7 and M8 (coolant)")
+            mist = flood = False
+        self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
+
+    def _modes(self, block: Block, words: dict[str, float]) -> None:
+        for code in block.g:
+            if code in {900, 910}:
+                self.absolute = code == 900
+                self._state("distance")
+            elif code in {901, 911}:
+                self.absolute_centres = code == 901
+            elif code in {980, 990}:
+                self.to_initial = code == 980
+            elif code in PLANES:
+                if self.side:
+                    raise fail(block.line, "the plane changes while compensation is on; write G40 before")
+                self.plane = code
+                if code == 170:
+                    self._state("plane")
+            elif code == 400:
+                self.end_compensation()
+                self._set(side=0, diameter_offset=None)
+                self._state("cutter compensation")
+            elif code in {410, 420, 411, 421}:
+                if self.plane != 170:
+                    raise fail(block.line, f"{spell(code)} is read in the XY plane only (G17)")
+                side = 1 if code in {410, 411} else -1
+                number, diameter = self._diameter(block, code)
+                self.begin_compensation(block.line, side, diameter)
+                self._set(side=side, diameter_offset=number)
+            elif code in GROUPS["path"]:
+                self._corners(block, words, code)
+
+    def _corners(self, block: Block, words: dict[str, float], code: int) -> None:
+        """G61 and G64: how far the control may leave the path; P and Q only where the control has them."""
+        corners = self.dialect.corners
+        if self.side and corners.tolerance:
+            raise fail(block.line, f"{spell(code)} while compensation is on; write it before")
+        bound = 0.0
+        if code == 640:
+            given = [words.pop(letter, None) if corners.tolerance else None for letter in "PQ"]
+            blend, merge = (None if value is None else value * self.scale for value in given)
+            bound = corners.bound(blend, merge)
+        self._set(off_path=bound)
+
+    def _number(self, block: Block, letter: str, code: int) -> int:
+        """The number of an offset: as it is written, or the tool's where the control takes that."""
+        if letter not in block.words and letter in self.dialect.numbers_needed:
+            raise fail(
+                block.line,
+                f"{spell(code)} without {letter} takes what {self.dialect.name} had last; write {letter}",
+            )
+        return self._whole(block, letter, block.words.pop(letter, self.state.tool))
+
+    def _diameter(self, block: Block, code: int) -> tuple[int | None, float]:
+        """D number and diameter of G41 and G42: of the tool in the spindle, of the D word's, or D itself."""
+        name = spell(code)
+        if code in {411, 421}:
+            return None, self._take(block, "D", f"{name} needs the diameter, D") * self.scale
+        number = self._number(block, "D", code)
+        if number not in self.diameters:
+            raise fail(block.line, f"{name} D{number}: no tool of that number is known, so no diameter")
+        return number, self.diameters[number]
+
+    def _length_offset(self, block: Block) -> None:
+        offset, length = self.state.length_offset, None
+        if 430 in block.g:
+            offset = self._number(block, "H", 430)
+        elif 431 in block.g:
+            length = self._take(block, "Z", "G43.1 needs the length, Z") * self.scale
+            offset = -1
+        elif 490 in block.g:
+            offset = 0
+        else:
+            return
+        if (offset, length) != (self.state.length_offset, self.state.length):
+            self._set(length_offset=offset, length=length)
+            if math.isfinite(self.z) and not self.offsets_are_zero:
+                self.z = math.nan
+
+    def _work_offset(self, block: Block, words: dict[str, float]) -> None:
+        for code in block.g:
+            if code not in GROUPS["work offset"]:
+                continue
+            name = spell(code)
+            if code in EXTENDED or (self.dialect.program_numbers and code == 540 and "P" in words):
+                number = self._whole(block, "P", self._take(block, "P", f"{name} needs its number, P"))
+                name = f"{'G54.1' if code == 540 else name} P{number}"
+            if name != self.state.work_offset:
+                self._set(work_offset=name)
+                self._lose_place()
+
+    def _lose_place(self) -> None:
+        """Offsets have changed: where the tool is, the text no longer says."""
+        if self.offsets_are_zero:
+            return
+        self.x = self.y = math.nan
+        if math.isfinite(self.z):
+            self.z = math.nan
+
+    def _tables(self, block: Block, words: dict[str, float]) -> None:
+        """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
+        if 100 not in block.g:
+            return
+        table = self._take(block, "L", "G10 needs L")
+        if table not in {1, 2, 10, 11, 12, 13, 20}:
+            raise fail(block.line, "G10 is read with L1, L2, L10 to L13 and L20")
+        number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
+        values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
+        self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))
+        self._row(Kind.TABLE, block.line, self.x, self.y, self.z)
+        self._lose_place()

@@ -1,0 +1,251 @@
+"""Moves that need more than a plain line says: polar places, arcs of every form, machine places, cycles."""
+
+import math
+
+from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
+from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
+from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, spell
+from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES, Modal
+from mechwright_cam.controls.reading.run import Kind
+
+MOST_TURNS = 1000
+"""Turns of one arc beyond which P is a slip of the pen."""
+ARC_CHORD = 0.0005
+"""Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
+
+
+class Moving(Modal):
+    """A machine that moves."""
+
+    sticky: dict[str, float]
+    """Words of a drilling cycle that hold until the next cycle."""
+    upper_end: float
+    initial = math.nan
+    """Height at which a cycle began, mm."""
+
+    def _move(self, block: Block, words: dict[str, float]) -> None:
+        named = next((code for code in block.g if code in GROUPS["motion"]), None)
+        if named is not None:
+            if named == 800:
+                self.motion = None
+            elif named in CYCLES and named != self.motion:
+                self.sticky = {}
+                self.initial = self.z
+                self.motion = named
+            else:
+                self.motion = named
+        axes = words.keys() & (set(AXES) | POLAR)
+        centre = words.keys() & {"I", "J", "K", "R"} if self.motion in {20, 30} else set()
+        if 530 in block.g:
+            self._machine_move(block, words)
+        elif axes or centre:
+            if self.motion is None:
+                raise fail(block.line, "an axis without a motion; write G0, G1, G2, G3 or a cycle")
+            if self.motion in CYCLES:
+                if self.side or self.plane != 170:
+                    raise fail(block.line, "a cycle is read in the XY plane and without compensation only")
+                self._cycle(block, words, self.motion)
+            elif self.motion in {20, 30}:
+                self._arc(block, words)
+            else:
+                x, y, z = self._target(block, words)
+                if self.side:
+                    kind = Kind.RAPID if self.motion == 0 else Kind.FEED
+                    self.compensated(block.line, kind, x, y, z, None, False)
+                elif self.motion == 0:
+                    self._row(Kind.RAPID, block.line, x, y, z)
+                else:
+                    self._feed_to(block.line, x, y, z)
+        elif named in CYCLES | {20, 30}:
+            raise fail(block.line, f"{spell(named or 0)} without an axis")
+
+    def _home(self, block: Block, words: dict[str, float]) -> None:
+        """G28 and G30: by way of a point in work coordinates to the machine's home; without axes all go."""
+        name = "G28" if 280 in block.g else "G30"
+        if self.side:
+            raise fail(block.line, f"{name} while compensation is on; write G40 before")
+        named = [axis for axis in AXES if axis in words]
+        if not named and not self.dialect.bare_home:
+            raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
+        axes = named or list(AXES)
+        aside = "X" in axes or "Y" in axes
+        if words.keys() & set(AXES):
+            via = self._target(block, words)
+            here = (self.x, self.y, self.z)
+            if any(a != b and not (math.isnan(a) and math.isnan(b)) for a, b in zip(via, here, strict=True)):
+                self._mark(aside)
+                self._row(Kind.RAPID, block.line, *via)
+        self._mark(aside)
+        self._row(
+            Kind.HOME,
+            block.line,
+            math.nan if "X" in axes else self.x,
+            math.nan if "Y" in axes else self.y,
+            math.inf if "Z" in axes else self.z,
+        )
+        if "Z" in axes and self.dialect.home_cancels_length:
+            self._set(length_offset=None, length=None)
+
+    def _mark(self, machine_xy: bool) -> None:
+        """Tell of the next step whether it takes X or Y to a place that the work does not know."""
+        if machine_xy:
+            self.machine_xy.append(self.steps)
+
+    def _machine_move(self, block: Block, words: dict[str, float]) -> None:
+        """G53: machine coordinates, whose place in the work the text does not know."""
+        if self.motion not in {0, 10}:
+            raise fail(block.line, "G53 needs G0 or G1")
+        if self.side:
+            raise fail(block.line, "G53 while compensation is on; write G40 before")
+        if not self.absolute:
+            raise fail(
+                block.line, "G53 with distances (G91): some controls refuse or skip it; write G90 before"
+            )
+        axes = {axis: words.pop(axis) for axis in AXES if axis in words}
+        if not axes:
+            raise fail(block.line, "G53 without an axis")
+        x = math.nan if "X" in axes else self.x
+        y = math.nan if "Y" in axes else self.y
+        z = self.z
+        if "Z" in axes:
+            z = math.inf if axes["Z"] * self.scale >= self.upper_end else math.nan
+        self._mark("X" in axes or "Y" in axes)
+        self._row(Kind.HOME, block.line, x, y, z)
+
+    def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
+        here = {"X": self.x, "Y": self.y, "Z": self.z}
+        if self.side:
+            here["X"], here["Y"] = self.contour
+        elif self.left is not None:
+            here["X"], here["Y"] = self.left
+            self.left = None
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, here["X"], here["Y"])
+        for axis in AXES:
+            if axis not in words:
+                continue
+            value = words.pop(axis) * self.scale
+            if self.absolute:
+                here[axis] = value
+            elif value != 0:
+                if not math.isfinite(here[axis]):
+                    raise fail(block.line, f"{axis} moves by a distance (G91) from an unknown position")
+                here[axis] += value
+        return here["X"], here["Y"], here["Z"]
+
+    def _polar(self, block: Block, words: dict[str, float], x: float, y: float) -> tuple[float, float]:
+        """The place that @ (distance from X0 Y0) and ^ (angle) name; what is not named stays as it is."""
+        if words.keys() & {"X", "Y"}:
+            raise fail(block.line, "polar coordinates beside X or Y")
+        if not math.isfinite(x + y) or (math.hypot(x, y) == 0 and not {"@", "^"} <= words.keys()):
+            raise fail(block.line, "polar coordinates from a place without a direction")
+        radius, angle = math.hypot(x, y), math.atan2(y, x)
+        if "@" in words:
+            named = words.pop("@") * self.scale
+            radius = named if self.absolute else radius + named
+        if "^" in words:
+            turn = math.radians(words.pop("^"))
+            angle = turn if self.absolute else angle + turn
+        return radius * math.cos(angle), radius * math.sin(angle)
+
+    def _arc(self, block: Block, words: dict[str, float]) -> None:
+        ccw = self.motion == 30
+        axes = PLANES[self.plane]
+        here = {"X": self.x, "Y": self.y, "Z": self.z}
+        if self.side:
+            here["X"], here["Y"] = self.contour
+        target = dict(zip(AXES, self._target(block, words), strict=True))
+        start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
+        turns = self._whole(block, "P", words.pop("P", 1.0))
+        if not 1 <= turns <= MOST_TURNS:
+            raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
+        first, second = CENTRES[axes[0]], CENTRES[axes[1]]
+        if "R" in words:
+            if words.keys() & {first, second}:
+                raise fail(block.line, f"an arc has either R, or {first} and {second}")
+            radius = words.pop("R") * self.scale
+            try:
+                centre = centre_of(start, end, radius, ccw, self.dialect.arc_absolute)
+            except ValueError as error:
+                raise fail(block.line, str(error)) from None
+        elif words.keys() & {first, second}:
+            if self.absolute_centres and not {first, second} <= words.keys():
+                raise fail(block.line, f"with G90.1 an arc needs both {first} and {second}")
+            i, j = words.pop(first, 0.0) * self.scale, words.pop(second, 0.0) * self.scale
+            centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
+        else:
+            raise fail(block.line, f"an arc without a centre; write {first} and {second}, or R")
+        if self.side:
+            if turns > 1:
+                raise fail(block.line, "several turns while compensation is on; write one after the other")
+            self.compensated(block.line, Kind.ARC, end[0], end[1], target["Z"], centre, ccw)
+        elif self.plane == 170:
+            self._arc_to(block.line, target["X"], target["Y"], target["Z"], centre, ccw, turns)
+        else:
+            self._arc_in_pieces(block.line, here, target, centre, ccw, turns)
+
+    def _arc_in_pieces(
+        self,
+        line: int,
+        here: dict[str, float],
+        target: dict[str, float],
+        centre: tuple[float, float],
+        ccw: bool,
+        turns: int,
+    ) -> None:
+        """An arc in the ZX or YZ plane, as short straight moves: the proof looks from above."""
+        a, b, c = tuple(PLANES[self.plane])
+        start, end = (here[a], here[b]), (target[a], target[b])
+        if not all(map(math.isfinite, (*here.values(), *target.values()))):
+            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+        radius = self._check_arc(line, start, end, centre)
+        sweep = sweep_of(start, end, centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
+        angle = math.atan2(start[1] - centre[1], start[0] - centre[0])
+        for number in range(1, count):
+            share = number / count
+            at = angle + sweep * share
+            place = {a: centre[0] + radius * math.cos(at), b: centre[1] + radius * math.sin(at)}
+            place[c] = here[c] + (target[c] - here[c]) * share
+            self.pieces.append(self.steps)
+            self._feed_to(line, place["X"], place["Y"], place["Z"])
+        self._feed_to(line, target["X"], target["Y"], target["Z"])
+
+    def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
+        line, name = block.line, spell(code)
+        if not self.absolute:
+            raise fail(line, f"{name} with distances (G91) is not supported; write G90")
+        for letter in "ZRQP":
+            if letter in words:
+                bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
+                time = bare if bare is not None and letter in block.bare else unit
+                self.sticky[letter] = words.pop(letter) * (time if letter == "P" else self.scale)
+        here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
+        if words.keys() & POLAR:
+            here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
+        x, y = here.get("X", self.x), here.get("Y", self.y)
+        for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
+            if letter not in self.sticky:
+                raise fail(line, f"{name} needs {letter}")
+        bottom, plane = self.sticky["Z"], self.sticky["R"]
+        if plane < bottom:
+            raise fail(line, f"{name} has its R plane below the bottom of the hole")
+        if math.isnan(self.initial) or math.isnan(x + y):
+            raise fail(line, f"{name} from an unknown position; move to X, Y and Z first")
+        step = self.sticky.get("Q", math.inf) if code in {730, 830} else math.inf
+        if not step > 0:
+            raise fail(line, f"{name} needs Q above 0")
+        if self.z < plane:
+            self._rapid(line, self.x, self.y, plane)
+        self._rapid(line, x, y, self.z)
+        self._rapid(line, x, y, plane)
+        up = max(self.initial, plane) if self.to_initial else plane
+        self._drill(line, code, bottom, plane, step)
+        if code in {820, 890}:
+            seconds = self.sticky["P"]
+            self._row(Kind.DWELL, line, x, y, self.z, seconds=seconds)
+        if code in {850, 890}:
+            # LinuxCNC feeds out to the R plane after G85, and all the way up after G89.
+            self._feed_to(line, x, y, plane if code == 850 else up)
+        self._rapid(line, x, y, up)

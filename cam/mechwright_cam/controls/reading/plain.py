@@ -1,0 +1,177 @@
+"""Plain lines of a program, read all at once.
+
+Nearly all lines of a program say where to go next and nothing else. Such lines are found and turned into
+numbers for the whole text, without a step per line; what they mean is for the machine, and every other line
+is read word by word (:mod:`mechwright_cam.controls.reading.blocks`).
+
+Glossary
+--------
+plain line
+    Words of N, G0 to G3, X, Y, Z, I, J and F in this order, each at most once; or an empty line.
+motion line
+    A plain line that needs nothing but the motion in force to be run: a straight move with an axis and no
+    centre, or an arc with a centre.
+"""
+
+import re
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.run import Ints
+
+Bools = NDArray[np.bool_]
+
+LETTERS = "NGXYZIJF"
+"""Letters of a plain line in their order; words stand in columns of this order."""
+G, X, Y, Z, I, J, F = range(1, len(LETTERS))
+_LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
+_KINDS = 8  # kinds of character, 0 for any other, rounded up
+_MAY_FOLLOW = {
+    _LETTER: (_DIGIT, _POINT, _SIGN),
+    _SIGN: (_DIGIT, _POINT),
+    _DIGIT: (_DIGIT, _POINT, _LETTER, _BLANK, _END),
+    _POINT: (_DIGIT, _LETTER, _BLANK, _END),
+    _BLANK: (_BLANK, _LETTER, _END),
+    _END: (_END, _BLANK, _LETTER),
+}
+_TWO_POINTS = re.compile(rb"\.\d*\.")
+
+
+def _table(groups: dict[bytes, int], other: int = 0) -> bytes:
+    table = bytearray([other]) * 256
+    for characters, value in groups.items():
+        for character in characters:
+            table[character] = value
+    return bytes(table)
+
+
+_NAMES = LETTERS.encode()
+_KIND = _table(
+    {_NAMES + _NAMES.lower(): _LETTER, b"0123456789": _DIGIT, b".": _POINT, b"+-": _SIGN, b" ": _BLANK}
+    | {b"\n": _END}
+)
+_PAIR_IS_WRONG = _table(
+    {bytes(_KINDS * first + second for second in seconds): 0 for first, seconds in _MAY_FOLLOW.items()}, 1
+)
+_NUMBERS = _table({b"0123456789.+-": 1})
+_ONLY_NUMBERS = bytes(c if _NUMBERS[c] else ord(" ") for c in range(256))
+_POINT_MARK, _END_MARK = len(LETTERS), len(LETTERS) + 1
+_COLUMN = _table(
+    {bytes((upper, lower)): k for k, (upper, lower) in enumerate(zip(_NAMES, _NAMES.lower(), strict=True))}
+    | {b".": _POINT_MARK, b"\n": _END_MARK}
+)
+_DROPPED = bytes(set(range(256)) - set(_NAMES + _NAMES.lower() + b".\n"))
+
+
+class PlainLines:
+    r"""The plain lines of a text.
+
+    Parameters
+    ----------
+    text
+        The whole program, its lines ended by ``\n``.
+    dialect
+        The control that would read it.
+
+    Attributes
+    ----------
+    plain
+        (n,) whether each line is plain.
+    words
+        (8, n) numbers by letter, in the order of :data:`LETTERS`; NaN where there is none, or where the line
+        is not plain.
+
+    Examples
+    --------
+    >>> lines = PlainLines("G1 X1.5 F200\nM5\nX-.5Y2", Dialect(frozenset({10})))
+    >>> lines.plain.tolist(), lines.words[X].tolist()
+    ([True, False, True], [1.5, nan, -0.5])
+    """
+
+    def __init__(self, text: str, dialect: Dialect) -> None:
+        data = b"\n" + text.encode("utf-8", "surrogatepass") + b"\n"
+        kind = np.frombuffer(data.translate(_KIND), dtype=np.uint8)
+        ends = np.flatnonzero(kind == _END)
+        length = np.diff(ends)
+        self.plain: Bools = length <= dialect.line_length + 1  # with its end
+        wrong = _wrong_places(data, kind)
+        self.plain[np.searchsorted(ends, wrong) - 1] = False
+        kept = np.repeat(np.concatenate(([True], self.plain)), np.concatenate(([1], length)))
+        kept[ends] = True
+        clean = np.where(kept, np.frombuffer(data, dtype=np.uint8), ord(" ")).tobytes()
+        self.words: Array = np.full((len(LETTERS), length.size), np.nan)
+        self._fill(clean, dialect)
+
+    def _fill(self, clean: bytes, dialect: Dialect) -> None:
+        """Read the words of ``clean``, a text without other lines; lines whose words do not go are struck."""
+        marks = np.frombuffer(clean.translate(_COLUMN, _DROPPED), dtype=np.uint8)
+        at = np.flatnonzero(marks < _POINT_MARK)
+        column = marks[at].astype(np.int64)
+        line = np.cumsum(marks == _END_MARK, dtype=np.int64)[at] - 1
+        value: Array = np.fromstring(clean.translate(_ONLY_NUMBERS), sep=" ")
+        wrong = np.zeros(at.size, dtype=np.bool_)
+        wrong[1:] = (line[1:] == line[:-1]) & (column[1:] <= column[:-1])
+        wrong |= (column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))
+        wrong |= (column == F) & (value < 0)
+        if dialect.point_needed:
+            length = (column >= X) & (column <= J)
+            wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
+        self.words[column, line] = value
+        struck = line[wrong]
+        self.plain[struck] = False
+        self.words[:, struck] = np.nan
+
+    def __len__(self) -> int:
+        return int(self.plain.size)
+
+    @cached_property
+    def said(self) -> Bools:
+        """(8, n) whether each line has the word."""
+        said: Bools = ~np.isnan(self.words)
+        return said
+
+    @cached_property
+    def _ends(self) -> tuple[Ints, Ints]:
+        """(n,) the next line that is no motion line, where the motion is straight and where it is an arc."""
+        said = self.said
+        axis, centre = said[X : Z + 1].any(axis=0), said[I : J + 1].any(axis=0)
+        empty = ~said[G:].any(axis=0)
+        straight, bent = empty | (axis & ~centre), empty | centre
+        # The motion is known from the last G of the same stretch of plain lines.
+        number = np.arange(len(self))
+        last = np.maximum.accumulate(np.where(said[G] | ~self.plain, number, -1))
+        g = np.where(last >= 0, self.words[G, last], np.nan)  # NaN after a line that is not plain
+        goes = np.where(g >= 2, bent, straight)
+        first, second = (
+            np.where(self.plain & np.where(np.isnan(g), unknown, goes), len(self), number)
+            for unknown in (straight, bent)
+        )
+        return _next(first), _next(second)
+
+    def until(self, line: int, arc: bool) -> int:
+        """Index of the first line from ``line`` on that is no motion line; ``arc`` is the motion in force."""
+        return int(self._ends[arc][line])
+
+
+def _wrong_places(data: bytes, kind: NDArray[np.uint8]) -> Ints:
+    """Places in the text that make their lines other than plain."""
+    pairs = (kind[:-1] * _KINDS + kind[1:]).tobytes()
+    wrong = np.flatnonzero(np.frombuffer(pairs.translate(_PAIR_IS_WRONG), dtype=np.uint8))
+    wrong += kind[wrong] == _END  # the line that begins there, not the one that ends
+    point = np.flatnonzero(kind == _POINT)
+    bare = point[(kind[point - 1] != _DIGIT) & (kind[point + 1] != _DIGIT)]
+    twice: list[int] = []
+    if b".." in data.translate(None, b"+- 0123456789"):
+        twice = [match.start() for match in _TWO_POINTS.finditer(data)]
+    found: Ints = np.concatenate((wrong, bare, np.array(twice, dtype=np.int64)))
+    return found
+
+
+def _next(place: Ints) -> Ints:
+    """(n,) the least of all from each on."""
+    least: Ints = np.minimum.accumulate(place[::-1])[::-1]
+    return least

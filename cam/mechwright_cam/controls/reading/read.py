@@ -1,0 +1,125 @@
+"""A program read from its first line to its end."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import compress
+from typing import Any
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.blocks import read_block
+from mechwright_cam.controls.reading.lines import Lines, uses_macros
+from mechwright_cam.controls.reading.machine import Machine
+from mechwright_cam.controls.reading.plain import PlainLines
+from mechwright_cam.controls.reading.run import Run, joined
+from mechwright_cam.controls.reading.stretch import run_stretch
+
+CODE = re.compile(r"\s*/?\s*[A-Z]\s*[-+.#\[\d]", re.IGNORECASE)
+"""How a line of a program begins, and no line of prose."""
+
+
+def interpret(
+    text: str,
+    dialect: Dialect,
+    *,
+    block_delete: bool = False,
+    upper_end: float = 0.0,
+    diameters: Mapping[int, float] | None = None,
+    start: tuple[float, float, float] | None = None,
+) -> Run:
+    r"""Run a program.
+
+    Parameters
+    ----------
+    text
+        The whole program.
+    dialect
+        The control that would read it.
+    block_delete
+        Whether lines that start with ``/`` are skipped.
+    upper_end
+        Machine Z of a full retract, mm: G53 to there or higher is at the machine's upper end.
+    diameters
+        D number to diameter, mm, for G41 and G42.
+    start
+        Where the tool stands at first, mm, if that is known; then all work offsets and lengths are taken
+        for 0, as another simulator may do.
+
+    Returns
+    -------
+    run
+        All steps, in work coordinates.
+
+    Raises
+    ------
+    ProgramError
+        The control would stop, or this interpreter would have to guess. The message names the line.
+
+    Examples
+    --------
+    >>> from mechwright_cam.controls.linuxcnc import LinuxCnc
+    >>> run = interpret("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG2 X10 I5 J0\nM2", LinuxCnc.dialect)
+    >>> run.end[-2].tolist(), run.ended
+    ([10.0, 0.0, -1.0], True)
+    """
+    machine = Machine(dialect, upper_end, diameters or {})
+    if start is not None:
+        machine.x, machine.y, machine.z = start
+        machine.offsets_are_zero = True
+    text = text.replace("\r\n", "\n")
+    lines, plain = text.split("\n"), PlainLines(text, dialect)
+    source = Lines(lines)
+    if dialect.macros and uses_macros("\n".join(compress(lines, ~plain.plain))):
+        source = dialect.macros(lines, machine.system_value, machine.look_anew)
+    percents = 0
+    for index, raw in source.run():
+        # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
+        if plain.plain[index]:
+            after = run_stretch(machine, plain, index)
+            if after > index:
+                source.at = after
+                continue
+        elif raw.strip() == "%" and dialect.percent:
+            percents += 1
+            if percents == 2:
+                machine.ended = machine.ended or dialect.percent_ends
+                break
+            continue
+        block = read_block(index + 1, raw, dialect)
+        if block.deleted and block_delete:
+            continue
+        machine.run(block)
+        if machine.ended:
+            return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
+    return machine.result(len(lines))
+
+
+def _beyond(lines: Sequence[str], end: int, dialect: Dialect) -> int:
+    """Number of the first line of a program behind the line of index ``end``, 0 if there is none.
+
+    Subroutines may stand there.
+    """
+    for index, raw in enumerate(lines[end + 1 :], end + 1):
+        if raw.strip() == "%":
+            break
+        if CODE.match(raw):
+            subroutine = dialect.macros is not None and raw.strip()[0] in "oO"
+            return 0 if subroutine else index + 1
+    return 0
+
+
+def interpret_files(program: str | Mapping[str, str], dialect: Dialect, **settings: Any) -> Run:
+    """Run a program: one text, or several files by name, one after the other.
+
+    Settings are those of :func:`interpret`; an error names the file as well.
+    """
+    if isinstance(program, str):
+        return interpret(program, dialect, **settings)
+    runs = []
+    for name, text in program.items():
+        try:
+            runs.append(interpret(text, dialect, **settings))
+        except ProgramError as error:
+            raise ProgramError(f"{name}: {error}") from error
+    return joined(tuple(program), runs)

@@ -1,0 +1,168 @@
+"""The record that a run leaves: positions, and one row for each step."""
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.arcs import sweep_of
+from mechwright_cam.controls.reading.blocks import fail
+from mechwright_cam.controls.reading.groups import spell
+from mechwright_cam.controls.reading.run import Kind, Remark, Run, State, TableWrite
+
+MOST_PECKS = 10_000
+"""Pecks of one hole beyond which Q is a slip of the pen."""
+COLUMNS = (
+    *("kind", "line", "x0", "y0", "z0", "x", "y", "z"),
+    *("centre x", "centre y", "sweep", "arc error", "feed", "seconds", "state"),
+)
+"""What a step is recorded by; lengths in mm."""
+LARGEST = 1e5
+"""Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
+
+
+class Recorder:
+    """Position and feed, and the steps so far; lengths in mm."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        self.dialect = dialect
+        self.x = self.y = self.z = math.nan
+        self.feed = 0.0
+        self.ended = False
+        self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
+        self.index = 0
+        self.tables: list[Array] = []
+        self.rows: list[tuple[float, ...]] = []
+        """Steps since the last table."""
+        self.before = 0
+        """Number of steps in all tables."""
+        self.pieces: list[int] = []
+        self.machine_xy: list[int] = []
+        self.writes: list[TableWrite] = []
+        self.remarks: list[Remark] = []
+
+    def _row(
+        self,
+        kind: Kind,
+        line: int,
+        x: float,
+        y: float,
+        z: float,
+        *,
+        feed: float = 0.0,
+        seconds: float = 0.0,
+        arc: tuple[float, float, float, float] = (math.nan, math.nan, 0.0, 0.0),
+    ) -> None:
+        self.rows.append((kind, line, self.x, self.y, self.z, x, y, z, *arc, feed, seconds, self.index))
+        self.x, self.y, self.z = x, y, z
+
+    @property
+    def steps(self) -> int:
+        """Number of steps so far."""
+        return self.before + len(self.rows)
+
+    def append(self, table: Array) -> None:
+        """Record steps (k, 15), in the order of COLUMNS; the tool is where the last of them ends."""
+        self._close()
+        self.tables.append(table)
+        self.before += len(table)
+        self.x, self.y, self.z = table[-1, 5:8].tolist()
+
+    def _close(self) -> None:
+        """Turn the rows so far into a table."""
+        if self.rows:
+            self.tables.append(np.array(self.rows, dtype=np.float64))
+            self.before += len(self.rows)
+            self.rows = []
+
+    def _rapid(self, line: int, x: float, y: float, z: float) -> None:
+        if (x, y, z) != (self.x, self.y, self.z):
+            self._row(Kind.RAPID, line, x, y, z)
+
+    def _feed_to(self, line: int, x: float, y: float, z: float) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        self._row(Kind.FEED, line, x, y, z, feed=self.feed)
+
+    def _arc_to(
+        self, line: int, x: float, y: float, z: float, centre: tuple[float, float], ccw: bool, turns: int = 1
+    ) -> None:
+        if not self.feed > 0:
+            raise fail(line, "a feed move without a feed; write F above 0")
+        if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
+            raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
+        here = (self.x, self.y)
+        first = self._check_arc(line, here, (x, y), centre)
+        error = abs(first - math.dist((x, y), centre))
+        sweep = sweep_of(here, (x, y), centre, ccw)
+        sweep += math.copysign(math.tau * (turns - 1), sweep)
+        self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(*centre, sweep, error))
+
+    def _check_arc(
+        self, line: int, start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]
+    ) -> float:
+        """Give the radius of an arc at its start, mm; raises ProgramError if its end has another."""
+        first = math.dist(start, centre)
+        error = abs(first - math.dist(end, centre))
+        if first == 0:
+            raise fail(line, "an arc of radius 0")
+        limits = self.dialect
+        if error > limits.arc_most or (error > limits.arc_absolute and error > limits.arc_relative * first):
+            raise fail(
+                line,
+                f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
+                f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
+            )
+        return first
+
+    def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
+        """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
+        x, y, gap = self.x, self.y, self.dialect.peck_clearance
+        if plane - bottom > MOST_PECKS * step:
+            raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
+        depth = plane - step
+        while depth > bottom:
+            self._feed_to(line, x, y, depth)
+            if code == 830:
+                self._rapid(line, x, y, plane)
+            self._rapid(line, x, y, depth + gap)
+            depth -= step
+        self._feed_to(line, x, y, bottom)
+
+    def result(self, lines: int) -> Run:
+        """The record of the whole run."""
+        self._close()
+        table = np.concatenate((np.empty((0, len(COLUMNS))), *self.tables))
+        places = np.abs(table[:, 2:10])
+        beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
+        if beyond.size:
+            line = int(table[beyond[0], 1])
+            raise fail(
+                line, f"a coordinate or an arc's centre is beyond {LARGEST / 1000:g} m; that is no move"
+            )
+        return Run(
+            kind=_whole(table[:, 0]),
+            line=_whole(table[:, 1]),
+            start=table[:, 2:5].copy(),
+            end=table[:, 5:8].copy(),
+            centre=table[:, 8:10].copy(),
+            sweep=table[:, 10].copy(),
+            arc_error=table[:, 11].copy(),
+            feed=table[:, 12].copy(),
+            seconds=table[:, 13].copy(),
+            state=_whole(table[:, 14]),
+            states=tuple(self.states),
+            remarks=tuple(self.remarks),
+            ended=self.ended,
+            lines=lines,
+            piece=np.isin(np.arange(len(table)), self.pieces),
+            machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
+            writes=tuple(self.writes),
+        )
+
+
+def _whole(column: Iterable[float]) -> Any:
+    return np.asarray(column).astype(np.int64)

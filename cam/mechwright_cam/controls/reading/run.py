@@ -1,0 +1,251 @@
+"""What the interpreter gives back: steps as arrays, and the machine states they ran in."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+Ints = NDArray[np.int64]
+Coolant = Literal["off", "mist", "flood", "both"]
+
+
+class Kind(IntEnum):
+    """Kinds of step."""
+
+    RAPID = 0
+    FEED = 1
+    ARC = 2
+    HOME = 3
+    """A rapid in machine coordinates (G53, G28)."""
+    DWELL = 4
+    TOOL = 5
+    """A tool change."""
+    STOP = 6
+    """M0."""
+    END = 7
+    MAYBE = 8
+    """M1: a stop if the operator has switched it on."""
+    TABLE = 9
+    """G10: the program writes into a table of the control."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Everything modal that the proof asks about.
+
+    Parameters
+    ----------
+    tool
+        T number in the spindle, 0 for none.
+    length_offset
+        Active H number; 0 after G49, -1 after G43.1, None if the program never said.
+    length
+        The length that G43.1 gave, mm; None without one.
+    work_offset
+        ``"G54"`` to ``"G59.3"``, ``"G54.1 P7"``, ``"G154 P7"``; None if the program never said.
+    spindle
+        1 clockwise, -1 counter-clockwise, 0 stopped.
+    rpm
+        Programmed speed, rev/min.
+    coolant
+        What runs.
+    side
+        1 with cutter compensation on the left of the contour (G41), -1 on the right, 0 without.
+    diameter_offset
+        D number of that; None without compensation, or if the program gives the diameter itself.
+    stated
+        The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
+        that the program has set itself.
+    off_path
+        How far the control may leave the programmed path between two moves, mm; inf without a bound.
+    """
+
+    tool: int = 0
+    length_offset: int | None = None
+    length: float | None = None
+    work_offset: str | None = None
+    spindle: int = 0
+    rpm: float = 0.0
+    coolant: Coolant = "off"
+    side: int = 0
+    diameter_offset: int | None = None
+    stated: frozenset[str] = frozenset()
+    off_path: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """A comment: its line, its text, and the number of steps before it."""
+
+    line: int
+    text: str
+    step: int
+
+
+@dataclass(frozen=True, slots=True)
+class TableWrite:
+    """What one G10 writes: its step, L and P, its axes and R by letter (mm), and whether G91 was in force."""
+
+    step: int
+    table: int
+    number: int
+    values: Mapping[str, float]
+    incremental: bool
+
+
+@dataclass(frozen=True)
+class Run:
+    """A program as the machine would run it: n steps.
+
+    Coordinates are those of the active work offset, mm. A coordinate is NaN where the text does not say it
+    (before the first move, after a change of offsets), and z is +inf at the machine's upper end.
+
+    Parameters
+    ----------
+    kind
+        (n,) int, see :class:`Kind`.
+    line
+        (n,) int, line of the text, from 1.
+    start, end
+        (n, 3) float, mm.
+    centre
+        (n, 2) float, mm; NaN unless an arc.
+    sweep
+        (n,) float, rad, positive counter-clockwise; 0 unless an arc.
+    feed
+        (n,) float, mm/min; 0 unless a feed move.
+    seconds
+        (n,) float; time of a dwell.
+    arc_error
+        (n,) float, mm: difference of an arc's radii at its start and its end.
+    state
+        (n,) int, index into ``states``.
+    states
+        The machine states.
+    remarks
+        Comments in order.
+    ended
+        Whether the program says that it ends.
+    lines
+        Number of lines read.
+    beyond
+        Number of the first line of a program that stands behind its end, and is not run; 0 if none does.
+    piece
+        (n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one.
+    machine_xy
+        (n,) bool, whether the step belongs to a move of X or Y to a place in machine coordinates (G53) or to
+        a reference point (G28, G30): the way there by a point in the work, and the way from it.
+    writes
+        What the program writes into tables of the control (G10), in order.
+    files
+        Names of the files that were run one after the other; empty if it was one text.
+    file
+        (n,) int, index into ``files``.
+    """
+
+    kind: Ints
+    line: Ints
+    start: Array
+    end: Array
+    centre: Array
+    sweep: Array
+    feed: Array
+    seconds: Array
+    arc_error: Array
+    state: Ints
+    states: tuple[State, ...]
+    remarks: tuple[Remark, ...] = field(default=())
+    ended: bool = False
+    lines: int = 0
+    beyond: int = 0
+    piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    machine_xy: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    writes: tuple[TableWrite, ...] = ()
+    files: tuple[str, ...] = ()
+    file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+
+    def __len__(self) -> int:
+        return int(self.kind.size)
+
+    @cached_property
+    def tool(self) -> Ints:
+        """(n,) T number in the spindle."""
+        return np.array([state.tool for state in self.states], dtype=np.int64)[self.state]
+
+    @cached_property
+    def radius(self) -> Array:
+        """(n,) radius of arcs at their start, mm; NaN elsewhere."""
+        radius: Array = np.hypot(self.start[:, 0] - self.centre[:, 0], self.start[:, 1] - self.centre[:, 1])
+        return radius
+
+    @cached_property
+    def cutting(self) -> NDArray[np.bool_]:
+        """(n,) whether the step is a feed move."""
+        cutting: NDArray[np.bool_] = (self.kind == Kind.FEED) | (self.kind == Kind.ARC)
+        return cutting
+
+    @cached_property
+    def moving(self) -> NDArray[np.bool_]:
+        """(n,) whether the step moves the tool in work coordinates."""
+        moving: NDArray[np.bool_] = self.cutting | (self.kind == Kind.RAPID)
+        return moving
+
+    def of_states(self, value: "Callable[[State], Any]") -> NDArray[Any]:
+        """(n,) a value of the state that each step runs in."""
+        return np.array([value(state) for state in self.states])[self.state]
+
+    @cached_property
+    def length(self) -> Array:
+        """(n,) length of path, mm; NaN or inf where an end is unknown or at the machine's upper end."""
+        # At the machine's upper end inf - inf is an honest "unknown".
+        with np.errstate(invalid="ignore"):
+            move = self.end - self.start
+        flat = np.where(self.kind == Kind.ARC, np.abs(self.sweep) * self.radius, np.hypot(*move[:, :2].T))
+        length: Array = np.hypot(flat, move[:, 2])
+        return length
+
+
+def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
+    """Several files, run one after the other; between two of them the machine is where it happens to be."""
+    states: list[State] = []
+    remarks: list[Remark] = []
+    writes: list[TableWrite] = []
+    first: list[int] = []
+    step = 0
+    for run in runs:
+        first.append(len(states))
+        states += run.states
+        remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
+        writes += [replace(write, step=write.step + step) for write in run.writes]
+        step += len(run)
+
+    def column(name: str) -> Any:
+        return np.concatenate([getattr(run, name) for run in runs])
+
+    return Run(
+        **{name: column(name) for name in _COLUMNS},
+        state=np.concatenate([run.state + at for run, at in zip(runs, first, strict=True)]),
+        states=tuple(states),
+        remarks=tuple(remarks),
+        writes=tuple(writes),
+        ended=all(run.ended for run in runs),
+        lines=runs[-1].lines,
+        beyond=max(run.beyond for run in runs),
+        files=names,
+        file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
+    )
+
+
+_COLUMNS = (
+    *("kind", "line", "start", "end", "centre", "sweep"),
+    *("feed", "seconds", "arc_error", "piece", "machine_xy"),
+)

@@ -1,0 +1,91 @@
+"""Running a stretch of motion lines at once: what a machine does line by line, worked out for all of them."""
+
+import math
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading.modes import Modal
+from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines, X, Z
+from mechwright_cam.controls.reading.recorder import COLUMNS
+from mechwright_cam.controls.reading.run import Kind
+
+FEWEST_LINES = 8
+"""A stretch of fewer lines is not worth it: so many run as quickly one by one."""
+
+
+def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
+    """Run the motion lines that begin at index ``at``, if they are many.
+
+    Returns
+    -------
+    after
+        Index of the first line that is still to be run. A line that would be an error is left to whoever
+        explains errors.
+    """
+    motion = machine.motion
+    known = motion in {0, 10, 20, 30}
+    if not (known or lines.said[G, at]) or not machine.moves_plainly:
+        return at
+    end = lines.until(at, known and motion in {20, 30})
+    if end - at < FEWEST_LINES:
+        return at
+    number = at + np.flatnonzero(lines.said[G:, at:end].any(axis=0))  # without empty lines
+    if number.size == 0:
+        return end
+    words = lines.words[:, number]
+    words[X : F + 1] *= machine.scale
+    last = (motion or 0) / 10, machine.x, machine.y, machine.z, machine.feed
+    for row, before in zip((G, *range(X, Z + 1), F), last, strict=True):
+        _hold(words[row], before)
+    g, feed, place = words[G], words[F], words[X : Z + 1].T
+    start = np.concatenate(([[machine.x, machine.y, machine.z]], place[:-1]))
+    arc = g >= 2
+    table = np.zeros((number.size, len(COLUMNS)))
+    table[:, 0] = np.where(arc, Kind.ARC, np.where(g == 1, Kind.FEED, Kind.RAPID))
+    table[:, 1] = number + 1
+    table[:, 2:5], table[:, 5:8] = start, place
+    table[:, 8:10] = math.nan
+    table[:, 12] = np.where(g > 0, feed, 0.0)
+    table[:, 14] = machine.index
+    wrong = (g > 0) & ~(feed > 0)
+    if arc.any():
+        wrong[arc] |= _arcs(machine, table, words, arc)
+    faults = np.flatnonzero(wrong)
+    count = int(faults[0]) if faults.size else number.size
+    if count:
+        table = table[:count]
+        machine.append(table)
+        machine.motion, machine.feed = 10 * int(g[count - 1]), float(feed[count - 1])
+    return int(number[count]) if faults.size else end
+
+
+def _hold(row: Array, before: float) -> None:
+    """Where there is no word the one before holds."""
+    last = np.maximum.accumulate(np.where(np.isnan(row), -1, np.arange(row.size)))
+    row[:] = np.where(last >= 0, row[last], before)
+
+
+def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
+    """Fill in centre, sweep and error of the arcs in ``table``; tells which the control would refuse."""
+    start, end = table[arc, 2:4], table[arc, 5:7]
+    given = words[I : J + 1, arc].T
+    missing = np.isnan(given)
+    centre = given if machine.absolute_centres else start + np.where(missing, 0.0, given)
+    with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused, like all that is not finite
+        out, back = start - centre, end - centre
+        first, last = np.hypot(*out.T), np.hypot(*back.T)
+        error = np.abs(first - last)
+        turn = np.arctan2(back[:, 1], back[:, 0]) - np.arctan2(out[:, 1], out[:, 0])
+    whole = (start == end).all(axis=1)
+    ccw = words[G, arc] == 3
+    turn = np.where(ccw & (whole | (turn <= 0)), np.where(whole, 0.0, turn) + math.tau, turn)
+    turn = np.where(~ccw & (whole | (turn >= 0)), np.where(whole, 0.0, turn) - math.tau, turn)
+    table[arc, 8:10], table[arc, 10], table[arc, 11] = centre, turn, error
+    known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
+    if machine.absolute_centres:
+        known &= ~missing.any(axis=1)
+    limits = machine.dialect
+    beyond = (error > limits.arc_absolute) & (error > limits.arc_relative * first)
+    refused: Bools = ~known | (first == 0) | (error > limits.arc_most) | beyond
+    return refused

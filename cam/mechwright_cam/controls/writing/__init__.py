@@ -1,0 +1,1 @@
+"""What controls share in writing programs."""

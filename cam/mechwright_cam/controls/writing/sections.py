@@ -1,0 +1,167 @@
+"""The walk through a program: tool by tool, operation by operation, move by move.
+
+Glossary
+--------
+modal word
+    A word that stays in force until it is changed, and is not written again before.
+clearance
+    The height at which the tool may travel anywhere, but for a clamp.
+restart point
+    A place in the text from which the program can be started: everything that is modal is stated there.
+"""
+
+import math
+
+from mechwright_cam.controls.writing.drilling import Drilling
+from mechwright_cam.controls.writing.text import number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import (
+    OPERATION_COMMENT,
+    Drill,
+    Feed,
+    FeedArc,
+    Move,
+    Operation,
+    Pause,
+    Rapid,
+    ToolSection,
+)
+from mechwright_cam.shop.tool import Tool
+
+COOLANT = {"flood": 8, "mist": 7}
+"""The usual M codes."""
+
+
+class Sections(Drilling):
+    """A control that is led through a program."""
+
+    def section(self, out: Writer, section: ToolSection) -> None:
+        """Write everything from one tool change to the next."""
+        named = False
+        last = [move for operation in section.operations for move in operation.moves][-1]
+        for operation in section.operations:
+            self.comment(out, OPERATION_COMMENT + operation.name)
+            moves = operation.moves
+            if moves and not named:
+                self._to_place_of_change(out)
+                self.tool_change(out, section)
+                out.lost_place()
+                self._begin(out, section, moves[0])
+                moves = moves[1:]
+                named = True
+            elif out.program.posting.restart and self._can_restart(out, operation):
+                self.comment(out, f"restart point: T{section.tool.number} in the spindle")
+                self.restate(out)
+                out.lost_place()
+                out.lost_height()
+                self._begin(out, section, moves[0])
+                moves = moves[1:]
+            for move in moves:
+                if move is last and isinstance(move, Pause):
+                    # The next section starts the spindle: here it would turn beside the operator's hands.
+                    self._stop(out, move)
+                    return
+                self._move(out, section, move)
+        self.end_drilling(out)
+        out.line(self.m(9))
+        out.line(self.m(5))
+        self.retract(out)
+
+    def restate(self, out: Writer) -> None:
+        """State the modes once more, at a restart point."""
+        self.end_drilling(out)
+        out.line(*self.modes)
+        out.line(*self.blending(out.program.posting.exact_stop))
+        self.retract(out)
+
+    def _can_restart(self, out: Writer, operation: Operation) -> bool:
+        """Whether an operation starts above everything, at a stated place."""
+        if not operation.moves or math.isnan(out.z) or out.z < out.program.clearance:
+            return False
+        first = operation.moves[0]
+        return isinstance(first, Rapid) and None not in (first.x, first.y)
+
+    def _begin(self, out: Writer, section: ToolSection, first: Move) -> None:
+        """Spindle, place, length offset and coolant, in that order."""
+        assert isinstance(first, Rapid)  # noqa: S101 - the caller has seen to it
+        out.resumed = None
+        offset = out.program.work_offset
+        if " " in offset:  # its P must not be taken for another word's
+            out.line(offset)
+            offset = ""
+        self._start_spindle(out, section, offset)
+        out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
+        self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
+        out.line(self._coolant(section))
+
+    def _to_place_of_change(self, out: Writer) -> None:
+        machine = out.program.machine
+        self._machine_place(out, machine.change_x, machine.change_y)
+
+    def go_home(self, out: Writer) -> None:
+        """Bring the table where the machine file wants it at the end."""
+        machine = out.program.machine
+        self._machine_place(out, machine.home_x, machine.home_y)
+
+    def _machine_place(self, out: Writer, x: float | None, y: float | None) -> None:
+        words = [f"{axis}{out.length(value)}" for axis, value in (("X", x), ("Y", y)) if value is not None]
+        if words:
+            out.line("G53", "G0", *words)
+            out.motion = "G0"
+            out.x = out.y = math.nan
+
+    def _move(self, out: Writer, section: ToolSection, move: Move) -> None:
+        if out.cycle and not isinstance(move, Drill):
+            self.end_drilling(out)
+        match move:
+            case FeedArc():
+                out.arc(move)
+            case Feed() if move.side is not None:
+                self._compensate(out, section.tool, move)
+            case Feed():
+                out.straight(move)
+            case Rapid():
+                self.rapid(out, move)
+            case Drill():
+                if math.isnan(out.z):
+                    self.rapid(out, Rapid(z=out.program.clearance))
+                if out.program.posting.cycles:
+                    self.drill(out, move)
+                else:
+                    self.drill_in_moves(out, move)
+            case Pause():
+                self._pause(out, section, move)
+
+    def _compensate(self, out: Writer, tool: Tool, move: Feed) -> None:
+        """Turn cutter compensation on or off along a straight line, which states both axes."""
+        out.x = out.y = math.nan
+        out.motion = ""  # G41, G42 and G40 want a G1 beside them, for whoever reads the block
+        word = {"left": "G41", "right": "G42"}.get(move.side or "", "G40")
+        number = f"D{tool.d_number}" if word != "G40" else ""
+        axes = out.axis_words(move.x, move.y, None)
+        out.line(out.motion_word("G1"), word, number, *axes, out.feed_word(move.feed))
+
+    def _stop(self, out: Writer, move: Pause) -> None:
+        self.end_drilling(out)
+        out.line(self.m(9))
+        out.line(self.m(5))
+        self.retract(out)
+        self.message(out, move.message)
+        out.line(self.m(0))
+
+    def _pause(self, out: Writer, section: ToolSection, move: Pause) -> None:
+        self._stop(out, move)
+        out.motion = out.feed = ""  # whoever goes on from here finds both stated
+        self._start_spindle(out, section)
+        out.line(self._coolant(section))
+        # G28 ends G43 on some machines, and so may what the operator does at the stop.
+        out.resumed = section
+
+    def _start_spindle(self, out: Writer, section: ToolSection, *words: str) -> None:
+        out.line(*words, "S" + number(section.spindle, 0), self.m(3))
+        if out.program.machine.spindle_delay > 0:
+            self.dwell(out, out.program.machine.spindle_delay)
+
+    def _coolant(self, section: ToolSection) -> str:
+        code = COOLANT.get(section.coolant)
+        return "" if code is None else self.m(code)

@@ -1,0 +1,117 @@
+"""What a control spells its own way: its words, its comments, and the few lines that differ."""
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.corners import Corners
+from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.offsets import DOffset
+from mechwright_cam.controls.writing.text import comment_lines, number
+from mechwright_cam.controls.writing.writer import Writer
+from mechwright_cam.program.moves import ToolSection
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.tool import Tool
+
+
+class Spelling(Control):
+    """A control that reads RS274 words, and how it spells what differs."""
+
+    dialect: ClassVar[Dialect]
+    """What it understands, and what it means by it."""
+    capitals: ClassVar[bool] = False
+    """Whether comments are of capitals."""
+    active_comments: ClassVar[tuple[str, ...]] = ()
+    """Words that the control would obey at the start of a comment."""
+    forbidden: ClassVar[str] = ""
+    """Characters that the control would obey even in a comment."""
+    highest_tool: ClassVar[int] = 9999
+    """The largest T number that it takes."""
+    retract_motion: ClassVar[str] = "G0"
+    """The motion in force after a retract."""
+    modes: ClassVar[tuple[str, ...]] = ("G17", "G21", "G40", "G49", "G80", "G90", "G94")
+    """The safe start: every mode that the program relies on."""
+
+    @property
+    def decimals(self) -> int:
+        """Decimals of a coordinate, mm, that the control keeps."""
+        return self.dialect.decimals
+
+    @property
+    def corners(self) -> Corners:
+        """How far the control leaves the path between two moves."""
+        return self.dialect.corners
+
+    @property
+    def length_write(self) -> tuple[int, str] | None:
+        """L of the G10 that sets a tool's length, and the letter of the length; None without such a table."""
+        return self.dialect.length_write
+
+    def length(self, value: float) -> str:
+        """A coordinate or another length, mm."""
+        return number(value, self.decimals, self.dialect.point_needed)
+
+    def m(self, code: int) -> str:
+        """The control's word for a usual M code."""
+        return f"M{self.dialect.m(code)}"
+
+    def frame(self, out: Writer) -> None:
+        """Write what stands before everything else."""
+
+    def end(self, out: Writer) -> None:
+        """Coolant, spindle and height are safe already; end."""
+        out.line(self.m(30))
+
+    def retract_lines(self, z: float) -> Sequence[str]:
+        """The lines that go to the machine's upper end, which is at machine Z z, mm."""
+        return (f"G53 G0 Z{self.length(z)}",)
+
+    def retract(self, out: Writer) -> None:
+        """Go to the machine's upper end."""
+        for line in self.retract_lines(out.program.machine.retract_z):
+            out.line(line)
+        out.motion = self.retract_motion
+        out.lost_height()
+
+    def retract_words(self, machine: Machine) -> str:
+        """What goes to the upper end of a machine."""
+        return ", then ".join(self.retract_lines(machine.retract_z))
+
+    def tool_change(self, out: Writer, section: ToolSection) -> None:
+        """Change the tool, which stands at the machine's upper end."""
+        out.line(self.change_words(section.tool.number))
+
+    def length_offset(self, out: Writer, section: ToolSection, z: float) -> None:
+        """Turn on the tool's length offset, with the first move to z."""
+        out.line(self.length_words(section.tool.number), *out.axis_words(None, None, z, rapid=True))
+
+    def message(self, out: Writer, text: str) -> None:
+        """Tell the operator something at a stop."""
+        self.comment(out, text)
+
+    def blending(self, exact: bool) -> list[str]:
+        """The words that choose how corners are taken."""
+        return ["G61" if exact else "G64"]
+
+    def tool_words(self, tool: Tool) -> list[str]:
+        """The lines that set a tool's measured length."""
+        return [f"G10 L1 P{tool.number} Z{self.length(tool.length or 0.0)}"]
+
+    def comment(self, out: Writer, text: str) -> None:
+        """Write a comment, as many lines as it takes."""
+        for line in comment_lines(text, self.active_comments, self.forbidden, self.capitals):
+            out.line(f"({line})")
+
+    def tool_note(self, tool: Tool) -> str:
+        """A tool in the head: its numbers, diameter, name and kind."""
+        kind = str(tool.kind).replace("-", " ")
+        return f"T{tool.number} H{tool.number} D {number(tool.diameter)} mm: {tool.name}, {kind}"
+
+    def d_note(self, offset: DOffset) -> str:
+        """What a D offset has to hold."""
+        what = f"{offset.quantity} of T{offset.tool.number}"
+        if offset.planned == 0:
+            value, what = "0 for a cutter as planned", f"wear on the {what}"
+        else:
+            value = f"{number(offset.planned)} as planned"
+        return f"D{offset.number} holds the {what}: {value}, at most {number(offset.limit)} more or less"

@@ -1,0 +1,190 @@
+"""Machining: the jobs of a build, their programs, and the proof of each."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from mechwright.build import Build
+from mechwright.contracts.finding import Finding, Stage, at_stage, errors
+from mechwright.contracts.part import Part
+from mechwright.designs.design import Design
+from mechwright.errors import DesignError, PluginError
+from mechwright.plugins.host import Host
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.operations.contract import Operation
+from mechwright_cam.planning import plan
+from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.prepare import plates, prepare
+from mechwright_cam.planning.setups import carried
+from mechwright_cam.program.moves import Program
+from mechwright_cam.proof.carried import cut_away
+from mechwright_cam.proof.judge import RULES, judge
+from mechwright_cam.proof.report import Proof
+from mechwright_cam.proof.rule import Rule
+from mechwright_cam.proof.scene import Scene
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
+
+
+@dataclass(frozen=True)
+class Machined:
+    """A part with its program and the proof of it."""
+
+    job: Job
+    program: Program
+    files: dict[str, str]
+    proof: Proof
+    scene: Scene
+    """What the proof has looked at, as far as it is worked out."""
+
+    @property
+    def text(self) -> str:
+        """The program's text, all its files one after the other."""
+        return "".join(self.files.values())
+
+
+class Machining:
+    """What is made of a build for the mill, each thing once."""
+
+    def __init__(self, build: Build) -> None:
+        self._build = build
+
+    @cached_property
+    def settings(self) -> CamSettings:
+        """What holds for the whole job."""
+        return settings_of(self._build.design).cam
+
+    @cached_property
+    def control(self) -> Control:
+        """The control that reads the programs; raises PluginError if it is not installed."""
+        return control_of(self._build.design, self._build.host)
+
+    @property
+    def rules(self) -> list[Rule]:
+        """What every program is judged by: what is built in, and what anybody has installed."""
+        return self._build.host.all(Rule)
+
+    @cached_property
+    def plates(self) -> list[Part]:
+        """The parts that are milled from a plate."""
+        return plates(self._build.parts)
+
+    @cached_property
+    def _prepared(self) -> tuple[list[Finding], list[Job]]:
+        return prepare(self._build.design, self.plates, self.assignments)
+
+    @cached_property
+    def assignments(self) -> Assignments:
+        """Who cuts what, with the operations that others have registered at hand."""
+        return Assignments(self._build.host.all(Operation))
+
+    @property
+    def jobs(self) -> list[Job]:
+        """One for each plate or nest, and one more where the underside is milled as well."""
+        return self._prepared[1]
+
+    @cached_property
+    def nests(self) -> list[Nest]:
+        """The plates of several parts."""
+        return [job.part for job in self.jobs if isinstance(job.part, Nest)]
+
+    @cached_property
+    def findings(self) -> list[Finding]:
+        """What control and cutters cannot do, for both sides, and what they leave."""
+        control = self.control  # one that is not installed is told before any work
+        every = [self.settings, *(job.settings for job in self.jobs)]
+        found = [finding for settings in every for finding in control.check(settings)]
+        for job in self.jobs:
+            found += control.check_tools(job.settings, job.tools)
+        return [*at_stage(Stage.MACHINING, dict.fromkeys(found)), *self._prepared[0]]
+
+    @cached_property
+    def made(self) -> list[Machined]:
+        """The proven programs, in the order of the jobs; none where a finding forbids them.
+
+        Raises
+        ------
+        ToolError
+            A cutter that the work needs is not there.
+        ProofError
+            A program would not cut the right part.
+        """
+        if errors(self.findings):
+            return []
+        if {"control", "wear"} <= {job.settings.compensation for job in self.jobs}:
+            raise DesignError(
+                f'{self._build.path}: cam.compensation: "control" and "wear" in one job would ask D for two '
+                "things at once; use one of them"
+            )
+        made: list[Machined] = []
+        for place, job in enumerate(self.jobs):
+            laid = job
+            if job.side == "underside":  # what the first side leaves changes how it is cut, and not by whom
+                laid = self.assignments.carry(job, second_setup(made[-1], job))
+            made.append(machine(laid, self.control, place, self.assignments, self.rules))
+        return made
+
+    @cached_property
+    def table(self) -> tuple[str, str]:
+        """Name and text of the control's table of the tools of all programs; two empty texts without one."""
+        tools = {tool.number: tool for item in self.made for tool in item.program.tools}
+        listed = [tools[number] for number in sorted(tools)]
+        compensated = (
+            item.job.settings for item in self.made if item.job.settings.compensation != "computer"
+        )
+        settings = next(compensated, None)
+        return self.control.offset_table(listed, settings) if settings else self.control.tool_table(listed)
+
+
+def control_of(design: Design, host: Host) -> Control:
+    """The control that a design names; raises PluginError if it is not installed."""
+    try:
+        return host.get(Control, settings_of(design).cam.control)
+    except PluginError as error:
+        raise PluginError(f"{design.path}: cam.control: {error}") from error
+
+
+def second_setup(first: Machined, job: Job) -> Job:
+    """The second setup of a part, with what the first one has left of the plate."""
+    return replace(job, gone=carried(cut_away(first.scene), first.job, job))
+
+
+def machine(
+    job: Job,
+    control: Control,
+    place: int = 0,
+    assignments: Assignments | None = None,
+    rules: Sequence[Rule] = RULES,
+) -> Machined:
+    """Plan a program, post it, and prove the posted text.
+
+    Who cuts what is taken from ``assignments``, if it has been decided. Programs of one design that have
+    numbers are told apart by their ``place``.
+
+    Raises
+    ------
+    ToolError
+        A cutter that the work needs is not there.
+    ProofError
+        The program would not cut the right part.
+    """
+    cam = job.settings
+    tools = Library(job.tools).measured(cam.measured.lengths).tools
+    if tools != job.tools:
+        job = replace(job, tools=tools)
+    stated = {
+        "program_number": cam.post.program_number + place,
+        "tool_change": cam.post.tool_change or control.by_hand,
+    }
+    posting = cam.post.model_copy(update=stated)
+    program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
+    files = control.files(program)
+    named = {name + control.suffix: text for name, text in files.items()}
+    text = named if len(files) > 1 else next(iter(files.values()))
+    scene = Scene(text, job, control)
+    proof = judge(scene, rules)
+    proof.require()
+    return Machined(job, program, files, proof, scene)

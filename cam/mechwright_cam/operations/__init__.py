@@ -1,0 +1,1 @@
+"""Operations: how one feature is cut."""

@@ -1,0 +1,241 @@
+"""Bores: opened by a drill if there is one, milled along helices, and finished on circles."""
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+import shapely
+
+from mechwright.contracts.details import Detail
+from mechwright.contracts.part import Bore, Feature
+from mechwright.errors import ToolError
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.choice import ROOMY, usable_mills
+from mechwright_cam.operations.contour_writer import finish_bore_compensated
+from mechwright_cam.operations.contract import Hole, Operation, Task
+from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
+from mechwright_cam.operations.entry import enters
+from mechwright_cam.operations.finishing import finish_depth
+from mechwright_cam.operations.floors import floor_allowance
+from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.rates import rates
+from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, rounded
+from mechwright_cam.program.moves import Feed, FeedArc, Rapid
+from mechwright_cam.setup.depths import bores, bottom_of, through
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
+
+TIGHTEST = 0.9
+"""A mill up to this share still turns a helix; beyond, it would be a drill."""
+
+CORELESS = 0.8
+"""First helix in cutter radii: below 1, so that no core stays."""
+
+ONE_MORE = 60.0
+"""One more mill for bores is worth it if it saves this time, s, and that of changing to it: about what it
+takes to fetch it, to clamp it, and to measure its length."""
+
+
+class BoreOperation(Operation):
+    """Mills round holes, or leaves them to a drill of their size."""
+
+    name = "bore"
+
+    def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
+        """Any bore; raises ToolError if there is no way to make it."""
+        if not isinstance(feature, Bore):
+            return None
+        drill, mill = cutters_of(job, feature)
+        hole = None if drill is None else Hole(drill, feature.centre)
+        bottom = bottom_of(job, feature.top, feature.depth)
+        region = shapely.Point(feature.centre).buffer(feature.diameter / 2, quad_segs=EXACT)
+        return Task(feature, self, () if mill is None else (mill,), -feature.top, bottom, region, hole)
+
+    def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
+        """A mill, unless one is chosen already that takes little longer, or a drill makes the bore."""
+        if not isinstance(feature, Bore):
+            return None
+        bottom = bottom_of(every, feature.top, feature.depth)
+        able = [m for m in usable_mills(every, -bottom) if enters(m, feature.diameter, every.settings)]
+        largest = max((mill.diameter for mill in chosen), default=math.inf)
+        mill = boring_mill([m for m in able if m.diameter <= largest] or able, feature.diameter)
+        if mill is None or mill in chosen:
+            return []
+        roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * feature.diameter]
+        other = boring_mill(roomy, feature.diameter)
+        if other is not None:
+            drill = cutters_of(every, feature)[0]
+            first, second = (boring_time(every, feature, drill, m) for m in (other, mill))
+            alike = sum(_size(bore) == _size(feature) for bore in bores(every))
+            if alike * (first - second) <= ONE_MORE + every.settings.machine.tool_change:
+                return []
+        return [mill]
+
+    def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
+        """Out to the finishing allowance, then to size."""
+        assert isinstance(task.feature, Bore)  # noqa: S101 - nothing else is claimed
+        bore, job, drill = task.feature, steps.job, task.hole.drill if task.hole else None
+        for mill in task.tools:
+            air = stock.air_below(task.top)
+            steps.add(f"{bore.name}: bore", mill, partial(rough_bore, job, bore, drill, air))
+            plain = job.settings.compensation == "computer"
+            finish = finish_bore if plain else finish_bore_compensated
+            steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
+        return stock.without(task.region)
+
+
+EXACT = 256
+"""Chords of a quarter of a bore, where its edge is looked at."""
+
+
+def _size(bore: Bore) -> tuple[float, float, float]:
+    return bore.diameter, bore.top, bore.depth
+
+
+def cutters_of(job: Job, bore: Bore) -> tuple[Tool | None, Tool | None]:
+    """The drill and the mill of a bore, one of them at least; raises ToolError if nothing makes it."""
+    depth = -bottom_of(job, bore.top, bore.depth)
+    out = through(job, bore.top + bore.depth)
+    usable = usable_mills(job, depth)
+    # D does not bring a wall to size that the end of the cutter makes.
+    round_too = out and job.settings.compensation == "computer"
+    able = usable if round_too else [tool for tool in usable if tool.nose == 0]
+    mill = boring_mill([tool for tool in able if enters(tool, bore.diameter, job.settings)], bore.diameter)
+    if mill is not None:
+        drill = starting_drill(job, bore.diameter, depth) if out else None
+        return drill, mill
+    for drill in usable_drills(job, depth):
+        if abs(drill.diameter - bore.diameter) <= ON_SIZE and out:
+            return drill, None
+    if boring_mill(able, bore.diameter) is not None:
+        raise ToolError(
+            f"cam.compensation: no listed end mill has room in {bore.name} of {bore.diameter:g} mm, part "
+            f"{job.part.name}, for an entry longer than D may be; the smallest is {able[-1].name}: list a "
+            'smaller one, or use "wear" or "computer"'
+        )
+    raise ToolError(
+        f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
+        f"up to {TIGHTEST * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
+    )
+
+
+def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:
+    """The mill for a hole: the largest with room for chips, else the smallest that fits at all.
+
+    Flat end mills come before round ones, which leave a fillet on the floor of a blind hole and are for holes
+    through the plate.
+    """
+    flat = [mill for mill in mills if mill.nose == 0 and mill.diameter <= TIGHTEST * diameter]
+    mills = flat or mills
+    roomy = [mill for mill in mills if mill.diameter <= ROOMY * diameter]
+    snug = [mill for mill in mills if mill.diameter <= TIGHTEST * diameter]
+    return roomy[0] if roomy else (snug[-1] if snug else None)
+
+
+def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
+    """Depth of a bore's cuts, z in mm: out of the plate with all of a rounded corner."""
+    bottom = bottom_of(job, bore.top, bore.depth)
+    return bottom - mill.nose if bottom == job.floor else bottom
+
+
+def boring_time(job: Job, bore: Bore, drill: Tool | None, mill: Tool) -> float:
+    """Time in which a mill roughs and finishes a bore, s; rapids and corners do not count."""
+    settings = job.settings
+    speed = rates(mill, job.part.material, settings.machine)
+    pen = Pen(mill, speed, settings.clearance, math.tan(math.radians(settings.ramp_angle)))
+    rough_bore(job, bore, drill, shapely.Polygon(), pen)
+    finish_bore(job, bore, pen)
+    minutes, x, y = 0.0, *bore.centre
+    for move in pen.moves:
+        if isinstance(move, FeedArc):
+            begin, end = math.atan2(-move.j, -move.i), math.atan2(move.y - y - move.j, move.x - x - move.i)
+            turn = ((end - begin) * (1 if move.ccw else -1)) % math.tau or math.tau
+            minutes += turn * math.hypot(move.i, move.j) / move.feed
+        if isinstance(move, FeedArc | Feed | Rapid):
+            x, y = x if move.x is None else move.x, y if move.y is None else move.y
+    return 60 * minutes
+
+
+def _open_radius(air: shapely.Geometry, middle: shapely.Point) -> float:
+    """Radius of what earlier setups have cut through at the middle of a bore, mm; 0 if they have not."""
+    return float(air.boundary.distance(middle)) if shapely.contains(air, middle) else 0.0
+
+
+def rough_bore(job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, pen: Pen) -> None:
+    """Write helices out to the finishing allowance, from what a drill or earlier setups have opened."""
+    mill = pen.tool
+    data = mill.cutting[job.part.material]
+    widest = bore.diameter / 2 - mill.radius - max(job.settings.stock_to_leave, CIRCLE_BIAS)
+    final = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
+    if drill is not None and widest + mill.radius <= drill.radius + CIRCLE_BIAS:
+        return  # the drill has left just the finishing allowance
+    # Too narrow for an allowance: the finishing circle is the only one.
+    widest = widest if widest >= final / 2 else final
+    step = min(data.step_over, CORELESS) * mill.diameter
+    first = min(widest, CORELESS * mill.radius)
+    if drill is not None:
+        first = max(first, min(widest, drill.radius + step - mill.radius))
+    edge = _open_radius(air, shapely.Point(bore.centre)) - mill.radius
+    if edge > 0:  # outwards from there in even rings
+        edge = min(edge, widest)
+        first = edge + (widest - edge) / max(math.ceil((widest - edge) / step - TOLERANCES.noise), 1)
+    count = math.ceil((widest - first) / step - TOLERANCES.noise) + 1
+    radii = [*(first + number * (widest - first) / (count - 1) for number in range(count - 1)), widest]
+    bottom = _bottom(job, bore, mill)
+    leave = floor_allowance(job, -bore.top, bottom)
+    for radius in radii:
+        _helix(job, bore, pen, radius, data.step_down * mill.diameter, bottom + leave)
+    if leave > 0:
+        _floor(job, bore, pen, radii, bottom)
+    pen.retract()
+
+
+def _floor(job: Job, bore: Bore, pen: Pen, radii: list[float], bottom: float) -> None:
+    """The floor of a blind bore in one pass: sunk along the innermost ring, then ring by ring outwards."""
+    for radius in radii:
+        turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+        pen.straight(turn.start)
+        pen.ramp(turn, bottom)
+        pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
+    pen.straight(bore.centre)
+
+
+def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float, bottom: float) -> None:
+    """Down along a helix, once round at the bottom, and to the middle."""
+    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+    # A little less than the steepest, for rounding.
+    pitch = min(step_down, math.tau * radius * pen.slope * 0.999)
+    pen.above(turn.start)
+    pen.sink(-bore.top)
+    for z in levels(-bore.top, bottom, pitch):
+        pen.descend(turn, z, min(pen.rates.ramp, pen.rates.inside(radius, pen.tool.radius)))
+    pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
+    pen.straight(bore.centre)
+
+
+def finish_bore(job: Job, bore: Bore, pen: Pen) -> None:
+    """Write the finishing circles, entered and left on half circles from the middle."""
+    mill = pen.tool
+    radius = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
+    bottom = _bottom(job, bore, mill)
+    ccw = job.settings.climb
+    x, y = rounded(bore.centre[0]), rounded(bore.centre[1])
+    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), ccw)
+    middle, side = ((x + turn.start[0]) / 2, (y + turn.start[1]) / 2), 1 if ccw else -1
+    path = Path(
+        (x, y),
+        (
+            arc((x, y), turn.start, middle, side),
+            *turn.cuts,
+            arc(turn.start, (x, y), middle, side),
+        ),
+    )
+    heights = levels(-bore.top, bottom, finish_depth(job.settings, mill, job.part.material))
+    feed = pen.rates.inside(radius, mill.radius)
+    pen.above((x, y))
+    for z in heights + [bottom] * job.settings.spring_passes:
+        pen.sink(z)
+        pen.follow(path, feed)
+    pen.retract()

@@ -1,0 +1,104 @@
+"""The channel around a part, and the frame that stays outside it."""
+
+import math
+
+import numpy as np
+import shapely
+
+from mechwright.errors import DesignError
+from mechwright_cam.operations.zone import SLACK
+from mechwright_cam.plane.offsets import ROUGH, filled, grow, polygons, simplified, thinned
+from mechwright_cam.plane.reach import roughly_swollen
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.setup.vice import beside, can_be_clamped
+from mechwright_cam.shop.tool import Tool
+
+LEAST_FRAME = 1.0
+"""Least width of the frame that tabs end in, mm."""
+
+NEARLY = 1e-6
+"""Gaps are compared to this, mm: parts that were placed at a distance have it but for rounding."""
+
+
+def roughing_mills(
+    job: Job, mills: list[Tool], part: shapely.Geometry, framed: bool | None = None
+) -> list[Tool]:
+    """The mills whose channel around the part leaves a frame, largest first.
+
+    Without tabs a frame is only nice to have; with them (``framed``, by default if the job has tabs) it is an
+    error if no mill leaves one.
+    """
+    apart = _neighbour(job, part)
+    fit = [mill for mill in mills if _has_frame(job, part, channel_width(job, mill), apart)]
+    if fit or not (bool(job.tabs) if framed is None else framed):
+        return fit or mills
+    least = channel_width(job, mills[-1])
+    if apart < 2 * least + LEAST_FRAME:
+        raise DesignError(
+            f"cam.nest.gap: {apart:.2f} mm between the parts of {job.part.name} leave no frame between two "
+            f"channels of {least:.2f} mm; use at least {math.ceil(2 * least + LEAST_FRAME):g} mm"
+        )
+    x0, y0, x1, y1 = part.bounds
+    margin = min(x0 - job.stock[0], y0 - job.stock[1], job.stock[2] - x1, job.stock[3] - y1)
+    raise DesignError(
+        f"cam.stock: a margin of {margin:.2f} mm leaves no frame for the tabs of part {job.part.name} beside "
+        f"a channel of {least:.2f} mm; use at least {math.ceil(least + LEAST_FRAME):g} mm"
+        + (", or hold by the bore" if can_be_clamped(job.part) and not isinstance(job.part, Nest) else "")
+    )
+
+
+def channel_width(job: Job, mill: Tool) -> float:
+    """Width of the channel that a mill opens around the part in one pass, mm."""
+    return mill.diameter + max(job.settings.stock_to_leave, SLACK)
+
+
+def _has_frame(job: Job, part: shapely.Geometry, width: float, apart: float) -> bool:
+    """Whether the stock around a channel of this width is one ring at least LEAST_FRAME wide.
+
+    The next part of a nest is so far ``apart``, mm.
+    """
+    x0, y0, x1, y1 = part.bounds
+    far = width + LEAST_FRAME
+    return bool(
+        x0 - far >= job.stock[0]
+        and y0 - far >= job.stock[1]
+        and x1 + far <= job.stock[2]
+        and y1 + far <= job.stock[3]
+        and apart >= width + far - NEARLY
+    )
+
+
+def _neighbour(job: Job, part: shapely.Geometry) -> float:
+    """Distance of an outside from the next part of a nest, mm; inf where it is alone."""
+    if not isinstance(job.part, Nest):
+        return math.inf
+    others = np.array(polygons(job.target))
+    x0, y0, x1, y1 = part.bounds
+    lows, highs = np.split(shapely.bounds(others), 2, axis=1)
+    between = np.hypot(*np.maximum(0.0, np.maximum(lows - (x1, y1), (x0, y0) - highs)).T)
+    least = math.inf
+    for at in np.argsort(between, kind="stable").tolist():
+        if between[at] >= least:  # and so are the boxes of all that follow
+            break
+        # A turned polygon is not the same to the last digit; its own plate is the one it overlaps.
+        if not shapely.intersects(others[at], part):
+            least = min(least, float(shapely.distance(others[at], part)))
+    return least
+
+
+def channel_of(
+    job: Job, part: shapely.Polygon, mill: Tool
+) -> tuple[shapely.Geometry, shapely.Geometry | None]:
+    """What has to go around the part, and the outer limit of the channel."""
+    width = channel_width(job, mill)
+    thin = thinned(part)  # the finishing of the wall does not depend on it
+    if not _has_frame(job, part, width, _neighbour(job, part)):
+        # The channel breaks out of the plate: the corners would come loose, so all of the plate goes.
+        if job.settings.stock.finished:
+            return beside(shapely.box(*job.stock), part), None
+        return shapely.box(*job.stock).difference(thin), None
+    # Whatever the channel encloses would come loose, so it goes as well.
+    near = roughly_swollen(part, width - mill.radius)
+    channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
+    return channel.difference(thin), channel

@@ -1,0 +1,379 @@
+"""Roughing: remove what is left in front of a wall, ring by ring from the far side to the wall.
+
+Of the stock to take a cut looks at the core only: what is left when a sliver is shaved off all round. What is
+thinner than two slivers has none, and grown by the sliver the core is the stock again.
+
+Coverage: a point that the cutter can reach lies within one step of the next ring towards the wall, because
+the way to the nearest wall point crosses that ring. So with steps up to the radius, the rings leave nothing.
+"""
+
+import math
+from copy import copy
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.zone import CUSP, SLACK, Zone
+from mechwright_cam.plane.arcfit import fit_all
+from mechwright_cam.plane.buffers import buffered
+from mechwright_cam.plane.offsets import (
+    FINE,
+    ROUGH,
+    Piece,
+    areas,
+    densified,
+    fit_tolerance,
+    grow,
+    pieces,
+    polygons,
+    rings,
+    without_slits,
+)
+from mechwright_cam.plane.path import Path
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
+
+SLIVER = 0.02
+"""Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""
+FLOOR_SLIVER = TOLERANCES.leftover / 4
+"""The same where the stock would stay on a floor that nothing goes over again, mm: half of what may stay."""
+FRINGE = 0.05
+"""What the far side of a channel keeps, mm, belongs to the frame. Exact rings that reach just as far would
+leave hundreds of threads there, and to grow them takes longer than all the rest."""
+CLEAR = 0.01
+"""A cutter this far from uncut stock runs in the clear, mm."""
+OVERLAP = 1.5 * ROUGH
+"""What a cut takes is made larger by this than by the cut before, mm: then their chords keep apart along
+walls, where shapes that all but coincide would cross at every corner. Tests of what is clear allow for it."""
+COARSE_FIT = 2 * ROUGH
+"""How far arcs of a thinned path may stand off, mm: twice the chord error, or the chords would come out as
+lines again."""
+COARSE_FROM = 8 * ROUGH
+"""From this allowance on the wall is far enough away for thinned paths, mm: twice of what outline, offset,
+thinning and fit may be off together."""
+NEXT_RING = 1.5
+"""The next ring is beside the present one if its start is within this many steps."""
+TIGHT = 0.49
+"""Steps up to half a diameter cover everything, see above; a wider step_over is cut back to this."""
+MANY = 0.5
+"""A round mill that would need more than twice its rings to make a floor roughs with its own step first."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A path at one depth.
+
+    Parameters
+    ----------
+    path
+        Where the centre goes.
+    open
+        The start is clear of stock, so the cutter may be sunk there.
+    linked
+        The cutter may go straight from the end of the run before to the start of this one at depth.
+    beside
+        Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
+        centre may be plunged through that, slowly, which is shorter than a ramp.
+    """
+
+    path: Path
+    open: bool
+    linked: bool
+    beside: bool = False
+
+
+@dataclass(frozen=True)
+class Cavity:
+    """Runs that remove connected stock, in cutting order; ``back``: the last leads to the first."""
+
+    runs: tuple[Run, ...]
+    back: bool
+
+
+class Roughing:
+    """One tool's roughing of one zone.
+
+    Parameters
+    ----------
+    zone, stock
+        Where, and what of it has to go.
+    tool
+        An end mill.
+    allowance
+        Stock to leave on the wall, mm; at least what its accuracy asks for.
+    step_over
+        Distance of rings, diameters.
+    climb
+        Direction.
+    only
+        The stock worth an effort; all that is left if None.
+    ridges
+        Only the floor of ``only`` is to be cut: what stands there is no higher than the zone's ridges.
+    """
+
+    def __init__(
+        self,
+        zone: Zone,
+        stock: Stock,
+        tool: Tool,
+        allowance: float,
+        step_over: float,
+        climb: bool,
+        only: shapely.Geometry | None = None,
+        *,
+        ridges: bool = False,
+    ) -> None:
+        self.zone, self.stock, self.tool, self.climb, self.only = zone, stock, tool, climb, only
+        coarse = allowance >= COARSE_FROM
+        self.chord = ROUGH if coarse else FINE
+        self.fit = COARSE_FIT if coarse else fit_tolerance(zone.path)
+        self.coarse, self.allowance, self.ridges = coarse, allowance, ridges
+        self.radius = zone.radius_of(tool)
+        self.foot = self.radius if zone.through else float(cutter(tool).radius_at(CUSP))
+        self.step = min(step_over, TIGHT) * tool.diameter
+        fine = min(self.step, 2 * TIGHT * self.foot)
+        self.smooth = ridges or fine >= MANY * self.step
+        if self.smooth:
+            self.step = fine
+        self.blocked = without_slits(self._blocked(0), self.chord)
+        self.room = zone.room(self.radius, SLACK)
+        self.free = shapely.difference(self.room, self.blocked)
+        self.wide = self.foot if self.smooth else self.radius
+        self.sliver = SLIVER if zone.kind == "outside" or zone.through else FLOOR_SLIVER
+        self.over = stock.over + min(OVERLAP, self.sliver / 2)
+        # On a floor with ridges nothing may be taken for cut that is not.
+        self.touch = self.foot if ridges else self.radius
+        self.reach = grow(self.free, self.foot if ridges else self.radius + self.over, ROUGH)
+        take = areas(shapely.intersection(stock.left if only is None else only, self.reach))
+        if zone.channel is not None and not coarse:
+            take = shapely.intersection(take, grow(zone.channel, -FRINGE, ROUGH))
+        self.core = buffered(take, -self.sliver, 2)
+        if not shapely.is_empty(stock.waste):
+            self.core = shapely.difference(self.core, grow(stock.waste, self.sliver, ROUGH))
+
+    def _blocked(self, order: int) -> shapely.Geometry:
+        """Where the centre must not be on the ring of this order."""
+        ring = order * self.step
+        if self.coarse:
+            return self.zone.blocked(self.tool, ring, self.allowance)
+        return self.zone.blocked(self.tool, max(self.allowance, self.zone.path.bias) + ring)
+
+    def serves(self, stock: Stock) -> bool:
+        """Whether another layer of the same recess, with this stock in it, is cut alike."""
+        same = stock.left is self.stock.left and stock.over == self.stock.over
+        return same and shapely.is_empty(stock.ridges) and not self.ridges
+
+    def at(self, zone: Zone, stock: Stock) -> "Roughing":
+        """The same cut of another layer that it serves."""
+        other = copy(self)
+        other.zone, other.stock = zone, stock
+        return other
+
+    @property
+    def taken(self) -> float:
+        """Area of what the cut is for, mm²: that of the core grown back, by Steiner's formula."""
+        count, margin = len(polygons(self.core)), self.sliver
+        return float(self.core.area + margin * self.core.length + math.pi * margin**2 * count)
+
+    @property
+    def share(self) -> float:
+        """Part of what is left that this cut takes."""
+        left = self.stock.left.area
+        return self.taken / left if left > 0 else 0.0
+
+    def after(self) -> Stock:
+        """What this cut leaves of the stock."""
+        if self.ridges:
+            return replace(self.stock, ridges=areas(shapely.difference(self.stock.ridges, self.reach)))
+        return replace(self._without(self.reach), over=self.over)
+
+    def after_core(self) -> Stock:
+        """The same for a cut that is only for its core: what it cuts elsewhere does not count."""
+        return self._without(
+            areas(shapely.intersection(self.reach, grow(self.core, self.sliver + self.radius)))
+        )
+
+    def _without(self, reach: shapely.Geometry) -> Stock:
+        stock = self.stock
+        if self.foot < self.radius:
+            taken = areas(shapely.intersection(stock.left, reach))
+            if self.smooth:
+                taken = areas(shapely.difference(taken, grow(self.free, self.foot, ROUGH)))
+            ridges = areas(shapely.union(stock.ridges, taken))
+            stock = stock.with_ridges(ridges, min(self.tool.nose, self.zone.height))
+        return replace(stock, left=areas(shapely.difference(stock.left, reach)))
+
+    @cached_property
+    def cavities(self) -> list[Cavity]:
+        """The runs, grouped by the connected stock they remove, each cavity from its far side to the wall."""
+        parts = polygons(self.core)
+        found = self._pieces() if parts else []
+        if not found:
+            return []
+        middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
+        owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
+        near = grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH)
+        near = prepared(near)
+        groups: dict[int, list[Piece]] = {}
+        for piece, part in zip(found, owner.tolist(), strict=True):
+            groups.setdefault(part, []).append(piece)
+        waiting = [(part, self._ordered(group, near)) for part, group in groups.items()]
+        ordered = [waiting.pop(0)]
+        while waiting:
+            here = ordered[-1][1][-1][-1]
+            starts = np.array([runs[0][0] for _, runs in waiting])
+            ordered.append(waiting.pop(int(np.argmin(np.hypot(*(starts - here).T)))))
+        paths = iter(
+            fit_all(
+                [points for _, runs in ordered for points in runs], self.fit, self.zone.path.lines_per_arc
+            )
+        )
+        # Slack for rounding: a link along a ring's chord may cut its corner by this much.
+        free = grow(self.free, 2 * self.chord + self.fit, ROUGH)
+        free = prepared(free)
+        cavities = []
+        for part, runs in ordered:
+            shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
+            if shapes:
+                cavities.append(self._linked(shapes, parts[part], near, free))
+        return cavities
+
+    def _linked(
+        self, paths: list[Path], core: shapely.Polygon, near: shapely.Geometry, free: shapely.Geometry
+    ) -> Cavity:
+        """Find out which runs may be entered from the one before without lifting the cutter."""
+        radius, stock = self.radius, None
+        swept: shapely.Geometry = shapely.Polygon()
+        starts = np.array([path.start for path in paths])
+        is_open = ~shapely.contains_xy(near, starts[:, 0], starts[:, 1])
+        beside = np.zeros(len(paths), dtype=bool)
+        if self.only is not None and not self.ridges and self.tool.centre_cutting:
+            thick = grow(self.only, radius - CLEAR, ROUGH)
+            beside = ~shapely.contains_xy(thick, starts[:, 0], starts[:, 1])
+        runs = [Run(paths[0], bool(is_open[0]), False, bool(beside[0]))]
+        entries = zip(is_open[1:].tolist(), beside[1:].tolist(), strict=True)
+        for last, path, (clear, thin) in zip(paths, paths[1:], entries, strict=False):
+            linked = stays_inside(free, last.end, path.start)
+            if linked and math.dist(last.end, path.start) > NEXT_RING * self.step:
+                # A longer way must go through what is cleared, or is being cleared by the runs so far.
+                stock = grow(core, self.sliver, ROUGH) if stock is None else stock
+                trail = shapely.linestrings(last.points(radius / 3))
+                swept = shapely.union(swept, shapely.buffer(trail, radius, quad_segs=6))
+                way = shapely.buffer(shapely.linestrings([last.end, path.start]), radius - CLEAR, quad_segs=4)
+                uncut = shapely.difference(shapely.intersection(way, stock), swept)
+                linked = bool(uncut.area <= SLIVER * self.tool.diameter)
+            runs.append(Run(path, clear, linked, thin))
+        return Cavity(tuple(runs), stays_inside(free, paths[-1].end, paths[0].start))
+
+    def _pieces(self) -> list[Piece]:
+        radius = self.radius
+        self.room = prepared(self.room)
+        found: list[Piece] = []
+        blocked, core = self.blocked, self.core
+        wanted = grow(core, self.touch, ROUGH)
+        near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
+        near = prepared(near)
+        order = 0
+        while True:
+            if order:
+                # The ring before reaches a radius far; this ring is for what lies beyond.
+                core = shapely.difference(core, grow(blocked, self.wide - CLEAR + self.sliver, ROUGH))
+                if not polygons(core):
+                    return found
+                blocked = self._blocked(order)
+                wanted = grow(core, self.touch, ROUGH)
+            wanted = prepared(wanted)
+            for ring in rings(blocked, self.climb, self.chord):
+                dense = densified(ring, radius / 2)
+                x, y = dense.T
+                inside = shapely.contains_xy(near, x, y)
+                if not inside.any():
+                    continue
+                found.extend(pieces(dense, shapely.contains_xy(wanted, x, y), inside, self.room, order))
+            order += 1
+
+    def _ordered(self, group: list[Piece], near: shapely.Geometry) -> list[Array]:
+        """Far rings first, among those of one order the nearest; closed rings entered where it is best."""
+        runs: list[Array] = []
+        here: Array | None = None
+        waiting = sorted(group, key=lambda piece: -piece.order)
+        while waiting:
+            same = [piece for piece in waiting if piece.order == waiting[0].order]
+            piece = same[0]
+            if here is not None and len(same) > 1:
+                starts = np.array([other.points[0] for other in same])
+                piece = same[int(np.argmin(np.hypot(*(starts - here).T)))]
+            waiting.remove(piece)
+            points = piece.points
+            if piece.closed:
+                clear = ~shapely.contains_xy(near, points[:-1, 0], points[:-1, 1])
+                at = 0
+                if clear.any():
+                    at = int(np.flatnonzero(clear)[0])
+                elif here is not None:
+                    at = int(np.argmin(np.hypot(*(points[:-1] - here).T)))
+                points = np.concatenate((points[at:-1], points[: at + 1]))
+            runs.append(points)
+            here = points[-1]
+        return runs
+
+    def write(self, pen: Pen, step_down: float) -> None:
+        """Write the moves: every cavity level by level, from the zone's top to its bottom."""
+        zone = self.zone
+        bottom = zone.bottom_for(self.tool)
+        top = bottom + self.stock.ridge_height if self.ridges else zone.top
+        heights = levels(top, bottom, step_down)
+        for cavity in self.cavities:
+            first = cavity.runs[0]
+            if len(cavity.runs) == 1 and first.path.closed and not first.open:
+                _spiral(pen, first.path, top, heights)
+            else:
+                _levels(pen, cavity, top, heights)
+        pen.retract()
+
+
+def _spiral(pen: Pen, path: Path, top: float, heights: list[float]) -> None:
+    """One closed ring: down along it without a stop, and once round at the bottom."""
+    pen.above(path.start)
+    pen.sink(top)
+    for z in heights:
+        pen.ramp(path, z)
+    pen.follow(path)
+
+
+def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
+    """All runs at one height, then all at the next."""
+    above = top
+    for level, z in enumerate(heights):
+        for number, run in enumerate(cavity.runs):
+            if run.linked:
+                pen.straight(run.path.start)
+            else:
+                # Back to the first run goes through what this level has already cleared.
+                if number == 0 and level and cavity.back:
+                    pen.straight(run.path.start)
+                else:
+                    pen.above(run.path.start)
+                if run.open:
+                    pen.sink(z)
+                elif run.beside:
+                    pen.sink(above)
+                    pen.sink(z, pen.rates.plunge)
+                else:
+                    pen.sink(above)
+                    pen.ramp(run.path, z)
+            pen.follow(run.path)
+        above = z
+
+
+def stays_inside(free: shapely.Geometry, a: Point, b: Point) -> bool:
+    """Whether the centre may go straight from a to b."""
+    return bool(shapely.covers(free, shapely.Point(a) if a == b else shapely.LineString([a, b])))

@@ -1,0 +1,175 @@
+"""The outside of a part: roughed in a channel, or out to the edges of the stock, and finished."""
+
+import math
+from bisect import bisect_left
+from collections.abc import Sequence
+from functools import partial
+from itertools import islice
+
+import shapely
+
+from mechwright.contracts.details import Detail
+from mechwright.contracts.finding import Finding
+from mechwright.contracts.part import Feature, Profile
+from mechwright.errors import DesignError
+from mechwright_cam.operations.channel import channel_of, roughing_mills
+from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, usable_mills
+from mechwright_cam.operations.compensation import entering
+from mechwright_cam.operations.contract import Operation, Task
+from mechwright_cam.operations.corners import corner_remarks
+from mechwright_cam.operations.layer import Layer, cut_layers
+from mechwright_cam.operations.slots import fills_a_slot, outside_mills
+from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.zone import NOISE, Zone
+from mechwright_cam.plane.path import DECIMALS
+from mechwright_cam.plane.reach import closing, roughly_closed_area
+from mechwright_cam.setup.depths import through
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.holding import Stock as Plate
+from mechwright_cam.shop.tool import Tool
+
+ROUGHING_SHARE = 0.15
+"""Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""
+PAYS = 1.5
+"""An intermediate roughing mill is at least this many times as wide as the finishing one."""
+HALF = 0.5
+"""It takes at least this share of what the finishing mill would have to rough."""
+
+
+class Contour(Operation):
+    """Cuts an outside in one layer, or with tabs in two: above and below their tops."""
+
+    name = "contour"
+
+    def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
+        """Any outside through the plate; without zones where all of its edges are those of the stock."""
+        if not (isinstance(feature, Profile) and feature.side == "outside"):
+            return None
+        zones = _zones(job, feature)
+        tools, region = (zones[0].tools, zones[0].clear) if zones else ((), shapely.Polygon())
+        return Task(feature, self, tools, -feature.top, job.floor, region, data=zones)
+
+    def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
+        """The mills that rough and finish it; none is as wide as a slot of it, if there is a choice."""
+        if not (isinstance(feature, Profile) and feature.side == "outside"):
+            return None
+        shape, settings = shapely.Polygon(feature.loop.flatten()), every.settings
+        fit = usable_mills(every, -every.floor)
+        boxes = [outline.bounds for outline in every.part.outlines]
+        narrow = min(min(x1 - x0, y1 - y0) for x0, y0, x1, y1 in boxes)
+        widest = max(HANDY, ROUGHING_SHARE * narrow)
+        mills = [mill for mill in fit if mill.diameter <= widest] or fit[-1:]
+        if settings.stock != Plate() or isinstance(every.part, Nest):  # else it is made large enough
+            mills = roughing_mills(every, mills, shape, framed=settings.hold.method == "tabs")
+
+        def fits(mill: Tool) -> bool:
+            slot = fills_a_slot(mill.radius, shape, settings.stock_to_leave, settings.path.bias)
+            return mill is mills[-1] or not slot
+
+        first = next(filter(fits, mills))
+        finest = finest_needed(mills, shape, settings, fits=fits)
+        middle = [mill for mill in mills if PAYS * finest.diameter <= mill.diameter < first.diameter]
+        between = filter(fits, _between(every, first, middle, finest, shape))
+        return [first, *islice(between, 1), finest]
+
+    def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
+        """Layer by layer, from the top down."""
+        zones: list[Zone] = task.data
+        if not zones:
+            return stock
+        layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in zones]
+        steps.cuts += cut_layers(layers)
+        return layers[-1].stock
+
+    def deepest(self, task: Task, tool: Tool) -> float:
+        """Out of the plate with all of a rounded corner."""
+        zones: list[Zone] = task.data
+        return min(zone.bottom_for(tool) for zone in zones)
+
+    def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
+        """The part as the finest mill leaves it."""
+        zones: list[Zone] = task.data
+        return closing(zones[0].wall, job.reach(zones[0].finisher)) if zones else None
+
+    def remarks(self, task: Task, job: Job) -> list[Finding]:
+        """Corners that its mills do not reach."""
+        zones: list[Zone] = task.data
+        return corner_remarks(zones[0], job) if zones else []
+
+
+def _between(every: Job, first: Tool, middle: list[Tool], finest: Tool, part: shapely.Polygon) -> list[Tool]:
+    """Mills that take much of what the largest leaves to the finest, largest first."""
+
+    def left(mill: Tool) -> float:
+        reach = mill.radius + every.settings.stock_to_leave
+        return roughly_closed_area(part, reach) - float(part.area)
+
+    if not middle:
+        return []
+    most, least = left(first), left(finest)
+    if most <= least:
+        return []
+    # The smaller a mill, the more it takes.
+    return middle[bisect_left(middle, True, key=lambda mill: most - left(mill) >= HALF * (most - least)) :]
+
+
+def _zones(job: Job, feature: Profile) -> list[Zone]:
+    """The layers of an outside, from the top down."""
+    if not through(job, feature.top + feature.depth):
+        raise DesignError(
+            f"part {job.part.name}: the outside {feature.name} ends {feature.depth:g} mm below "
+            f"{feature.top:g} mm and not at the underside; only outsides through the plate can be cut"
+        )
+    part, path = shapely.Polygon(feature.loop.flatten()), job.settings.path
+    own = [tab for tab in job.tabs if shapely.intersects(tab.shape, part)]
+    able = usable_mills(job, -job.floor)
+    if own and own[0].ramped:
+        able = _flat_mills(job, able)
+    # A mill too wide for the frame is as good as none, for finishing as well.
+    mills = roughing_mills(job, able, part)
+    mills = outside_mills(mills, part, job.settings.stock_to_leave, path.bias)
+    clear, channel = channel_of(job, part, mills[0])
+    if shapely.is_empty(clear):
+        return []  # all of its edges are those of the stock
+    choose = partial(last_mills, keep=part, settings=job.settings)
+
+    def layers(finishers: Sequence[Tool]) -> list[Zone]:
+        layer = partial(
+            Zone,
+            wall=part,
+            kind="outside",
+            mills=tuple(mills),
+            finishers=tuple(finishers),
+            path=path,
+            channel=channel,
+        )
+        whole = partial(layer, feature.name, clear=clear, top=-feature.top)
+        if not own:
+            return [whole(bottom=job.floor, below=True)]
+        # Rounded upwards: a decimal too low would already cut the tabs.
+        height = math.ceil(max(tab.top for tab in own) * 10**DECIMALS - NOISE) / 10**DECIMALS
+        low = partial(layer, top=height, bottom=job.floor, below=True)
+        if own[0].ramped:
+            lower = low(name=f"{feature.name} over the tabs", clear=clear, slopes=tuple(own))
+        else:
+            tabs = shapely.union_all([tab.shape for tab in own])
+            lower = low(name=f"{feature.name} below the tabs", clear=clear.difference(tabs), tabs=tabs)
+        return [whole(bottom=height, below=False), lower]
+
+    last = tuple(choose(mills))
+    zones = layers(last)
+    finishers = entering(job, [(zone, zone.clear) for zone in zones], mills, last, choose)
+    return zones if finishers == last else layers(finishers)
+
+
+def _flat_mills(job: Job, mills: list[Tool]) -> list[Tool]:
+    """The flat end mills: the round end of another would go into the slopes of ramped tabs."""
+    flat = [mill for mill in mills if mill.nose == 0]
+    if not flat:
+        raise DesignError(
+            f"cam.hold.tab_shape: ramped tabs of part {job.part.name} are for flat end mills, and "
+            f'{mills[-1].name} has a round end; list a flat one, or use "rectangular" tabs'
+        )
+    return flat

@@ -1,0 +1,167 @@
+"""Finishing: along the wall in depth passes, entered and left on tangential arcs."""
+
+import math
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.operations.choice import HEAVY
+from mechwright_cam.operations.clearing import CLEAR
+from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.wedges import into_wedges
+from mechwright_cam.operations.zone import Zone
+from mechwright_cam.plane.arcfit import fit
+from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
+from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
+from mechwright_cam.plane.path import Path
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import Tool
+
+
+def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
+    """Depth of a finishing pass, mm: ``finish_step`` diameters, or less where much is left for a fine mill.
+
+    What stands on a wall is the allowance, or a little more: a pass has no larger section than a slot as deep
+    as ``step_down``.
+    """
+    slot = tool.cutting[material].step_down * tool.diameter * tool.diameter
+    return min(settings.finish_step * tool.diameter, slot / (settings.stock_to_leave + HEAVY))
+
+
+class Finishing:
+    """The finishing of one zone, whose stock is only what roughing left on walls."""
+
+    def __init__(self, zone: Zone, stock: Stock, settings: CamSettings, tool: Tool, material: str) -> None:
+        self.zone, self.settings, self.tool = zone, settings, tool
+        self.depth = finish_depth(settings, tool, material)
+        self.step_down = tool.cutting[material].step_down * tool.diameter
+        self.radius = radius = zone.radius_of(tool)
+        self.blocked = zone.blocked(tool, zone.path.bias)
+        self.room = zone.room(radius, finishing=True)
+        if zone.tabs is not None:
+            # Along a tab only as far as the finishing of the wall needs it.
+            near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
+            self.room = shapely.intersection(self.room, near)
+        self.near = grow(stock.standing, radius + stock.over - CLEAR, ROUGH)
+        # Where all of the plate goes, there is nothing but air beyond it.
+        beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
+        # Leads touch the path they lead to: between that and the wall they may be as wrong as it.
+        self.free = shapely.difference(grow(self.room, CLEAR + beyond, ROUGH), zone.blocked(tool, 0.0))
+        self.room, self.near, self.free = map(prepared, (self.room, self.near, self.free))
+
+    def write(self, pen: Pen) -> None:
+        """Write the moves of all rings."""
+        zone = self.zone
+        heights = levels(zone.top, zone.bottom_for(self.tool), self.depth)
+        heights += heights[-1:] * self.settings.spring_passes
+        waiting = self._pieces()
+        while waiting:
+            piece = waiting.pop(0)
+            if piece.closed:
+                self._ring(pen, piece.points, heights)
+            else:
+                self._stretch(pen, self._led(piece.points), heights)
+            here = pen.place
+            waiting.sort(key=lambda other: float(np.hypot(*(other.points[0] - here))))
+        pen.retract()
+
+    def _pieces(self) -> list[Piece]:
+        found = []
+        for ring in rings(self.blocked, self.settings.climb):
+            if len(self.zone.walls) < 2 or self.radius == self.tool.radius:
+                ring = into_wedges(ring, self.zone.keep, self.radius, self.zone.path.bias)
+            dense = densified(ring, self.radius / 4)
+            everywhere = np.ones(len(dense), dtype=bool)
+            found.extend(pieces(dense, everywhere, everywhere, self.room, 0))
+        return found
+
+    def _fitted(self, points: Array) -> Path:
+        path = self.zone.path
+        return fit(points, fit_tolerance(path), path.lines_per_arc)
+
+    def _is_clear(self, points: Array) -> NDArray[np.bool_]:
+        clear: NDArray[np.bool_] = ~shapely.contains_xy(self.near, points[:, 0], points[:, 1])
+        return clear
+
+    def _is_free(self, points: Array) -> NDArray[np.bool_]:
+        free: NDArray[np.bool_] = shapely.contains_xy(self.free, points[:, 0], points[:, 1])
+        return free
+
+    def _led(self, points: Array) -> Path:
+        """An open stretch; in the open it is entered from the air and left into it on arcs."""
+        path = self._fitted(points)
+        if not self.zone.in_the_open or not path.cuts:
+            return path
+        first, last = points[1] - points[0], points[-1] - points[-2]
+        headings = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
+        shapes = lead_shapes(self.tool.radius, self.settings.stock_to_leave)
+        return led(path, headings, shapes, self.settings.climb, self._is_air)
+
+    def _is_air(self, points: Array) -> NDArray[np.bool_]:
+        return self._is_free(points) & self._is_clear(points)
+
+    def _may_run(self, way: Array) -> bool:
+        return bool(shapely.covers(self.free, shapely.LineString(way)))
+
+    def _ring(self, pen: Pen, ring: Array, heights: list[float]) -> None:
+        least = self.settings.stock_to_leave
+        shapes = lead_shapes(self.tool.radius, least)
+        found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear, self._may_run)
+        if found is None:
+            clear = np.flatnonzero(self._is_clear(ring[:-1]))
+            points = _from(ring, int(clear[0]) if clear.size else 0)
+            self._loop(pen, self._fitted(points), heights, clear.size > 0)
+            return
+        at, rho, sweep = found
+        points = _from(ring, at)
+        first, last = points[1] - points[0], points[0] - points[-2]
+        one, two = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
+        heading = one - ((one - two + math.pi) % math.tau - math.pi) / 2
+        path = with_leads(self._fitted(points), heading, rho, sweep, self.settings.climb)
+        self._stretch(pen, path, heights)
+
+    def _stretch(self, pen: Pen, path: Path, heights: list[float]) -> None:
+        """A path that starts and ends in the clear, at every height."""
+        if not path.cuts:
+            return
+        # The whole way counts, not points of it: a corner of the wall may stand between any two.
+        back = shapely.LineString([path.end, path.start])
+        direct = bool(shapely.covers(self.free, back) and not shapely.intersects(self.near, back))
+        is_open = bool(self._is_clear(np.array([path.start]))[0])
+        above = self.zone.top
+        for number, z in enumerate(heights):
+            if number and direct:
+                pen.straight(path.start)
+            else:
+                pen.above(path.start)
+            if is_open:
+                pen.sink(z)
+            else:
+                pen.sink(above)
+                pen.ramp(path, z)
+            pen.follow(path, inside=1 if self.settings.climb else -1)
+            above = z
+
+    def _loop(self, pen: Pen, path: Path, heights: list[float], is_open: bool) -> None:
+        """A closed path without room for leads: sunk where it is clear, else ramped along itself."""
+        if not path.cuts:
+            return
+        pen.above(path.start)
+        pen.sink(self.zone.top)
+        for z in heights:
+            if is_open:
+                pen.sink(z)
+            else:
+                # Where only this mill gets in nothing has roughed: no lap is deeper than its passes.
+                for height in levels(pen.z, z, self.step_down) if pen.z > z else ():
+                    pen.ramp(path, height)
+            pen.follow(path, inside=1 if self.settings.climb else -1)
+
+
+def _from(ring: Array, at: int) -> Array:
+    """A closed ring that starts at another vertex."""
+    return np.concatenate((ring[at:-1], ring[: at + 1]))

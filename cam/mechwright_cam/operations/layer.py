@@ -1,0 +1,181 @@
+"""One layer of a wall while it is cut: roughed, roughed again where stock is left, and finished."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from operator import methodcaller
+
+import shapely
+
+from mechwright.cores import together
+from mechwright.errors import ToolError
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.choice import HEAVY, roughers
+from mechwright_cam.operations.clearing import COARSE_FROM, SLIVER, TIGHT, Roughing
+from mechwright_cam.operations.compensation import CompensatedFinishing
+from mechwright_cam.operations.finishing import Finishing, finish_depth
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.steps import Cut, Steps
+from mechwright_cam.operations.stock import Stock
+from mechwright_cam.operations.zone import CUSP, Zone
+from mechwright_cam.plane.offsets import areas, grow, opened, polygons
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
+
+WORTH_A_TOOL = 0.25
+"""An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""
+
+NEARLY = 0.9
+"""Share of the heavy stock from which on a rough path through narrow places is worth its time."""
+
+
+class Layer:
+    """A zone, what its cuts have left of the stock so far, and those cuts.
+
+    Layers of one wall may be cut side by side: none changes what another one holds.
+    """
+
+    def __init__(self, zone: Zone, stock: Stock, steps: Steps) -> None:
+        self.zone, self.stock, self.steps = zone, stock, steps
+        self.settings = steps.job.settings
+        self.cuts: list[Cut] = []
+
+    def taken(self) -> list[Cut]:
+        """The cuts since they were last asked for."""
+        cuts, self.cuts = self.cuts, []
+        return cuts
+
+    def add(
+        self,
+        what: str,
+        mill: Tool,
+        write: Callable[[Pen], object],
+        engagement: float = math.pi / 2,
+        depth: float = math.inf,
+    ) -> None:
+        """Add a cut of this zone, ``depth`` mm deep."""
+        moves = self.steps.moves(mill, write, engagement, depth, self.zone.slopes)
+        self.cuts.append(Cut(f"{self.zone.name}: {what}", mill, moves))
+
+    def pass_depth(self, mill: Tool, step: float) -> float:
+        """Depth of the even passes that are no deeper than ``step``, mm."""
+        height = self.zone.top - self.zone.bottom_for(mill)
+        return height / max(1, math.ceil(height / step - TOLERANCES.noise))
+
+    def roughing(self, mill: Tool) -> Roughing:
+        """What roughing with a mill would cut now."""
+        allowance = self.zone.allowance_for(mill, self.settings.stock_to_leave)
+        return self._roughing(mill, allowance)
+
+    def _roughing(
+        self, mill: Tool, allowance: float, only: shapely.Geometry | None = None, *, ridges: bool = False
+    ) -> Roughing:
+        step_over = mill.cutting[self.steps.job.part.material].step_over
+        climb = self.settings.climb
+        return Roughing(self.zone, self.stock, mill, allowance, step_over, climb, only, ridges=ridges)
+
+    def _rings(self, what: str, cut: Roughing, depth: float = math.inf) -> None:
+        """Add the rings of a cut, which is no deeper than ``depth`` and than its mill may cut, mm."""
+        step_down = self.steps.step_down(cut.tool)
+        deep = self.pass_depth(cut.tool, min(step_down, depth))
+        self.add(what, cut.tool, partial(cut.write, step_down=step_down), depth=deep)
+
+    def rough(self, cut: Roughing) -> None:
+        """Rough with one mill."""
+        what = "rough the rest" if self.stock.begun else "rough"
+        self._rings(what, cut)
+        begun, self.stock = self.stock.begun, cut.after()
+        if not begun:
+            waste = self.zone.waste(cut.tool, self.settings.stock_to_leave)
+            self.stock = replace(self.stock, waste=waste, begun=True)
+
+    def floored(self, mill: Tool, above: Roughing | None) -> None:
+        """The floor as far as a mill has roughed ``above`` it, in one even pass."""
+        what = "finish the rest of the floor" if self.stock.begun else "finish the floor"
+        # Ring for ring where it has roughed: nothing stands beside the places at which it is sunk.
+        served = above is not None and above.serves(self.stock)
+        cut = above.at(self.zone, self.stock) if above is not None and served else self.roughing(mill)
+        self._rings(what, cut)
+        self.stock = replace(cut.after(), begun=True)
+
+    def rough_heavy(self, mill: Tool, what: str = "rough the narrow places") -> None:
+        """Where the allowance kept the mill out of narrow places, rough nearer to the wall, and there only.
+
+        First as near as a path of roughing accuracy may come; up to the wall itself, with a path as exact and
+        as long in the program as that of finishing, only where even that does not fit in.
+        """
+        for allowance in (COARSE_FROM, 0.0):
+            thick = self._heavy(mill)
+            if not polygons(thick):
+                break
+            cut = self._roughing(mill, allowance, thick)
+            if allowance > 0 and cut.taken < NEARLY * thick.area:
+                continue  # the exact one has to go there anyway
+            self.add(what, mill, partial(cut.write, step_down=self.steps.step_down(mill)))
+            self.stock = cut.after_core()
+
+    def _heavy(self, mill: Tool) -> shapely.Geometry:
+        """What is left in front of a wall that is too thick for the finishing cut."""
+        allowance = self.settings.stock_to_leave
+        thick = areas(shapely.difference(self.stock.left, self.zone.rough_keep(allowance + HEAVY)))
+        if self.zone.tabs is not None:
+            # The corners at the tabs are as low as the tabs: no load worth a pass.
+            thick = shapely.difference(thick, grow(self.zone.tabs, mill.radius + allowance))
+        return opened(thick, SLIVER)
+
+    def level(self, mill: Tool) -> None:
+        """Make the floor flat where round mills have left fillets or cusps on it."""
+        if shapely.is_empty(self.stock.ridges):
+            return
+        # The next ring towards the wall is that of finishing.
+        ring = 2 * TIGHT * float(cutter(mill).radius_at(CUSP))
+        allowance = self.zone.allowance_for(mill, min(self.settings.stock_to_leave, ring))
+        cut = self._roughing(mill, allowance, self.stock.ridges, ridges=True)
+        self._rings("level the floor", cut, self.stock.ridge_height)
+        self.stock = cut.after()
+
+    def finish(self, mill: Tool) -> None:
+        """Along the wall."""
+        settings, job, zone = self.settings, self.steps.job, self.zone
+        deep = self.pass_depth(mill, finish_depth(settings, mill, job.part.material))
+        finishing: Finishing | CompensatedFinishing
+        if settings.compensation == "computer":
+            finishing = Finishing(zone, self.stock, settings, mill, job.part.material)
+        else:
+            finishing = CompensatedFinishing(zone, self.stock, job, mill)
+        self.add("finish", mill, finishing.write, depth=deep)
+        if not self.cuts[-1].moves and mill is zone.finisher:
+            raise ToolError(
+                f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "
+                "list a smaller end mill"
+            )
+
+    def finished(self) -> None:
+        """The last cuts of a layer, with a flat end mill before a finer round one."""
+        for mill in self.zone.finishers:
+            self.rough(self.roughing(mill))
+            self.rough_heavy(mill)
+            self.level(mill)
+            self.finish(mill)
+
+
+def cut_layers(layers: Sequence[Layer]) -> list[Cut]:
+    """Rough, rough the rest, and finish one wall; its ``layers`` go from the top down.
+
+    They are planned side by side, for no layer's geometry depends on another's; their cuts are lined up in
+    the order of machining.
+    """
+    first = layers[0].zone
+    found = [cut for layer in layers for cut in layer.taken()]
+    for mill in roughers(first.mills, first.finishers):
+        allowance = first.allowance_for(mill, layers[0].settings.stock_to_leave)
+        first.rough_keep(allowance, mill.radius)  # the layers share it, and would ask for it at once
+        cuts = together(methodcaller("roughing", mill), layers)
+        # The layers share their cutters: the tallest one decides.
+        if max(zip(layers, cuts, strict=True), key=lambda pair: pair[0].zone.height)[1].share >= WORTH_A_TOOL:
+            together(lambda pair: pair[0].rough(pair[1]), zip(layers, cuts, strict=True))
+            found += [cut for layer in layers for cut in layer.taken()]
+    # A layer is finished before the one below is cut to the wall: nothing is sunk beside stock.
+    together(Layer.finished, layers)
+    return found + [cut for layer in layers for cut in layer.taken()]

@@ -1,0 +1,208 @@
+"""Writes moves: keeps the present position, and holds the rules of rapids and entries."""
+
+import math
+from typing import cast
+
+from mechwright.errors import ToolError
+from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.over_tabs import lifted_height, over_tabs
+from mechwright_cam.operations.rates import Rates
+from mechwright_cam.plane.path import Path, polyline, rounded
+from mechwright_cam.program.moves import Feed, FeedArc, Move, Rapid
+from mechwright_cam.setup.holding import Tab
+from mechwright_cam.shop.tool import Tool
+
+APPROACH = 1.0
+"""Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""
+AIR = 2.0
+"""Feed through cleared ground in feeds of the cut."""
+EASIER = 1e-3
+"""Ramps are longer than the steepest by this share, and so many mm: rounding of z must make none steeper."""
+TINY = 0.5
+"""A way shorter than this many diameters is too short to ramp along: the cutter plunges."""
+
+
+class Pen:
+    """A cutter at work.
+
+    Parameters
+    ----------
+    tool, rates
+        The cutter, its speed and feeds.
+    clearance
+        Height of rapids in X and Y, mm.
+    slope
+        Tangent of the steepest ramp.
+    over
+        Ramped tabs that it goes over: ``z`` follows their upper sides, ``level`` is its height beside them.
+    """
+
+    def __init__(
+        self, tool: Tool, rates: Rates, clearance: float, slope: float, over: tuple[Tab, ...] = ()
+    ) -> None:
+        self.tool, self.rates, self.clearance, self.slope = tool, rates, clearance, slope
+        self.over = over
+        self.moves: list[Move] = []
+        self.place: Point | None = None
+        self.z = self.level = math.inf
+
+    @property
+    def air(self) -> float:
+        """Feed through what is cleared, at depth, mm/min: faster than in the cut."""
+        return min(AIR * self.rates.feed, self.rates.fastest)
+
+    def above(self, point: Point) -> None:
+        """Retract, rapid over a point and down to just over the stock."""
+        point = (rounded(point[0]), rounded(point[1]))
+        self.retract()
+        if self.place != point:
+            self.moves.append(Rapid(x=point[0], y=point[1]))
+        height = min(APPROACH, self.clearance)
+        self.moves.append(Rapid(z=height))
+        self.place, self.z, self.level = point, height, height
+
+    def retract(self) -> None:
+        """Rapid up to the clearance height."""
+        if self.place is not None and self.z < self.clearance:
+            self.moves.append(Rapid(z=self.clearance))
+            self.z = self.level = self.clearance
+
+    def sink(self, z: float, feed: float | None = None) -> None:
+        """Feed straight down or up; through air unless told a feed for material."""
+        self.level = rounded(z)
+        z = self._lifted(self.level)
+        if z != self.z:
+            self.moves.append(Feed(None, None, z, self.rates.feed if feed is None else feed))
+            self.z = z
+
+    def _lifted(self, z: float) -> float:
+        """Height at this place, on a tab if there is one."""
+        if not self.over or self.place is None:
+            return z
+        return max(z, lifted_height(self.over, self.place, self.tool.radius))
+
+    def straight(self, point: Point, feed: float | None = None) -> None:
+        """Feed straight to a point at this height."""
+        point = (rounded(point[0]), rounded(point[1]))
+        if point != self.place:
+            if self.over and self._goes_over(polyline([self.place or point, point]), self.level, feed):
+                return
+            self.moves.append(Feed(point[0], point[1], None, self.rates.feed if feed is None else feed))
+            self.place = point
+
+    def _goes_over(self, path: Path, z: float, feed: float | None, inside: int = 0) -> bool:
+        """Run along a path that leads over tabs, down to ``z`` at its end; False if it leads over none."""
+        if not self.over:
+            return False
+        stretches = over_tabs(path, self.level, z, self.over, self.tool.radius)
+        if not stretches:
+            return False
+        feed = self.rates.feed if feed is None else feed
+        for part, height in stretches:
+            drop = self.z - height
+            # Downhill the end of the cutter goes down no faster than in a plunge.
+            pace = min(feed, self.rates.plunge * math.hypot(part.length, drop) / drop) if drop > 0 else feed
+            self._evenly(part, height, math.floor(pace), inside)
+        self.level = rounded(z)
+        return True
+
+    def follow(self, path: Path, feed: float | None = None, inside: int = 0) -> None:
+        """Run along a path at this height.
+
+        Arcs that turn ``inside`` (+1 to the left, -1 to the right) run inside a wall: the cutter's edge there
+        is faster than its centre and takes more, so the centre is slowed down.
+        """
+        feed = self.rates.feed if feed is None else feed
+        if path.start != self.place:
+            raise AssertionError(f"the path starts at {path.start}, the cutter is at {self.place}")
+        if self._goes_over(path, self.level, feed, inside):
+            return
+        moves = cast("list[Move] | None", path.cache.get((feed, inside)))
+        if moves is None:
+            moves = []
+            here = path.start
+            for cut in path.cuts:
+                if cut.turn:
+                    i, j = cut.cx - here[0], cut.cy - here[1]
+                    slow = cut.turn == inside
+                    pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
+                    moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
+                else:
+                    moves.append(Feed(cut.x, cut.y, None, feed))
+                here = (cut.x, cut.y)
+            path.cache[feed, inside] = moves
+        self.moves.extend(moves)
+        self.place = path.end
+
+    def descend(self, path: Path, z: float, feed: float | None = None) -> None:
+        """Run along a path while going evenly down to ``z``, arcs as helices."""
+        feed = self.rates.ramp if feed is None else feed
+        if not self._goes_over(path, z, feed):
+            self._evenly(path, z, feed)
+
+    def _evenly(self, path: Path, z: float, feed: float, inside: int = 0) -> None:
+        """Run along a path while going evenly to ``z``."""
+        here, start, total, done = path.start, self.z, path.length, 0.0
+        level = rounded(z) == self.z
+        for cut in path.cuts:
+            done += cut.length
+            height = rounded(z if cut is path.cuts[-1] else start + (z - start) * done / total)
+            word = None if level else height
+            if cut.turn:
+                i, j = cut.cx - here[0], cut.cy - here[1]
+                slow = cut.turn == inside
+                pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
+                self.moves.append(FeedArc(cut.x, cut.y, word, i, j, cut.turn > 0, pace))
+            else:
+                self.moves.append(Feed(cut.x, cut.y, word, feed))
+            here = (cut.x, cut.y)
+        self.place, self.z = path.end, rounded(z)
+        self.level = self.z
+
+    def ramp(self, path: Path, z: float) -> None:
+        """Go down to ``z`` along the beginning of a path, and end on its start.
+
+        A closed path is run round and round; an open one to and fro. A way too short for that is plunged.
+
+        Raises
+        ------
+        ToolError
+            The way is too short, and the cutter may not be plunged.
+        """
+        drop = self.level - rounded(z)
+        if drop <= 0:
+            return
+        if path.length < TINY * self.tool.diameter:
+            if not self.tool.centre_cutting:
+                raise ToolError(
+                    f"cam.tools: {self.tool.name} is not centre-cutting and finds only {path.length:.2f} mm "
+                    f"to ramp in near X{path.start[0]:.1f} Y{path.start[1]:.1f}; list a centre-cutting or a "
+                    "smaller end mill"
+                )
+            self.sink(z, self.rates.plunge)
+            return
+        run = drop / self.slope * (1 + EASIER) + EASIER
+        start = self.level
+        if path.closed:
+            laps = math.ceil(run / path.length)
+            for lap in range(1, laps + 1):
+                self.descend(path, start - drop * lap / laps)
+            return
+        part = path.split(run)[0] if run < path.length else path
+        legs = math.ceil(run / part.length)
+        legs += legs % 2
+        part = path.split(run / legs)[0] if run / legs < path.length else path
+        back = part.reversed()
+        for leg in range(1, legs + 1):
+            self.descend(part if leg % 2 else back, start - drop * leg / legs)
+
+
+def levels(top: float, bottom: float, step: float) -> list[float]:
+    """Heights of even passes from ``top`` down to ``bottom``, none deeper than ``step``.
+
+    >>> levels(0.0, -10.0, 4.0)
+    [-3.3333, -6.6667, -10.0]
+    """
+    count = max(1, math.ceil((top - bottom) / step - TOLERANCES.noise))
+    return [rounded(top + (bottom - top) * number / count) for number in range(1, count + 1)]

@@ -1,0 +1,52 @@
+"""What still stands where a task cuts: a value, of which every cut makes the next one."""
+
+from dataclasses import dataclass, field, replace
+
+import shapely
+
+from mechwright_cam.setup.job import LEVEL, Air
+
+
+@dataclass(frozen=True, eq=False)
+class Stock:
+    """The stock of one task, or of one layer of it; shapes in work coordinates, mm."""
+
+    left: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """What has to go, seen from above; once a wall is roughed, the allowance in front of it."""
+    gone: tuple[Air, ...] = ()
+    """What earlier setups have cut from the other side."""
+    over: float = 0.0
+    """By how much more than the cutters reached may be missing in ``left``, mm."""
+    begun: bool = False
+    """Whether an end mill has been in it."""
+    ridges: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """Where round mills have cleared all but the floor: fillets at its edge, cusps between their cuts."""
+    ridge_height: float = 0.0
+    """Height of the ridges above the floor, mm."""
+    waste: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """What of ``left`` need not go: it stays with the frame."""
+
+    @property
+    def standing(self) -> shapely.Geometry:
+        """Where a cutter that goes down to the floor meets stock."""
+        return self.left if shapely.is_empty(self.ridges) else shapely.union(self.left, self.ridges)
+
+    def without(self, cut: shapely.Geometry) -> "Stock":
+        """What is left after a region has been cut."""
+        return replace(self, left=shapely.difference(self.left, cut))
+
+    def with_ridges(self, where: shapely.Geometry, height: float) -> "Stock":
+        """The same with what a round mill has left standing on the floor."""
+        return replace(self, ridges=where, ridge_height=max(self.ridge_height, height))
+
+    def air_below(self, z: float) -> shapely.Geometry:
+        """Where nothing stands below a height z, mm; for 0, where earlier setups have cut through."""
+        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
+        return found
+
+
+def together_left(stocks: list[Stock]) -> Stock:
+    """The stock of several layers of one recess, as seen from above."""
+    last = stocks[-1]
+    left = last.left if len(stocks) == 1 else shapely.union_all([stock.left for stock in stocks])
+    return replace(last, left=left, over=max(stock.over for stock in stocks))

@@ -1,0 +1,76 @@
+"""Threads: milled along a helix in a bore of their core."""
+
+import math
+from functools import partial
+
+from mechwright.contracts.details import Thread
+from mechwright.contracts.part import Bore
+from mechwright.errors import ToolError
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.contract import Task
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.operations.pointed import DetailOperation, tools_of
+from mechwright_cam.plane.path import Path, arc, circle, rounded
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import ToolKind
+
+AROUND = 0.1
+"""Air all round a thread mill in its hole, mm."""
+CORE_PLAY = 0.25
+"""By how much, in pitches, a hole may miss the core diameter of its thread: ISO 965's tolerance, roughly."""
+
+
+class ThreadOperation(DetailOperation):
+    """Mills a right-hand thread."""
+
+    name = "thread"
+    detail = Thread
+
+    def task(self, detail: Thread, job: Job) -> Task:
+        """Choose the tool; raises ToolError if there is none, and says what it needs."""
+        holes = [
+            f
+            for f in job.features
+            if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < TOLERANCES.closure
+        ]
+        play = CORE_PLAY * detail.pitch
+        hole = next(
+            (h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None
+        )
+        if hole is None:
+            raise ToolError(
+                f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} "
+                f"mm that is {detail.depth:g} mm deep; draw one"
+            )
+        for tool in tools_of(job, ToolKind.THREAD_MILL):
+            if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
+                write = partial(_turns, detail=detail, climb=job.settings.climb)
+                return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)
+        raise ToolError(
+            f"cam.tools: no thread mill cuts {detail.name} of part {job.part.name}; list one of at most "
+            f"{hole.diameter - 2 * AROUND:.2f} mm that reaches {detail.depth:g} mm"
+        )
+
+
+def _turns(pen: Pen, detail: Thread, climb: bool) -> None:
+    """A right-hand helix: upwards counter-clockwise to climb, downwards clockwise against it."""
+    x, y = (rounded(value) for value in detail.centre)
+    radius = detail.diameter / 2 - pen.tool.radius
+    turn = circle((x, y), radius, (x + radius, y), climb)
+    side = 1 if climb else -1
+    middle = ((x + turn.start[0]) / 2, y)
+    lead_in = Path((x, y), (arc((x, y), turn.start, middle, side),))
+    lead_out = Path(turn.start, (arc(turn.start, (x, y), middle, side),))
+    turns = math.ceil(detail.depth / detail.pitch) + 1
+    bottom = -detail.depth
+    heights = [bottom + number * detail.pitch for number in range(turns + 1)]
+    if not climb:
+        heights.reverse()
+    feed = pen.rates.inside(radius, pen.tool.radius)
+    pen.above((x, y))
+    pen.sink(heights[0])
+    pen.follow(lead_in, feed)
+    for z in heights[1:]:
+        pen.descend(turn, z, feed)
+    pen.follow(lead_out, feed)
+    pen.retract()

@@ -1,0 +1,123 @@
+"""The pages of the CAM room: drawings, programs, their proofs, and the setup sheets.
+
+Nothing heavy is imported before one of them is made.
+"""
+
+import json
+from typing import TYPE_CHECKING, cast, get_args
+
+from mechwright.build import Build, Page
+from mechwright.errors import DesignError
+from mechwright_cad.exporters import Curves, DxfExporter
+
+if TYPE_CHECKING:
+    from mechwright_cam.machining import Machining
+
+SUMMARY = "setup.html"
+"""The page of the whole job."""
+
+COMMANDS = frozenset({"cam", "build"})
+DOING = "drawings and programs"
+
+
+def _machining(build: Build) -> "Machining":
+    from mechwright_cam.machining import Machining
+
+    return build.made(Machining)
+
+
+class DrawingFiles(Page):
+    """A drawing of every plate, and of every nest."""
+
+    name = "drawings"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, bytes]:
+        """DXF by part; none where nothing is milled."""
+        machining = _machining(build)
+        drawing = DxfExporter(curve_kind(build.wanted.curves))
+        parts = [*machining.plates, *machining.nests] if machining.made else []
+        return {f"{part.name}{drawing.suffix}": drawing.part(part) for part in parts}
+
+
+class ProgramFiles(Page):
+    """The programs, and the control's table of their tools."""
+
+    name = "programs"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """Program text by file."""
+        machining = _machining(build)
+        if not machining.made:
+            return {}
+        suffix = machining.control.suffix
+        files = {stem + suffix: text for item in machining.made for stem, text in item.files.items()}
+        table, text = machining.table
+        return files | ({table: text} if table else {})
+
+
+class ProofFile(Page):
+    """``proof.json``."""
+
+    name = "proofs"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """Every check of every program by name."""
+        from mechwright_cam.pages.seen import Seen
+
+        proofs = build.made(Seen).proofs
+        return {"proof.json": json.dumps(proofs, indent=2) + "\n"} if proofs else {}
+
+
+class SetupSheets(Page):
+    """A sheet for each program, and the page of the whole job."""
+
+    name = "setup-sheets"
+    commands = COMMANDS
+    doing = DOING
+
+    def files(self, build: Build) -> dict[str, str]:
+        """HTML by file."""
+        from mechwright_cam.pages.seen import Seen
+        from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
+        from mechwright_cam.pages.setup_sheet.raster import simulated_view
+        from mechwright_cam.pages.setup_sheet.walls import walls_view
+
+        machining, seen = _machining(build), build.made(Seen)
+        if not machining.made:
+            return {}
+        sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
+        pictures = {item.program.name: simulated_view(one, item.job) for item, one, _ in seen.measured}
+        deviations = {item.program.name: walls_view(walls, item.job) for item, _, walls in seen.measured}
+        table = machining.table[0]
+        files = {item.program.name: list(item.files) for item in machining.made}
+        made = {}
+        for sheet in sheets:
+            made[sheet[1].name + SHEET] = setup_html(
+                [sheet],
+                machining.control,
+                tool_table=table,
+                design=build.path.name,
+                pictures=pictures,
+                deviations=deviations,
+                summary=SUMMARY,
+                files=files,
+            )
+        name, design = build.design.name, build.path.name
+        made[SUMMARY] = summary_html(
+            sheets, machining.control, name=name, tool_table=table, design=design, files=files
+        )
+        return made
+
+
+def curve_kind(text: str) -> Curves:
+    """Read the option ``--dxf-curves``; raises DesignError that lists the kinds."""
+    for kind in get_args(Curves):
+        if kind == text:
+            return cast(Curves, kind)
+    raise DesignError(f"--dxf-curves: {text!r} is not known; one of: {', '.join(get_args(Curves))}")

@@ -1,0 +1,353 @@
+"""The work of setting up, in numbered steps with the numbers of one job.
+
+The work offset's Z is measured once with a Z setter; every tool's length offset then brings its own tip to
+the surface, so one Z serves however many tools. With the machine's Z read where the spindle nose presses the
+setter (N) and where a tool's tip does (Zn), a setter of height h gives
+
+    work offset Z = N - h,        length offset Hn = Zn - N.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.contracts.part import Bore
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.offsets import DOffset
+from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.svg import signed
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
+
+CHECK_HEIGHT = 50.0
+"""Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A heading and what to do."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+def steps(
+    job: Job,
+    control: Control,
+    tools: Sequence[int],
+    *,
+    file_names: Sequence[str],
+    deepest: float,
+    reach: tuple[float, float, float, float] | None = None,
+    offsets: Sequence[DOffset] = (),
+    by_file: bool = False,
+) -> list[Step]:
+    """The steps in order.
+
+    Parameters
+    ----------
+    job
+        What is set up.
+    control
+        The control that reads the program.
+    tools
+        T numbers in the order of use.
+    file_names
+        The program's file, or several in order.
+    deepest
+        Lowest z that any tool reaches, mm.
+    reach
+        Least x, least y, greatest x, greatest y that any cutter reaches below the rapids, mm.
+    offsets
+        The D offsets of cutter compensation.
+    by_file
+        Whether tools that are changed by hand have a file each.
+    """
+    offset = job.settings.work_offset
+    over = job.side == "underside"
+    by_hand = not control.offsets.lengths
+    touched = by_hand and not _in_program(job, control, tools)
+    return [
+        _with_reach(_turn(job) if over else _stock(job, deepest), None if job.jaws else reach),
+        _second_plane(job, offset) if over else _plane(job, offset),
+        *([] if touched else [_height(offset, control)]),
+        *(
+            [_touch_off(job, control, tools, by_file=by_file)]
+            if by_hand
+            else [_lengths(offset, tools, with_d=bool(offsets)), _check(offset, tools, control)]
+        ),
+        *([Step("Set D, and bring the part to size", lines(offsets, control.offsets))] if offsets else []),
+        _run(job, offset, file_names, touched=touched),
+    ]
+
+
+def origin_words(job: Job) -> str:
+    """What X0 Y0 is."""
+    bored = any(isinstance(feature, Bore) and feature.centre == (0.0, 0.0) for feature in job.features)
+    of = job.part.placed[0].label if isinstance(job.part, Nest) else "the part"
+    return {
+        "axis": f"the axis of {of}" + (" (its bore)" if bored else ""),
+        "corner": "the lower left corner of the stock",
+        "centre": "the centre of the stock",
+    }[job.settings.origin]
+
+
+def quantity(job: Job) -> int:
+    """How many of the part the mechanism needs."""
+    return max(1, len(job.part.instances))
+
+
+def _stock(job: Job, deepest: float) -> Step:
+    x0, y0, x1, y1 = job.stock
+    if job.jaws:
+        return _vice(job, deepest)
+    lines = [
+        f"Plate of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z), "
+        "edges parallel to X and Y. Indicate the rear edge to 0.02 mm.",
+    ]
+    if deepest < -job.thickness:
+        lines.append(
+            f"Put a spoil board under it: cutters go down to Z {signed(deepest)}, "
+            f"{-deepest - job.thickness:.2f} mm below the plate."
+        )
+    if job.tabs:
+        lines.append(
+            "Clamp the edge of the plate only. Keep clamps outside the picture's coloured band, and below "
+            f"Z {signed(job.settings.clearance, 1)} where rapids cross."
+        )
+    else:
+        lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
+    return Step("Clamp the stock", tuple(lines))
+
+
+def _vice(job: Job, deepest: float) -> Step:
+    x0, y0, x1, y1 = job.stock
+    edges = " and ".join(jaw.edge for jaw in job.jaws)
+    along = job.jaws[0].face
+    low, high, axis = along.bounds[0], along.bounds[2], "X"
+    if low == high:
+        low, high, axis = along.bounds[1], along.bounds[3], "Y"
+    finished = ", ".join(job.settings.stock.finished)
+    lines = [
+        f"Bar of {job.part.material}, {x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g} mm (X × Y × Z). "
+        f"Edges that stay as they are: {finished}. Measure them: they are edges of the finished part.",
+        f"Vice on the {edges} edges. The jaws may reach from {axis} {signed(low, 1)} to {signed(high, 1)} "
+        f"and no further: cutters pass beside them. Their tops are at Z {signed(job.jaws[0].top)}, "
+        f"{job.thickness + job.jaws[0].top:g} mm above the underside.",
+    ]
+    if deepest < -job.thickness:
+        lines.append(
+            f"Keep parallels away from holes and ends: cutters go down to Z {signed(deepest)}, "
+            f"{-deepest - job.thickness:.2f} mm below the bar."
+        )
+    return Step("Clamp the bar in a vice", tuple(lines))
+
+
+def _with_reach(step: Step, reach: tuple[float, float, float, float] | None) -> Step:
+    if reach is None:
+        return step
+    x0, y0, x1, y1 = (signed(value, 1) for value in reach)
+    line = f"Cutters run from X {x0} to {x1} and Y {y0} to {y1}: no clamp in there."
+    return Step(step.title, (*step.lines, line))
+
+
+def _in_program(job: Job, control: Control, tools: Sequence[int]) -> bool:
+    """Whether the lengths of all tools stand in the program."""
+    return bool(control.offsets.length_word) and set(tools) <= {
+        tool.number for tool in job.tools if tool.length is not None
+    }
+
+
+def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: bool) -> Step:
+    listed = ", ".join(f"T{tool}" for tool in tools)
+    if _in_program(job, control, tools):
+        word = control.offsets.length_word
+        lines = [
+            f"The lengths of {listed} are in the program ({word}), as measured against the spindle nose.",
+            f"Check each by hand before the first cut: {word} with its length, then the tip over the stock.",
+        ]
+    else:
+        when = "Before each file" if by_file else "At each stop"
+        lines = [
+            f"The control keeps no lengths: {listed} are touched off one by one. {when} load the tool, bring "
+            f"its tip on the stock with the setter (height h), and set {job.settings.work_offset} Z so that "
+            "Z reads h.",
+            "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
+        ]
+        if not by_file:
+            lines.append(
+                "At a stop the control by itself can neither jog nor probe: the sender has to hold the stop "
+                "(M0) instead of sending it. If yours does not, ask for one file per tool."
+            )
+    if by_file:
+        lines.append("There is a file for each change of tool: run them in order.")
+    return Step("Tools by hand", tuple(lines))
+
+
+def _turn(job: Job) -> Step:
+    side = job.settings.second_side
+    if side.flip == "x":
+        edges = "front edge goes to the rear, left stays left"
+        straight = "what was the rear edge, now in front,"
+    else:
+        edges = "left edge goes to the right, the rear one stays at the rear"
+        straight = "the rear edge"
+    lines = [
+        f"Turn the plate over about the {side.flip.upper()} axis: its {edges}. The tabs are on top "
+        "now; leave the frame on.",
+        "Support the part from below: it hangs by the tabs only. Clamp the frame.",
+    ]
+    if side.locate == "dowels":
+        lines.append(
+            f"Put it on two dowels of {side.dowel_diameter:g} mm, which stand in the table where the first "
+            "side's holes were: deepen these before the plate is taken off."
+        )
+    else:  # that edge lay along X on the first side, another one need not be parallel to it
+        lines.append(f"Indicate {straight} to 0.02 mm.")
+    return Step("Turn the plate over", tuple(lines))
+
+
+def _second_plane(job: Job, offset: str) -> Step:
+    match job.settings.second_side.locate:
+        case "dowels":
+            places = " and ".join(f"X {signed(x)}, Y {signed(y)}" for x, y in job.pick_up)
+            how = f"The dowels are at {places} in {offset}: indicate one to 0.01 mm."
+            if job.settings.origin == "axis":
+                how += f" These are X and Y of the first side, so {offset} X and Y may be copied from it."
+        case "bore":
+            ((x, y),) = job.pick_up
+            how = (
+                f"Indicate the largest bore to 0.01 mm. Its axis is X {signed(x)}, Y {signed(y)} in {offset}."
+            )
+        case "edges":
+            one, two = datum_edges(job)
+            how = (
+                f"The {one.name} edge is X {signed(one.at)}, the {two.name} edge is Y {signed(two.at)}: they "
+                "are the first side's left and front edges, so that the plate's true size does not matter. "
+                f"With an edge finder of radius r: on the {one.name} edge X reads {one.reads}, on the "
+                f"{two.name} edge Y {two.reads}."
+            )
+    return Step(f"Set {offset} X and Y", (how,))
+
+
+@dataclass(frozen=True)
+class Edge:
+    """An edge of the stock from which X0 or Y0 is found; what the axis reads with an edge finder on it."""
+
+    name: str
+    at: float
+    reads: str
+
+
+def datum_edges(job: Job) -> tuple[Edge, Edge]:
+    """The edges of the stock from which X0 and Y0 are found."""
+    x, y = job.datum
+    right, rear = x == job.stock[2], y == job.stock[3]
+    return (
+        Edge("right" if right else "left", x, f"{signed(x)} {'+' if right else '−'} r"),
+        Edge("rear" if rear else "front", y, f"{signed(y)} {'+' if rear else '−'} r"),
+    )
+
+
+def _plane(job: Job, offset: str) -> Step:
+    x0, y0, _, _ = job.stock
+    lines = [f"X0 Y0 is {origin_words(job)}."]
+    if job.settings.origin == "corner":
+        lines.append(
+            f"With an edge finder of radius r: on the left edge set {offset} X so that X reads −r, "
+            "on the front edge Y so that Y reads −r."
+        )
+    else:
+        lines.append(
+            f"The stock's left edge is X {signed(x0)}, its front edge is Y {signed(y0)}. With an edge "
+            f"finder of radius r: on the left edge set {offset} X so that X reads {signed(x0)} − r, on the "
+            f"front edge Y so that Y reads {signed(y0)} − r."
+        )
+    return Step(f"Set {offset} X and Y", tuple(lines))
+
+
+def _height(offset: str, control: Control) -> Step:
+    return Step(
+        f"Set {offset} Z once, with the Z setter",
+        (
+            "No length offset active: G49. Stand the setter (height h) on the clean top of the stock.",
+            "Bring the bare spindle nose down on it until it shows zero. Read the machine's Z: this is N.",
+            f"Enter {offset} Z = N − h on the offset page, or {control.setting_words(offset)} Z[N − h]. "
+            "Z0 is now the top of the stock. Do not touch it again, however many tools follow.",
+            "If the nose cannot reach, use the longest tool in its place for N: its H is 0, the others have "
+            "negative H. Use the same one for all programs of the job, since they share the lengths.",
+        ),
+    )
+
+
+def _lengths(offset: str, tools: Sequence[int], *, with_d: bool) -> Step:
+    listed = ", ".join(f"T{tool}" for tool in tools)
+    return Step(
+        "Measure each tool's length offset",
+        (
+            f"For each of {listed}: load it, bring its tip down on the setter on the stock until it shows "
+            "zero, and read the machine's Z: this is Zn (Z1 for T1, and so on).",
+            "Enter Hn = Zn − N as the length (Z) of that tool in the tool table"
+            + (". What goes into D comes below." if with_d else "."),
+            "A tool that has its H from another program of the job keeps it.",
+            f"The program calls G43 Hn after every tool change; that brings each tip to the surface that "
+            f"{offset} Z names.",
+        ),
+    )
+
+
+def _check(offset: str, tools: Sequence[int], control: Control) -> Step:
+    first = tools[0] if tools else 1
+    return Step(
+        "Check before the first cut",
+        (
+            f"Beside the clamps, by hand: {control.change_words(first)}, {offset}, "
+            f"{control.length_words(first)}, then G0 Z{CHECK_HEIGHT:g}. "
+            f"The tip must stand {CHECK_HEIGHT:g} mm above the stock: measure it. Repeat for every tool.",
+            "If it does not: stop. Length offset or work offset is wrong.",
+        ),
+    )
+
+
+def _in_order(file_names: Sequence[str]) -> str:
+    if len(file_names) == 1:
+        return file_names[0]
+    return f"{', '.join(file_names[:-1])} and {file_names[-1]}, one after the other"
+
+
+def _run(job: Job, offset: str, file_names: Sequence[str], *, touched: bool) -> Step:
+    lines = [
+        f"Load {_in_order(file_names)}. Single block and low feed override until the first cut looks right. "
+        f"{offset} must be the active offset.",
+    ]
+    if quantity(job) > 1:
+        again = (
+            "touch off every tool again."
+            if touched
+            else f"set {offset} Z again if its top is not as high as the last one. The length offsets stay."
+        )
+        if job.side == "underside" and job.settings.second_side.locate != "dowels":
+            # Stops touch other edges now, and how far those are from the part is the saw's affair.
+            same = f"Pick up {offset} X and Y on every further plate"
+        else:
+            stops = "on the same dowels" if job.side == "underside" else "against the same stops"
+            same = f"A further plate {stops} keeps {offset} X and Y"
+        lines.append(f"Make {quantity(job)}. {same}; {again}")
+    fits = [f"{f.name} ⌀{f.fit.text}" for f in job.features if isinstance(f, Bore) and f.fit]
+    if fits:
+        lines.append(f"Gauge before the part comes off: {', '.join(fits)}. Ream a hole that is too small.")
+    if job.tabs:
+        width, height = job.tabs[0].width, job.thickness + job.tabs[0].top
+        sides, what = "", "parts" if isinstance(job.part, Nest) else "part"
+        if job.tabs[0].ramped:
+            foot = width + 2 * height / job.tabs[0].slope
+            sides = f", on slopes that reach {foot:.1f} mm along the wall at the underside,"
+        lines.append(
+            f"{len(job.tabs)} tabs of {width:g} × {height:g} mm{sides} hold the {what} to the end. "
+            "Saw them through, and file them flush."
+        )
+    if job.clamp is not None:
+        lines.append(
+            f"At the programmed stop fit the bore clamp, at most ⌀{job.clamp.diameter:g} and "
+            f"{job.clamp.top:g} mm high, before going on. Only then is the outside cut."
+        )
+    return Step("Run", tuple(lines))

@@ -1,0 +1,108 @@
+"""The page of a whole job: its programs, the tools of all of them, times and proofs. Imports jinja2."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.pages.setup_sheet import facts
+from mechwright_cam.pages.setup_sheet.procedure import quantity
+from mechwright_cam.pages.setup_sheet.sheet import environment, file_names, span
+from mechwright_cam.pages.trace import trace
+from mechwright_cam.program.moves import Program
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import Tool
+
+SHEET = ".setup.html"
+"""Ending of the sheet of one program."""
+
+_FIGURES = ("gouge_max_mm", "leftover_reachable_max_mm", "unreachable_area_mm2", "unreachable_max_mm")
+"""What the page shows of a proof, in the order of its columns."""
+
+
+def summary_html(
+    programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]],
+    control: Control,
+    *,
+    name: str,
+    tool_table: str = "",
+    design: str = "",
+    files: Mapping[str, Sequence[str]] | None = None,
+) -> str:
+    """The page of a whole job; it leads to the sheet of each program.
+
+    Parameters are those of :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``name`` is that of the job.
+    """
+    rows = [
+        _row(job, program, proof or {}, file_names(program, control.suffix, files))
+        for job, program, proof in programs
+    ]
+    verdicts = [row["verdict"] for row in rows]
+    times = [row["all_seconds"] for row in rows if row["all_seconds"] is not None]
+    return (
+        environment()
+        .get_template("summary.html")
+        .render(
+            name=name,
+            design=design,
+            table_words=control.table_words(tool_table) if tool_table else "",
+            rows=rows,
+            tools=_tools(programs, control),
+            verdict=False if False in verdicts else None if None in verdicts else True,
+            total=sum(times) if times else None,
+        )
+    )
+
+
+def _row(job: Job, program: Program, proof: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:
+    x0, y0, x1, y1 = job.stock
+    seconds = proof.get("time_estimate_s")
+    count = quantity(job)
+    return {
+        "part": job.part.name,
+        "side": job.side,
+        "sheet": program.name + SHEET,
+        "file_names": names,
+        "file_name": span(names),
+        "quantity": count,
+        "stock": f"{x1 - x0:.1f} × {y1 - y0:.1f} × {job.thickness:g}",
+        "material": job.part.material,
+        "work_offset": program.work_offset,
+        "tools": len(program.tools),
+        "seconds": seconds,
+        "all_seconds": None if seconds is None else count * seconds,
+        "verdict": facts.verdict(proof),
+        "figures": [proof.get(figure) for figure in _FIGURES],
+        "failed": [title for title, passed, _ in facts.check_rows(proof) if not passed],
+    }
+
+
+def _tools(
+    programs: Sequence[tuple[Job, Program, Mapping[str, Any] | None]], control: Control
+) -> list[dict[str, Any]]:
+    """One row per tool, by number, with what all programs ask of it."""
+    found: dict[int, dict[str, Any]] = {}
+    for job, program, proof in programs:
+        compensated = {tool.number for tool in program.compensated}
+        for row in facts.tool_rows(job, program, trace(program), proof or {}):
+            tool: Tool = row.tool
+            mine = found.setdefault(
+                tool.number,
+                {
+                    "tool": tool,
+                    "description": row.description,
+                    "length": f"H{tool.number}" if control.offsets.lengths else "–",
+                    "diameter": "–",
+                    "programs": [],
+                    "bottom": 0.0,
+                    "stick_out": 0.0,
+                    "seconds": None,
+                },
+            )
+            mine["programs"].append(program.name)
+            if tool.number in compensated:
+                mine["diameter"] = f"D{tool.d_number}"
+            mine["bottom"] = min(mine["bottom"], row.bottom)
+            mine["stick_out"] = max(mine["stick_out"], row.stick_out)
+            if row.seconds is not None:
+                mine["seconds"] = (mine["seconds"] or 0.0) + quantity(job) * row.seconds
+    return [found[number] for number in sorted(found)]

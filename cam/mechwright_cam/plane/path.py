@@ -1,0 +1,181 @@
+"""Paths of the cutter's centre in the plane.
+
+Glossary
+--------
+cut
+    One line or arc of a path.
+turn
+    0 for a line, +1 for a counter-clockwise arc, -1 for a clockwise one.
+closed
+    The path ends where it starts, so it may be entered anywhere.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+
+DECIMALS = 4
+"""Digits of a coordinate in mm. Paths are rounded before arcs get their centres, so that what a post prints
+still starts and ends on the arc."""
+
+
+class Cut(NamedTuple):
+    """A line or an arc; its start is the end of the cut before. Lengths in mm."""
+
+    x: float
+    y: float
+    cx: float
+    cy: float
+    turn: int
+    length: float
+
+
+def rounded(value: float) -> float:
+    """A coordinate as programs print it; never a negative zero."""
+    return round(value, DECIMALS) + 0.0
+
+
+def line(start: Point, end: Point) -> Cut:
+    """A straight cut."""
+    return Cut(end[0], end[1], 0.0, 0.0, 0, math.hypot(end[0] - start[0], end[1] - start[1]))
+
+
+def arc(start: Point, end: Point, centre: Point, turn: int) -> Cut:
+    """An arc below a full turn; the centre is moved so that both ends have one radius.
+
+    An arc whose ends coincide after rounding would be read as a full circle: it becomes a line.
+    """
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord = math.hypot(dx, dy)
+    if chord < 2 * 10**-DECIMALS:
+        return line(start, end)
+    mx, my = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    nx, ny = -dy / chord, dx / chord
+    height = (centre[0] - mx) * nx + (centre[1] - my) * ny
+    cx, cy = mx + height * nx, my + height * ny
+    a = math.atan2(start[1] - cy, start[0] - cx)
+    b = math.atan2(end[1] - cy, end[0] - cx)
+    sweep = ((b - a) * turn) % math.tau
+    return Cut(end[0], end[1], cx, cy, turn, sweep * math.hypot(chord / 2, height))
+
+
+@dataclass(frozen=True)
+class Path:
+    """A chain of cuts from ``start``, mm."""
+
+    start: Point
+    cuts: tuple[Cut, ...]
+    cache: dict[object, object] = field(default_factory=dict, repr=False, compare=False, hash=False)
+
+    @property
+    def end(self) -> Point:
+        """The last point."""
+        return (self.cuts[-1].x, self.cuts[-1].y) if self.cuts else self.start
+
+    @property
+    def closed(self) -> bool:
+        """Whether it ends where it starts."""
+        return bool(self.cuts) and self.end == self.start
+
+    @cached_property
+    def length(self) -> float:
+        """Length, mm."""
+        return math.fsum(cut.length for cut in self.cuts)
+
+    def __add__(self, other: "Path") -> "Path":
+        if other.start != self.end:
+            raise ValueError(f"paths do not meet: {self.end} and {other.start}")
+        return Path(self.start, self.cuts + other.cuts)
+
+    def reversed(self) -> "Path":
+        """The same way run backwards."""
+        starts = [self.start, *((cut.x, cut.y) for cut in self.cuts[:-1])]
+        back = tuple(
+            Cut(x, y, cut.cx, cut.cy, -cut.turn, cut.length)
+            for (x, y), cut in zip(starts[::-1], self.cuts[::-1], strict=True)
+        )
+        return Path(self.end, back)
+
+    def split(self, at: float) -> tuple["Path", "Path"]:
+        """The parts before and after ``at`` mm of the way; either may be empty."""
+        done = 0.0
+        here = self.start
+        for number, cut in enumerate(self.cuts):
+            if done + cut.length >= at:
+                first, second = _cut_at(here, cut, at - done)
+                before = self.cuts[:number] + first
+                middle = Path(self.start, before).end
+                return Path(self.start, before), Path(middle, second + self.cuts[number + 1 :])
+            done += cut.length
+            here = (cut.x, cut.y)
+        return self, Path(self.end, ())
+
+    def points(self, step: float) -> Array:
+        """Points (n, 2) along the way, both ends included, at most ``step`` mm apart."""
+        rows: list[Array] = [np.array([self.start])]
+        here = self.start
+        for cut in self.cuts:
+            count = max(1, math.ceil(cut.length / step))
+            t = np.arange(1, count + 1)[:, None] / count
+            if cut.turn:
+                a = math.atan2(here[1] - cut.cy, here[0] - cut.cx)
+                radius = math.hypot(here[0] - cut.cx, here[1] - cut.cy)
+                angle = a + cut.turn * cut.length / radius * t
+                rows.append(np.hstack((cut.cx + radius * np.cos(angle), cut.cy + radius * np.sin(angle))))
+            else:
+                rows.append(np.array(here) + t * (np.array((cut.x, cut.y)) - here))
+            here = (cut.x, cut.y)
+        return np.concatenate(rows)
+
+
+def _cut_at(start: Point, cut: Cut, at: float) -> tuple[tuple[Cut, ...], tuple[Cut, ...]]:
+    """Divide one cut; a rest shorter than the program can print is none."""
+    least = 2 * 10**-DECIMALS
+    if at < least:
+        return (), (cut,)
+    if cut.length - at < least:
+        return (cut,), ()
+    end = (cut.x, cut.y)
+    if not cut.turn:
+        t = at / cut.length
+        middle = (rounded(start[0] + t * (end[0] - start[0])), rounded(start[1] + t * (end[1] - start[1])))
+        return (line(start, middle),), (line(middle, end),)
+    radius = math.hypot(start[0] - cut.cx, start[1] - cut.cy)
+    angle = math.atan2(start[1] - cut.cy, start[0] - cut.cx) + cut.turn * at / radius
+    middle = (rounded(cut.cx + radius * math.cos(angle)), rounded(cut.cy + radius * math.sin(angle)))
+    centre = (cut.cx, cut.cy)
+    return (arc(start, middle, centre, cut.turn),), (arc(middle, end, centre, cut.turn),)
+
+
+def polyline(points: Iterable[Point]) -> Path:
+    """A path of straight cuts through these points, rounded; points that coincide count once."""
+    rows = [(rounded(x), rounded(y)) for x, y in points]
+    cuts = []
+    here = rows[0]
+    for row in rows[1:]:
+        if row != here:
+            cuts.append(line(here, row))
+            here = row
+    return Path(rows[0], tuple(cuts))
+
+
+def circle(centre: Point, radius: float, start: Point, ccw: bool) -> Path:
+    """A full circle from ``start`` in two halves, rounded."""
+    begin = (rounded(start[0]), rounded(start[1]))
+    far = (rounded(2 * centre[0] - start[0]), rounded(2 * centre[1] - start[1]))
+    turn = 1 if ccw else -1
+    half = math.pi * radius
+    one = Cut(*far, (begin[0] + far[0]) / 2, (begin[1] + far[1]) / 2, turn, half)
+    return Path(begin, (one, one._replace(x=begin[0], y=begin[1])))
+
+
+CIRCLE_BIAS = TOLERANCES.flatten + 1e-4
+"""A bore's path is an exact circle: it keeps off by the chords of the outline and by rounding, mm."""

@@ -1,0 +1,79 @@
+"""Who cuts what: decided once for each feature and detail of a job."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.errors import DesignError, MechwrightError
+from mechwright_cam.operations.contract import Operation, Task
+from mechwright_cam.operations.table import asked
+from mechwright_cam.operations.twins import Twins
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.settings import CamSettings
+
+
+@dataclass(frozen=True)
+class Assigned:
+    """The tasks of a job, in the order of its features and details, and why there is none for some."""
+
+    tasks: tuple[Task, ...]
+    refused: tuple[MechwrightError, ...]
+
+    def every(self) -> tuple[Task, ...]:
+        """The tasks; raises the first error if a feature has none."""
+        if self.refused:
+            raise self.refused[0]
+        return self.tasks
+
+
+def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
+    """Ask the operations in turn, until one claims, for every feature and detail of a job."""
+    tasks: list[Task] = []
+    refused: list[MechwrightError] = []
+    twins, claimed = Twins(job), dict[str, Task]()
+    for feature in (*job.features, *job.details):
+        try:
+            twin = twins.first(feature)
+            known = claimed.get(twin.name) if twin is not None else None
+            task = known.operation.claim_copy(feature, job, known) if known is not None else None
+            if task is None:
+                claims = (operation.claim(feature, job) for operation in operations)
+                task = next((claim for claim in claims if claim is not None), None)
+            if task is None:
+                raise DesignError(
+                    f"part {job.part.name}: no operation cuts {feature.name}; draw it as a bore, a pocket, "
+                    "an inside profile, or an outside through the plate"
+                )
+            tasks.append(task)
+            claimed[feature.name] = task
+        except MechwrightError as error:
+            refused.append(error)
+    return Assigned(tuple(tasks), tuple(refused))
+
+
+class Assignments:
+    """The tasks of the jobs of one build, each worked out when it is first asked for.
+
+    Parameters
+    ----------
+    more
+        Operations besides the built-in ones; a design asks for them by name.
+    """
+
+    def __init__(self, more: Sequence[Operation] = ()) -> None:
+        self.more = tuple(more)
+        self._known: dict[int, tuple[Job, Assigned]] = {}
+
+    def operations(self, settings: CamSettings) -> tuple[Operation, ...]:
+        """Those that a job asks; raises DesignError for a name that is not known."""
+        return asked(settings.operations, self.more)
+
+    def of(self, job: Job) -> Assigned:
+        """Who cuts what in this very job."""
+        if id(job) not in self._known:
+            self._known[id(job)] = job, assign(job, self.operations(job.settings))
+        return self._known[id(job)][1]
+
+    def carry(self, job: Job, changed: Job) -> Job:
+        """The changed job, of which all that was decided about the first one holds as well."""
+        self._known[id(changed)] = changed, self.of(job)
+        return changed

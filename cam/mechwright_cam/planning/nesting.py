@@ -1,0 +1,313 @@
+"""Which parts go together on one plate, and where they lie on it.
+
+Placement is bottom-left with the rectangles around the parts, largest first, each turned by 90 degrees where
+it then lies lower. A plate of open size is tried at many widths; of those within the machine's travel the one
+that takes least stock is kept.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from mechwright.contracts.part import Part, check_name
+from mechwright.designs.design import Design
+from mechwright.errors import DesignError, MechwrightError
+from mechwright_cam.operations.channel import channel_width
+from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.selection import choose_tools
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest, Placed, make_nest
+from mechwright_cam.setup.sides import sides
+from mechwright_cam.setup.views import inside_of
+from mechwright_cam.shop.holding import Nesting
+from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.table import settings_of
+from mechwright_cam.shop.tool import MILLS
+
+WEB = 3.0
+"""Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
+
+WIDTHS = 40
+"""So many widths of an open plate are tried."""
+
+MOST = 200
+"""No more copies on one plate: their number comes from a file, and each costs time."""
+
+SNAP = 1e-6
+"""Boxes overlap if by more than this, mm."""
+
+
+@dataclass(frozen=True)
+class _Item:
+    """A copy of a part with the box around all that is cut on it, in the part's coordinates."""
+
+    part: Part
+    label: str
+    box: tuple[float, float, float, float]
+
+    @property
+    def size(self) -> tuple[float, float]:
+        x0, y0, x1, y1 = self.box
+        return x1 - x0, y1 - y0
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """Lower left corners (x, y) of the boxes and whether each is turned; the size of all together."""
+
+    spots: tuple[tuple[float, float, bool], ...]
+    width: float
+    height: float
+
+
+def arranged(
+    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments | None = None
+) -> list[Part]:
+    """The plate parts as they are cut: those that go together are one nest, at the place of the first.
+
+    Raises
+    ------
+    DesignError
+        A part of ``[cam.nest]`` is not known or does not go with the others, or the plate is too small.
+    """
+    wanted = settings_of(design).cam.nest
+    if wanted is None:
+        return list(parts)
+    groups = _groups(design, wanted, parts)
+    made: dict[str, Nest] = {}
+    for number, group in enumerate(groups, start=1):
+        name = wanted.name if number == 1 else f"{wanted.name}-{number}"
+        try:
+            check_name(name)
+        except DesignError as error:
+            raise DesignError(f"{design.path}: cam.nest.name: {error}") from error
+        if name in {part.name for part in parts}:
+            raise DesignError(f"{design.path}: cam.nest.name: {name!r} is a part; take another name")
+        nest = _nested(design, wanted, name, group, library, assignments)
+        made |= {part.name: nest for part in group}
+    return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())
+
+
+def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list[Part]]:
+    """The parts of each nest: those named, or all that are alike in material and thickness."""
+    names = wanted.parts
+    known = {part.name: part for part in parts}
+    where = f"{design.path}: cam.nest.parts"
+    if not names:
+        alike: dict[tuple[str, float], list[Part]] = {}
+        for part in parts:
+            if part.name not in settings_of(design).parts and not _second_side(part):
+                alike.setdefault((part.material, part.thickness), []).append(part)
+        groups = [group for group in alike.values() if sum(map(copies, group)) > 1]
+        if not groups:
+            raise DesignError(
+                f"{where}: no two plates are alike in material and thickness; remove [cam.nest]"
+            )
+        return groups
+    for place, name in enumerate(names):
+        if name not in known:
+            listed = ", ".join(sorted(known)) or "none"
+            raise DesignError(f"{where}: no plate part is named {name!r}; there is: {listed}")
+        if name in names[:place]:
+            raise DesignError(f"{where}: {name!r} is listed twice; copies come from the mechanism")
+        part, first = known[name], known[names[0]]
+        if (part.material, part.thickness) != (first.material, first.thickness):
+            raise DesignError(
+                f"{where}: {name} is {part.thickness:g} mm {part.material}, {first.name} is "
+                f"{first.thickness:g} mm {first.material}; one plate has one thickness and one material"
+            )
+        if name in settings_of(design).parts:
+            raise DesignError(
+                f"{design.path}: cam.part.{name}: the part is cut in the nest; set it in "
+                f"[cam.part.{wanted.name}], or take the part out of cam.nest.parts"
+            )
+        if _second_side(part):
+            raise DesignError(f"{where}: {name} is cut from both sides; it cannot be nested, leave it out")
+    return [[known[name] for name in names]]
+
+
+def _second_side(part: Part) -> bool:
+    return bool(sides(part)[1])
+
+
+def copies(part: Part) -> int:
+    """How many of the part the mechanism needs."""
+    return max(1, len(part.instances))
+
+
+def _nested(
+    design: Design,
+    wanted: Nesting,
+    name: str,
+    group: Sequence[Part],
+    library: Library,
+    assignments: Assignments | None,
+) -> Nest:
+    settings = settings_of(design).of(name)
+    total = sum(map(copies, group))
+    if total > MOST:
+        raise DesignError(
+            f"{design.path}: cam.nest: {total} copies on one plate, at most {MOST}; name fewer parts"
+        )
+    if settings.stock.finished:
+        raise DesignError(
+            f"{design.path}: cam.stock.finished: the parts of {name} hang by tabs in a frame, and there is "
+            "none at a finished edge; leave finished out, or cam.nest"
+        )
+    gap = wanted.gap or 2 * channel_of(group, settings, library, assignments) + WEB
+    try:
+        return nest_of(name, group, settings, gap, turn=wanted.turn)
+    except DesignError as error:
+        raise DesignError(f"{design.path}: {error}") from error
+
+
+def channel_of(
+    group: Iterable[Part], settings: CamSettings, library: Library, assignments: Assignments | None = None
+) -> float:
+    """Width of the widest channel around the parts, mm.
+
+    The part with the narrowest one decides: its mills rough all outsides of the plate.
+    """
+    found = []
+    for part in group:
+        try:
+            tools = choose_tools(part, settings, library, assignments)
+        except MechwrightError:
+            continue  # laying out the nest says what is missing
+        job = Job(part, settings, tools, (0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
+        mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
+        found.append(max(mills, default=0.0))
+    # With room for any cutter, laying out the nest comes to what is missing, and not to the gap.
+    widest = max((tool.diameter for tool in library.tools if tool.kind in MILLS), default=0.0)
+    return min(found, default=widest)
+
+
+def nest_of(
+    name: str, group: Sequence[Part], settings: CamSettings, gap: float, *, turn: bool = True
+) -> Nest:
+    """Lay all copies of some parts on one plate, ``gap`` mm apart at least.
+
+    The first placed part, the largest, keeps its axis at the nest's origin.
+
+    Raises
+    ------
+    DesignError
+        They do not fit on a plate of the given size.
+    """
+    items = [_Item(part, label, _box(part)) for part in group for label in _labels(part)]
+    items.sort(key=lambda item: (-max(item.size), -min(item.size)))
+    sizes = [item.size for item in items]
+    stock, room = settings.stock, (settings.machine.travel_x, settings.machine.travel_y)
+    if stock.length is not None and stock.width is not None:
+        beside = gap + WEB  # a channel and a frame on either side
+        inside = stock.length - beside, stock.width - beside
+        within = min(inside[0], room[0] - gap), min(inside[1], room[1] - gap)
+        layout = _on_plate(sizes, *within, gap, turn) or _on_plate(sizes, *inside, gap, turn)
+        if layout is None:
+            least = _open(sizes, gap, turn, room)
+            raise DesignError(
+                f"cam.stock: the {len(items)} parts of {name} do not fit on {stock.length:g} x "
+                f"{stock.width:g} mm with {gap:.1f} mm between them; they do on "
+                f"{math.ceil(least.width + beside)} x {math.ceil(least.height + beside)} mm; "
+                "take a larger plate, or fewer parts"
+            )
+    else:
+        layout = _open(sizes, gap, turn, room)
+    placed = []
+    for item, (x, y, turned) in zip(items, layout.spots, strict=True):
+        x0, y0, _, y1 = item.box
+        # Turned by +90 degrees, (x, y) goes to (-y, x): the box begins at (-y1, x0).
+        corner = (-y1, x0) if turned else (x0, y0)
+        placed.append(
+            Placed(item.part, item.label, x - corner[0], y - corner[1], math.pi / 2 if turned else 0.0)
+        )
+    dx, dy = placed[0].x, placed[0].y
+    shifted = tuple(Placed(p.part, p.label, p.x - dx, p.y - dy, p.angle) for p in placed)
+    return make_nest(name, shifted, gap)
+
+
+def _labels(part: Part) -> list[str]:
+    count = copies(part)
+    return [part.name] if count == 1 else [f"{part.name} no {number}" for number in range(1, count + 1)]
+
+
+def _box(part: Part) -> tuple[float, float, float, float]:
+    """Around the plate and all features: a recess may be drawn, and run out, beyond the edge."""
+    assert part.outline is not None  # noqa: S101 - only plates are nested
+    shapes = [part.outline.polygon(), *(inside_of(feature) for feature in part.features)]
+    x0, y0, x1, y1 = shapely.total_bounds(shapes).tolist()
+    return x0, y0, x1, y1
+
+
+def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tuple[float, float]) -> _Layout:
+    """The layout of least area, with the gap around it; the shorter circumference of two alike.
+
+    One within the machine's travel, ``room``, goes before any other; mills stay within the gap around it.
+    """
+    least = max(min(size) if turn else size[0] for size in sizes)
+    most = sum(max(size) if turn else size[0] for size in sizes) + gap * (len(sizes) - 1)
+    found = []
+    for width in np.linspace(least, max(least, most), WIDTHS).tolist():
+        layout = _bottom_left(sizes, width, math.inf, gap, turn)
+        if layout is not None:
+            found.append(layout)
+    return min(
+        found,
+        key=lambda f: (
+            max(0.0, f.width + gap - room[0]) + max(0.0, f.height + gap - room[1]),
+            (f.width + gap) * (f.height + gap),
+            f.width + f.height,
+        ),
+    )
+
+
+def _on_plate(
+    sizes: Sequence[tuple[float, float]], width: float, height: float, gap: float, turn: bool
+) -> _Layout | None:
+    """A layout on a plate of given size: filled from below, or else from the left."""
+    layout = _bottom_left(sizes, width, height, gap, turn)
+    if layout is not None:
+        return layout
+    across = _bottom_left([(h, w) for w, h in sizes], height, width, gap, turn)
+    if across is None:
+        return None
+    return _Layout(tuple((y, x, turned) for x, y, turned in across.spots), across.height, across.width)
+
+
+def _bottom_left(
+    sizes: Sequence[tuple[float, float]], width: float, height: float, gap: float, turn: bool
+) -> _Layout | None:
+    """Each box in turn where its upper edge is lowest, then leftmost; None if one finds no place."""
+    boxes = np.empty((0, 4))
+    spots: list[tuple[float, float, bool]] = []
+    for w, h in sizes:
+        best: tuple[float, float, float, bool] | None = None
+        for turned in (False, True) if turn else (False,):
+            a, b = (h, w) if turned else (w, h)
+            xs = np.unique(np.append(boxes[:, 2] + gap, 0.0))
+            ys = np.unique(np.append(boxes[:, 3] + gap, 0.0))
+            xs, ys = xs[xs + a <= width + SNAP], ys[ys + b <= height + SNAP]
+            x, y = (grid.ravel() for grid in np.meshgrid(xs, ys))
+            met = (
+                (x[:, None] < boxes[:, 2] + gap - SNAP)
+                & (x[:, None] + a > boxes[:, 0] - gap + SNAP)
+                & (y[:, None] < boxes[:, 3] + gap - SNAP)
+                & (y[:, None] + b > boxes[:, 1] - gap + SNAP)
+            ).any(axis=1)
+            x, y = x[~met], y[~met]
+            if x.size == 0:
+                continue
+            place = np.lexsort((x, y))[0]
+            at = (float(y[place]) + b, float(x[place]), float(y[place]), turned)
+            best = at if best is None else min(best, at)
+        if best is None:
+            return None
+        _, left, low, turned = best
+        a, b = (h, w) if turned else (w, h)
+        boxes = np.vstack((boxes, (left, low, left + a, low + b)))
+        spots.append((left, low, turned))
+    return _Layout(tuple(spots), float(boxes[:, 2].max()), float(boxes[:, 3].max()))

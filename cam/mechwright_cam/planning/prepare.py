@@ -1,0 +1,143 @@
+"""From a design to jobs: its plates, nested where that is wanted, with cutters, stock and holding."""
+
+from collections.abc import Sequence
+
+import shapely
+
+from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, errors
+from mechwright.contracts.part import Part
+from mechwright.designs.design import Design
+from mechwright.errors import DesignError, ToolError
+from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.nesting import arranged
+from mechwright_cam.planning.setups import lay_out_setups
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.limits import check_machine
+from mechwright_cam.setup.measured import check_measured
+from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.table import settings_of
+
+
+def plates(parts: Sequence[Part]) -> list[Part]:
+    """The parts that are milled from a plate."""
+    return [part for part in parts if part.outline is not None]
+
+
+def cut_plates(
+    design: Design, parts: Sequence[Part], library: Library, assignments: Assignments
+) -> list[Part]:
+    """The plates among the parts as they are cut: nested where that is wanted.
+
+    Raises
+    ------
+    DesignError
+        A nest is not possible, or a table ``[cam.part.NAME]`` names no plate and no nest.
+    """
+    cut = arranged(design, plates(parts), library, assignments)
+    known = sorted({part.name for part in (*plates(parts), *cut)})
+    for name in settings_of(design).parts:
+        if name not in known:
+            raise DesignError(
+                f"{design.path}: cam.part.{name}: no plate part has this name; "
+                f"there is: {', '.join(known) or 'none'}"
+            )
+    return cut
+
+
+def library_of(design: Design) -> Library:
+    """The cutters at hand; the name of one that is none of them is a mistake in the file."""
+    settings = settings_of(design)
+    library = load_library(settings.tool_library)
+    tables = {"cam": settings.cam, **{f"cam.part.{name}": cam for name, cam in settings.parts.items()}}
+    for where, cam in tables.items():
+        named = {"tools": cam.tools, "cutting": cam.cutting, "measured.lengths": cam.measured.lengths}
+        for key, name in ((key, name) for key, names in named.items() for name in names):
+            try:
+                library.get(name)
+            except ToolError as error:
+                raise ToolError(f"{design.path}: {where}.{key}: {error}") from error
+    return library.cutting(settings.cam.cutting)
+
+
+def prepare(
+    design: Design, parts: Sequence[Part], assignments: Assignments | None = None
+) -> tuple[list[Finding], list[Job]]:
+    """Choose cutters and lay the plates among the parts into their stock.
+
+    ``assignments`` keeps who cuts what.
+
+    Returns
+    -------
+    findings
+        What the cutters cannot do, and what the family says of the parts as they leave them.
+    jobs
+        One for each part, and one more where the underside is milled as well; fewer if a finding is an
+        error.
+    """
+    assignments = assignments or Assignments()
+    library = library_of(design)
+    cut = cut_plates(design, parts, library, assignments)
+    findings: list[Finding] = []
+    jobs: list[Job] = []
+    for part in cut:
+        cam = settings_of(design).of(part.name)
+        laid, found = lay_out_setups(
+            part, cam, library.cutting(cam.cutting).measured(cam.measured.lengths), assignments
+        )
+        found = [*found, *(finding for job in laid for finding in check_machine(job))]
+        findings += dict.fromkeys(found)  # two features may have the same to say
+        if not errors(found):
+            jobs += laid
+    findings += check_measured(jobs)
+    tops = [job for job in jobs if job.side == "top"]
+    if len(tops) == len(cut):
+        findings += _as_cut(design, tops, assignments)
+        findings += _unused_data(design, jobs)
+    return at_stage(Stage.MACHINING, findings), jobs
+
+
+def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> list[Finding]:
+    """What the family says of the parts as the cutters leave them.
+
+    The copies of a part in a nest may be left different by their neighbours: the family sees all.
+    """
+    copies: dict[str, list[shapely.Polygon]] = {}
+    for job in tops:
+        for name, outline in parts_as_cut(job, assignments):
+            copies.setdefault(name, []).append(outline)
+    findings: list[Finding] = []
+    for number in range(max(map(len, copies.values()), default=0)):
+        cut = {name: found[min(number, len(found) - 1)] for name, found in copies.items()}
+        findings += [f for f in design.family.check_cut(design.params, cut) if f not in findings]
+    return findings
+
+
+def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
+    """Cutting data in the design for tools that no job has."""
+    settings = settings_of(design)
+    named = dict.fromkeys(name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting)
+    used = {tool.name for job in jobs for tool in job.tools}
+    return [
+        Finding(
+            "cam.cutting-unused",
+            Severity.NOTE,
+            f"cam.cutting.{name}",
+            f"{name} is not used here, so its cutting data change nothing",
+        )
+        for name in named
+        if name not in used
+    ]
+
+
+def parts_as_cut(job: Job, assignments: Assignments | None = None) -> list[tuple[str, shapely.Polygon]]:
+    """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
+    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
+    if isinstance(job.part, Nest):
+        return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
+    return [(job.part.name, cut[0])]
+
+
+def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
+    return shapely.transform(polygon, lambda points: points + job.origin)

@@ -1,0 +1,70 @@
+"""How cutters go into material."""
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.scene import Scene
+from mechwright_cam.shop.tool import MILLS, ToolKind
+
+
+def entries(scene: Scene) -> Check:
+    """Ramps into material are gentle, and only centre-cutting tools plunge."""
+    run, paths = scene.run, scene.paths
+    limit = scene.job.settings.ramp_angle
+    steps = paths.cuts
+    drop = paths.start[steps, 2] - paths.end[steps, 2]
+    straight = np.hypot(*(paths.end[steps, :2] - paths.start[steps, :2]).T)
+    flat = np.where(run.kind[steps] == Kind.ARC, np.abs(run.sweep[steps]) * run.radius[steps], straight)
+    angle = np.degrees(np.arctan2(drop, flat))
+    plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS}
+    plunge = flat <= NEAR
+    allowed = plunge & np.isin(run.tool[steps], list(plunges))
+    # Both ends are rounded in the text: a ramp may end a last decimal lower, and be one and a half shorter.
+    digit = 10.0**-scene.control.decimals
+    steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(limit)) + digit
+    threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
+    # A thread mill goes down a finished hole, as steeply as its pitch asks.
+    allowed |= _down_a_tab(scene, steps, drop, flat) & np.isin(run.tool[steps], list(plunges))
+    suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
+    for index in np.flatnonzero(suspect).tolist():
+        step = int(steps[index])
+        if not scene.stock.meets(step):
+            continue
+        tool = scene.tools[int(run.tool[step])]
+        if plunge[index]:
+            message = f"T{tool.number} ({tool.name}) plunges into the stock and does not cut at its centre"
+            return scene.bad(step, message)
+        found = float(angle[index])
+        message = (
+            f"T{tool.number} ({tool.name}) ramps into the stock at {found:.1f} degrees, "
+            f"the limit is {limit:g}"
+        )
+        return scene.bad(step, message, found, limit, "deg")
+    return Check(True, "entries are ramps or plunges that the tools can do", limit=limit, unit="deg")
+
+
+TAB_RISE = 0.005
+"""A path down a ramped tab may be so much steeper than the tab's side over its whole length, mm: the gouge
+limit, as the tab itself may be off by that."""
+
+
+def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[np.bool_]:
+    """(n,) whether a move goes down the side of a ramped tab: no further than the tab is high."""
+    found = np.zeros(steps.size, dtype=bool)
+    job, paths = scene.job, scene.paths
+    for tab in job.tabs:
+        if not tab.ramped:
+            continue
+        gentle = (drop > 0) & (drop <= flat * tab.slope + TAB_RISE) & (drop <= tab.top - job.floor + TAB_RISE)
+        index = np.flatnonzero(gentle & (paths.start[steps, 2] <= tab.top + TAB_RISE) & ~found)
+        if index.size:
+            lines = paths.lines(paths.below(np.inf, steps=steps[index]))
+            reach = paths.radius[steps[index]] + (job.settings.breakthrough + TAB_RISE) / tab.slope
+            found[index] = shapely.dwithin(tab.shape, lines, reach)
+    return found

@@ -1,0 +1,95 @@
+"""From program text to proof: every rule is asked, and what they found goes into the report."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from mechwright.cores import together
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.contract import Control
+from mechwright_cam.proof.beyond import SPOTS
+from mechwright_cam.proof.holding import loose
+from mechwright_cam.proof.leftover import Remains
+from mechwright_cam.proof.report import Proof, Spot
+from mechwright_cam.proof.rule import Rule, ask
+from mechwright_cam.proof.rules import BUILT_IN
+from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.timing import operations, step_times
+from mechwright_cam.setup.job import Job
+
+SWITCHED = re.compile(r"^\s*/", re.MULTILINE)
+"""A line that a switch at the machine skips."""
+RULES = tuple(rule() for rule in BUILT_IN)
+"""What is asked unless a host knows more."""
+
+
+def prove(text: str | Mapping[str, str], job: Job, control: Control, rules: Sequence[Rule] = RULES) -> Proof:
+    """Simulate a program against the part it should make: :func:`judge` with the scene of its parameters."""
+    return judge(Scene(text, job, control), rules)
+
+
+def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
+    """Ask all rules about a program, with the switch for optional lines off, and on if there are such lines.
+
+    Returns
+    -------
+    proof
+        All checks, in the order of the rules; :meth:`Proof.require` raises if one failed.
+
+    Raises
+    ------
+    ProgramError
+        The text cannot be read; the message names the line.
+    PluginError
+        A rule cannot tell; the message names the rule.
+    """
+    proof, text = _judged(scene, rules), scene.text
+    if not proof.ok or not any(map(SWITCHED.search, [text] if isinstance(text, str) else text.values())):
+        return proof
+    words = "with lines that start with / skipped, "
+    try:
+        other = _judged(replace(scene, block_delete=True), rules)
+    except ProgramError as error:
+        raise ProgramError(words + str(error)) from error
+    if other.ok:
+        return proof
+    checks = {
+        name: check if check.passed else replace(check, message=words + check.message)
+        for name, check in other.checks.items()
+    }
+    return replace(other, checks=checks)
+
+
+def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
+    """What the rules say of one run."""
+    # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
+    run, _, _ = scene.run, scene.stock, scene.sweeps
+    checks = together(partial(ask, scene=scene), rules)  # none depends on another
+    seconds, left = step_times(run, scene.job.settings.machine), scene.remains
+    return Proof(
+        part=scene.job.part.name,
+        checks={check.name: check for check in checks},
+        gouge_max_mm=max((cut.depth for cut in (scene.gouge, scene.in_tab) if cut), default=0.0),
+        leftover_reachable_max_mm=left.reachable,
+        unreachable_area_mm2=sum(spot[4] for spot in left.beyond),
+        unreachable_max_mm=max((spot[3] for spot in left.beyond), default=0.0),
+        unreachable=tuple(Spot(*spot) for spot in left.beyond[:SPOTS]),
+        rapids_in_stock=len(scene.stock.rapids),
+        time_estimate_s=float(seconds.sum()),
+        cutting_length_mm=float(np.nansum(run.length[run.cutting])),
+        operations=operations(run, seconds),
+        notes=(*_notes(left), *loose(scene.sweeps, scene.job)),
+    )
+
+
+def _notes(left: Remains) -> tuple[str, ...]:
+    if not left.beyond:
+        return ()
+    deepest = left.beyond[0]
+    return (
+        f"stock that no cutter of the program reaches: in {len(left.beyond)} place(s), "
+        f"up to {deepest[3]:.3f} mm, {sum(spot[4] for spot in left.beyond):.3f} mm² in all",
+    )

@@ -1,0 +1,1 @@
+"""A part in its stock: origin, holding, sides."""

@@ -1,0 +1,97 @@
+"""A part is laid into its stock, and held."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import shapely
+
+from mechwright.contracts.part import Bore, Feature, Part, Profile
+from mechwright.errors import DesignError
+from mechwright_cam.setup.holding import Clamp
+from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest, moved_feature
+from mechwright_cam.setup.plate import plate_box
+from mechwright_cam.setup.tabs import lay_tabs
+from mechwright_cam.setup.vice import CLAMP_GAP, lay_jaws
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import MILLS, Tool
+
+
+def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
+    """Lay a plate part into its stock and decide how it is held.
+
+    Parameters
+    ----------
+    part, settings, tools
+        What is made, and with what.
+    below
+        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
+
+    Raises
+    ------
+    GeometryError
+        The part is no plate.
+    DesignError
+        The stock is too small, or the part has no bore to be held by.
+    """
+    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
+    # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
+    stock = plate_box(part, settings, widest + 3.0)
+    origin = {
+        "axis": (0.0, 0.0),
+        "corner": (stock[0], stock[1]),
+        "centre": ((stock[0] + stock[2]) / 2, (stock[1] + stock[3]) / 2),
+    }[settings.origin]
+    placed = Job(
+        part,
+        settings,
+        tuple(tools),
+        origin,
+        (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
+    )
+    if isinstance(part, Nest) and settings.hold.method != "tabs":
+        raise DesignError(
+            f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
+            'cannot be clamped one by one; use method = "tabs", or no cam.nest'
+        )
+    if settings.hold.method == "bore":
+        return replace(placed, clamp=_clamp(placed))
+    if settings.hold.method == "vice":
+        return replace(placed, jaws=lay_jaws(placed, widest))
+    if settings.stock.finished:
+        raise DesignError(
+            f"cam.stock.finished: tabs hold part {part.name} in a frame, and there is none at a finished "
+            'edge; use hold.method = "vice" or "bore"'
+        )
+    x0, y0, _, _ = placed.target.bounds
+    barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
+    return replace(placed, tabs=lay_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred))
+
+
+def _clamp(job: Job) -> Clamp:
+    bores = [feature for feature in job.features if isinstance(feature, Bore)]
+    openings = [f for f in job.features if isinstance(f, Profile) and f.side == "inside"]
+    if bores:
+        centre = max(bores, key=lambda bore: bore.diameter).centre
+    elif openings:
+        middle = shapely.Polygon(openings[0].loop.flatten()).centroid
+        centre = (middle.x, middle.y)
+    else:
+        raise DesignError(
+            f'cam.hold.method: part {job.part.name} has no bore to be held by; use method = "tabs"'
+        )
+    hold = job.settings.hold
+    return Clamp(centre, hold.clamp_diameter, hold.clamp_height)
+
+
+def check_clamp(job: Job) -> None:
+    """Raise DesignError if the clamp comes too near to the outside."""
+    if job.clamp is None:
+        return
+    reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
+    limit = 2 * (float(reach) - CLAMP_GAP)
+    if job.clamp.diameter > limit:
+        raise DesignError(
+            f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "
+            f"mm of the outside of part {job.part.name}; use at most {max(limit, 0):.2f} mm, or tabs"
+        )

@@ -1,0 +1,131 @@
+"""Where tabs stand along a wall, and how wide they are where the design leaves it open."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from mechwright.contracts.part import Feature, Profile
+from mechwright.contracts.sections import plan_view
+from mechwright.errors import DesignError
+
+TAB_WIDTH = 2.0
+"""Width of a tab, mm, where the design file says nothing: four, 1 mm high, hold a plate of a hand's size."""
+
+LEAST_TAB_WIDTH = 0.5
+"""A tab chosen by the program is at least so wide, mm: a thinner one breaks under the finishing cut."""
+
+SHIFTS = 8
+"""So many places between two tabs are tried where not all of the wall takes one."""
+
+HOLDS = 0.5
+"""Tabs are on this share of the wall at least: on less they leave much of the part without a neighbour."""
+
+Row = list[float]
+"""Distances along the wall at which all tabs of an outside stand, mm."""
+
+
+def rows(
+    feature: Profile,
+    ring: shapely.LinearRing,
+    count: int,
+    width: float,
+    slopes: float,
+    barred: Sequence[Feature],
+) -> tuple[list[Row], list[Row]]:
+    """Rows of places to try: in even steps, moved on together, and in uneven ones clear of what is barred.
+
+    Parameters
+    ----------
+    feature, ring
+        The outside, and its polygon.
+    count, width, slopes
+        How many tabs, how wide on top, and the extent of both slopes of a ramped one, mm.
+    barred
+        Features at which no tab may stand.
+
+    Raises
+    ------
+    DesignError
+        The outside says where tabs may stand, and there is too little room.
+    """
+    places = _places(feature, ring, count, width, slopes)
+    if feature.tab_sites or not (slopes or barred):
+        return [places], []
+    step = ring.length / len(places)
+    even = [[(at + shift / SHIFTS * step) % ring.length for at in places] for shift in range(SHIFTS)]
+    return even, _between(ring, count, width + slopes, barred)
+
+
+def tab_width(feature: Profile, count: int, slopes: float) -> float:
+    """The width of tabs that the design leaves open: the usual one, or the widest that all sites take."""
+    widest = sorted((longest - slopes for _, longest in feature.tab_sites), reverse=True)
+    if not widest:
+        return TAB_WIDTH
+    if len(widest) < count or widest[count - 1] < LEAST_TAB_WIDTH:
+        fit = sum(longest >= LEAST_TAB_WIDTH for longest in widest)
+        ramps = f" and two slopes of {slopes / 2:.1f} mm" if slopes else ""
+        instead = 'use tab_shape = "rectangular", or hold' if slopes else "hold"
+        raise DesignError(
+            f"cam.hold.tabs: {feature.name} has room for {fit} tabs of at least {LEAST_TAB_WIDTH:g} mm{ramps}"
+            f", not for {count}; {instead} the part by its bore"
+        )
+    return min(TAB_WIDTH, widest[count - 1])
+
+
+def _places(
+    feature: Profile, ring: shapely.LinearRing, count: int, width: float, slopes: float
+) -> list[float]:
+    """Distances along the ring at which the tabs stand: near equal steps, on the sites if there are any."""
+    even = [ring.length * i / count for i in range(count)]
+    if not feature.tab_sites:
+        return even
+    fit = [
+        ring.project(shapely.Point(site)) for site, longest in feature.tab_sites if longest >= width + slopes
+    ]
+    if len(fit) < count:
+        widest = sorted((longest for _, longest in feature.tab_sites), reverse=True)
+        at_most = widest[min(count, len(widest)) - 1] - slopes
+        if at_most <= 0:
+            raise DesignError(
+                f"cam.hold.tab_shape: {feature.name} has no room for two slopes of {slopes / 2:.1f} mm at "
+                f'each of {count} tabs; use "rectangular"'
+            )
+        raise DesignError(
+            f"cam.hold.tab_width: {count} tabs of {width:g} mm do not fit on {feature.name}; "
+            f"use at most {at_most:.2f} mm, or fewer than {count} of cam.hold.tabs"
+        )
+    chosen: list[float] = []
+    for wish in even:
+        free = [at for at in fit if at not in chosen]
+        chosen.append(
+            min(free, key=lambda at: abs((at - wish + ring.length / 2) % ring.length - ring.length / 2))
+        )
+    return sorted(chosen)
+
+
+def _between(
+    ring: shapely.LinearRing, count: int, base: float, barred: Sequence[Feature]
+) -> list[list[float]]:
+    """Rows of places along a wall, in equal steps over all stretches that are clear of features.
+
+    None if these are so short that the tabs would hold the part on one side only.
+    """
+    if not barred:
+        return []
+    shut = shapely.buffer(shapely.union_all([plan_view(feature) for feature in barred]), base)
+    free = [line for line in shapely.get_parts(shapely.difference(ring, shut)) if line.length > 0]
+    total = sum(line.length for line in free)
+    if total < max(HOLDS * ring.length, 2 * count * base):
+        return []
+    starts = [ring.project(shapely.Point(line.coords[0])) for line in free]
+    ends = np.cumsum([line.length for line in free])
+    rows = []
+    for shift in range(SHIFTS):
+        row = []
+        for wish in (np.arange(count) + (shift + 0.5) / SHIFTS) * total / count:
+            at = int(np.searchsorted(ends, wish))
+            along = wish - (ends[at] - free[at].length)
+            row.append(float((starts[at] + along) % ring.length))
+        rows.append(sorted(row))
+    return rows

@@ -1,0 +1,1 @@
+"""What stands in the workshop: cutters, machines, and the settings of a job."""

@@ -1,0 +1,107 @@
+"""Stock, holding, nests and the second side: tables of ``[cam]``."""
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.contracts.parameters import Parameters
+from mechwright.units import Degrees, Millimetres
+from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.posting import WorkOffset
+
+
+class Stock(Parameters):
+    """The plate that the part is cut from; as thick as the part.
+
+    Its size is the part's plus the margin all round, unless length and width are given.
+    """
+
+    margin: Millimetres | None = Field(
+        None, ge=0, le=200, description="Stock around the part; by default the roughing cutter and 3 mm."
+    )
+    length: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in X.")
+    width: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in Y.")
+    finished: tuple[Literal["left", "right", "front", "rear"], ...] = Field(
+        (), description="Edges where the stock ends exactly at the part and is not milled."
+    )
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if (self.length is None) != (self.width is None):
+            raise ValueError("give both length and width, or neither")
+        if self.length is not None and self.margin is not None:
+            raise ValueError("give length and width, or margin, not both")
+        return self
+
+
+class Nesting(Parameters):
+    """Several parts of one material and thickness on one plate; without the table each has its own."""
+
+    name: str = Field(
+        "nest", min_length=1, max_length=40, description="Name of the nest, and stem of its files."
+    )
+    parts: tuple[str, ...] = Field(
+        (), description="Names of the parts; empty: all that go together, one nest per plate thickness."
+    )
+    gap: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=300,
+        description="Between the parts; by default two of the widest channels and 3 mm.",
+    )
+    turn: bool = Field(True, description="Parts may be turned by 90 degrees to save stock.")
+
+
+class Hold(Parameters):
+    """How the part is held while its outside is cut."""
+
+    method: Literal["tabs", "bore", "vice"] = Field(
+        "tabs", description="Tabs to the frame, a clamp through the bore, or a vice on finished edges."
+    )
+    tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
+    tab_width: Millimetres | None = Field(
+        None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
+    )
+    tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
+    tab_shape: Literal["rectangular", "ramped"] = Field(
+        "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
+    )
+    tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
+    clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
+    clamp_height: Millimetres = Field(
+        15.0, gt=0, le=200, description="Height of the bore clamp above the part."
+    )
+    grip: Millimetres | None = Field(
+        None, ge=1, le=200, description="Height of the edges in the vice; by default half of the thickness."
+    )
+    jaw_width: Millimetres | None = Field(
+        None, gt=0, le=1000, description="Width of the vice's jaws; by default as wide as there is room."
+    )
+
+
+class SecondSide(Parameters):
+    """How the plate is turned over for features that only the underside shows."""
+
+    work_offset: WorkOffset = Field("G55", description="Work offset of the second side.")
+    flip: Literal["x", "y"] = Field("x", description="The plate is turned over about this axis.")
+    locate: Literal["bore", "edges", "dowels"] = Field(
+        "bore", description="What X0 Y0 is picked up by: the largest bore, the plate's edges, or two dowels."
+    )
+    dowel_diameter: Millimetres = Field(
+        6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
+    )
+    x: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine X of its work offset, if it is measured."
+    )
+    y: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Y of its work offset, if it is measured."
+    )
+    z: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Z of its work offset, if it is measured."
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        if 0 < [self.x, self.y, self.z].count(None) < 3:
+            raise ValueError("give x, y and z of the measured work offset, or none of them")
+        return self

@@ -1,0 +1,156 @@
+"""The tool library: cutters in a TOML file that a person can extend."""
+
+import difflib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from mechwright.contracts.materials import MATERIALS
+from mechwright.designs.files import read_toml
+from mechwright.designs.tables import read_table
+from mechwright.errors import DesignError, ToolError
+from mechwright_cam.shop.tool import CuttingChange, CuttingData, Tool, ToolKind
+
+BUILT_IN = Path(__file__).with_name("tools.toml")
+"""The file of the cutters that come with the program."""
+
+
+@dataclass(frozen=True)
+class Library:
+    """Cutters by name, each with its own T number.
+
+    Raises
+    ------
+    DesignError
+        Two cutters have one T number; the message names both.
+    """
+
+    tools: tuple[Tool, ...]
+
+    def __post_init__(self) -> None:
+        by_number: dict[int, Tool] = {}
+        for tool in self.tools:
+            other = by_number.setdefault(tool.number, tool)
+            if other is not tool:
+                raise DesignError(
+                    f"tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
+                    "give one of them another T number"
+                )
+        by_offset: dict[int, Tool] = {}
+        for tool in self.tools:
+            if tool.kind is ToolKind.END_MILL or tool.diameter_offset is not None:
+                other = by_offset.setdefault(tool.d_number, tool)
+                if other is not tool:
+                    raise DesignError(
+                        f"tools {other.name!r} and {tool.name!r} both have D number {tool.d_number}; "
+                        "give one of them another diameter_offset"
+                    )
+
+    def __iter__(self) -> Iterator[Tool]:
+        return iter(self.tools)
+
+    def get(self, name: str) -> Tool:
+        """The cutter of this name; raises ToolError that lists close matches."""
+        for tool in self.tools:
+            if tool.name == name:
+                return tool
+        names = [tool.name for tool in self.tools]
+        near = difflib.get_close_matches(name, names, n=3, cutoff=0.5) or names
+        raise ToolError(
+            f"no tool {name!r} in the library; "
+            f"{'did you mean' if len(near) <= 3 else 'known:'} {', '.join(near)}"
+        )
+
+    def extended(self, tools: tuple[Tool, ...]) -> "Library":
+        """The library with more cutters; one of a known name replaces the known one."""
+        merged = {tool.name: tool for tool in self.tools} | {tool.name: tool for tool in tools}
+        return Library(tuple(merged.values()))
+
+    def cutting(self, changes: Mapping[str, CuttingChange]) -> "Library":
+        """The library with cutting data of a design over its own, by the name of the tool.
+
+        They hold for every material that the tool cuts. With a speed and a chip load they also stand for a
+        material that the library has no data for.
+
+        Raises
+        ------
+        ToolError
+            There is no such tool.
+        """
+        return self.extended(tuple(_changed(self.get(name), change) for name, change in changes.items()))
+
+    def measured(self, lengths: Mapping[str, float]) -> "Library":
+        """The library with lengths as measured, mm, by the name of the tool."""
+        known = ((tool, lengths.get(tool.name, tool.length)) for tool in self.tools)
+        return Library(
+            tuple(
+                tool if length == tool.length else tool.model_copy(update={"length": length})
+                for tool, length in known
+            )
+        )
+
+
+def _changed(tool: Tool, change: CuttingChange) -> Tool:
+    said = change.model_dump(exclude_none=True)
+    cutting = {name: data.model_copy(update=said) for name, data in tool.cutting.items()}
+    if "cutting_speed" in said and "chip_load" in said:
+        cutting = dict.fromkeys(MATERIALS, CuttingData(**said)) | cutting
+    return tool.model_copy(update={"cutting": cutting})
+
+
+@cache
+def built_in() -> Library:
+    """The cutters that come with the program."""
+    return Library(read_tools(BUILT_IN))
+
+
+def load_library(path: Path | None = None) -> Library:
+    """Give the built-in library, extended and overridden by the cutters in ``path``.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be read.
+    DesignError
+        A tool in it is wrong: file, tool, key, value and limit are named, one line for each wrong key.
+    """
+    if path is None:
+        return built_in()
+    tools = read_tools(path)
+    try:
+        return built_in().extended(tools)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from error
+
+
+def read_tools(path: Path) -> tuple[Tool, ...]:
+    """Read the ``[[tool]]`` tables of one file; raises OutputError or DesignError."""
+    if path.exists() and not path.is_file():
+        raise DesignError(f"{path}: is no file; a tool library is a text of [[tool]] tables")
+    data = read_toml(path)[0]
+    rows = data.pop("tool", None)
+    if data:
+        raise DesignError(f"{path}: unknown key {next(iter(data))!r}; a tool library holds [[tool]] tables")
+    if not isinstance(rows, list) or not rows:
+        raise DesignError(f"{path}: holds no tool; add a [[tool]] table")
+    tools: dict[str, Tool] = {}
+    for position, row in enumerate(rows, start=1):
+        tool = _read_tool(path, position, row)
+        if tool.name in tools:
+            raise DesignError(f"{path}: two tools are called {tool.name!r}; rename one")
+        tools[tool.name] = tool
+    return tuple(tools.values())
+
+
+def _read_tool(path: Path, position: int, row: object) -> Tool:
+    name = row.get("name") if isinstance(row, dict) else None
+    where = f"tool {name!r}" if isinstance(name, str) else f"tool {position} of the file"
+    tool = read_table(Tool, row, str(path), where)
+    unknown = set(tool.cutting) - set(MATERIALS)
+    if unknown:
+        raise DesignError(
+            f"{path}: {where}.cutting: no such material as {min(unknown)!r}; one of: "
+            f"{', '.join(sorted(MATERIALS))}"
+        )
+    return tool

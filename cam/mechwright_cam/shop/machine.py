@@ -1,0 +1,112 @@
+"""The mill: its limits and its places; the table ``[cam.machine]`` of a design file, or a machine file."""
+
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.contracts.parameters import Parameters
+from mechwright.designs.files import beside, read_toml
+from mechwright.designs.tables import read_table, unknown
+from mechwright.errors import DesignError
+from mechwright.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
+
+MACHINES = Path(__file__).with_name("machines.toml")
+"""The machines that come with the program, by name."""
+
+
+class Machine(Parameters):
+    """A three-axis mill."""
+
+    model: str = Field(
+        "",
+        max_length=200,
+        description="A known machine, or a machine file (.toml) beside the design; its figures come first.",
+    )
+    name: str = Field("three-axis mill", max_length=60, description="Its name on the setup sheet.")
+    travel_x: Millimetres = Field(500.0, gt=0, le=10000, description="Travel of X.")
+    travel_y: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Y.")
+    travel_z: Millimetres = Field(400.0, gt=0, le=10000, description="Travel of Z.")
+    rapid: MillimetresPerMin = Field(10000.0, gt=0, le=200000, description="Speed of a rapid move.")
+    rapid_z: MillimetresPerMin | None = Field(
+        None, gt=0, le=200000, description="Speed of a rapid move of Z, where it is slower."
+    )
+    max_feed: MillimetresPerMin = Field(5000.0, gt=0, le=100000, description="Fastest feed.")
+    spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
+    spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
+    acceleration: Ratio = Field(
+        1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
+    )
+    tool_change: Annotated[Ratio, Field(ge=0, le=3600)] = Field(
+        12.0, description="Time of a tool change in s."
+    )
+    spindle_delay: Annotated[Ratio, Field(ge=0, le=10)] = Field(
+        0.0, description="Wait in s for the spindle to come up to speed; 0 if the control waits by itself."
+    )
+    pockets: int = Field(0, ge=0, le=1000, description="Places of the tool changer; 0: no limit is known.")
+    low_x: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine X at the lower end of its travel, if it is known."
+    )
+    low_y: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Y at the lower end of its travel, if it is known."
+    )
+    low_z: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Z at the lower end of its travel, if it is known."
+    )
+    retract_z: Millimetres = Field(
+        0.0, ge=-10000, le=10000, description="Machine Z of a full retract, the upper end of travel."
+    )
+    change_x: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine X where tools are changed; by default it stays."
+    )
+    change_y: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Y where tools are changed; by default it stays."
+    )
+    home_x: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine X at the program's end; by default it stays."
+    )
+    home_y: Millimetres | None = Field(
+        None, ge=-10000, le=10000, description="Machine Y at the program's end; by default it stays."
+    )
+
+    @model_validator(mode="after")
+    def _spindle(self) -> Self:
+        if self.spindle_min >= self.spindle_max:
+            raise ValueError("spindle_min must be below spindle_max")
+        return self
+
+    @model_validator(mode="after")
+    def _places(self) -> Self:
+        for axis, keys in (
+            ("x", ("change_x", "home_x")),
+            ("y", ("change_y", "home_y")),
+            ("z", ("retract_z",)),
+        ):
+            low, travel = getattr(self, f"low_{axis}"), getattr(self, f"travel_{axis}")
+            for key in keys:
+                place = getattr(self, key)
+                if low is not None and place is not None and not low <= place <= low + travel:
+                    raise ValueError(
+                        f"{key} is {place:g}, and {axis.upper()} travels from {low:g} to {low + travel:g}"
+                    )
+        return self
+
+
+def machine_figures(model: str, path: Path) -> dict[str, Any]:
+    """The figures of a built-in machine, or of a machine file beside ``path``."""
+    if model.endswith(".toml"):
+        file = beside(path, model, "cam.machine.model")
+        figures = read_toml(file)[0]
+        if "model" in figures:
+            raise DesignError(f"{file}: model: a machine file stands for itself; write its figures")
+        read_table(Machine, figures, str(file), "machine")  # mistakes are told with the file's name
+        return figures
+    machines = read_toml(MACHINES)[0]
+    if model not in machines:
+        raise DesignError(
+            f"{path}: cam.machine.model: {unknown(model, tuple(machines), 'machine')}; or name a .toml file "
+            "beside the design file"
+        )
+    figures = machines[model]
+    assert isinstance(figures, dict)  # noqa: S101 - a file of our own
+    return figures

@@ -1,0 +1,66 @@
+"""How programs are written, and what was measured at the machine: tables of ``[cam]``."""
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from mechwright.contracts.parameters import Parameters
+from mechwright.units import Millimetres
+from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+
+LEAST_CLEARANCE = 0.5
+"""Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
+
+
+_OFFSET = re.compile(r"G(5[4-9]|59\.[123]|54\.1 P([1-9]|[1-9]\d|[12]\d\d|300)|154 P[1-9]\d?)")
+
+
+def _work_offset(text: str) -> str:
+    if not _OFFSET.fullmatch(text):
+        raise ValueError("should be G54 to G59, or as the control has it G59.1 to G59.3, G54.1 P1, G154 P1")
+    return text
+
+
+WorkOffset = Annotated[str, AfterValidator(_work_offset)]
+"""Every work offset that some control has; its post says which."""
+
+
+ToolChange = Literal["pause", "files"]
+"""How a tool is changed by hand: at a stop in the program, or between files of one tool each."""
+
+
+class Posting(Parameters):
+    """How the program is written, whatever it does."""
+
+    program_number: int = Field(1, ge=1, le=9999, description="O number of the first program, if it has one.")
+    line_numbers: int = Field(0, ge=0, le=100, description="Step of the N numbers; 0 writes none.")
+    restart: bool = Field(False, description="Every operation can be started from: it states all modes.")
+    optional_stops: bool = Field(False, description="An M1 before every tool change.")
+    cycles: bool = Field(True, description="Drilling cycles; false writes out their moves.")
+    exact_stop: bool = Field(False, description="G61: stop at every corner, instead of blending (G64).")
+    offsets: bool = Field(False, description="Write the measured offsets into the program (G10).")
+    d_value: Literal["radius", "diameter"] = Field(
+        "radius", description="What Fanuc and Haas keep in a D offset; LinuxCNC and Mach3 keep the diameter."
+    )
+    tool_change: ToolChange | None = Field(
+        None,
+        description="Where the control has no tool change: stop for it, or one file per tool; by default as "
+        "the control wants it.",
+    )
+
+
+Compensation = Literal["computer", "control", "wear"]
+"""Where the radius of a finishing cutter is allowed for: in the path, at the control (G41 and G42, D holds
+the radius), or in the path with the wear at the control (D holds the difference, 0 for a new cutter)."""
+
+
+class Measured(Parameters):
+    """What was read at the machine; the setup sheet says how."""
+
+    x: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine X of the work offset.")
+    y: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Y of the work offset.")
+    z: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Z of the work offset.")
+    lengths: dict[str, Annotated[Millimetres, Field(ge=-1000, le=1000)]] = Field(
+        default_factory=dict, description="Tool name to its length offset H."
+    )

@@ -1,0 +1,180 @@
+"""Cutters, machines, stock and holding: the tables under ``[cam]`` of a design file, and the tool library."""
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.contracts.fits import HoleClass
+from mechwright.contracts.marking import LEAST_HEIGHT
+from mechwright.contracts.parameters import Parameters
+from mechwright.tolerances import TOLERANCES
+from mechwright.units import Degrees, Millimetres, Ratio
+from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
+from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, WorkOffset
+from mechwright_cam.shop.tool import CuttingChange
+
+DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
+"""Most that a wall may be asked to be too deep, mm: what chords of outlines leave of the permitted gouge."""
+
+LEAST_OFF = 2 * (TOLERANCES.outline + TOLERANCES.flatten)
+"""Least that may stay on a wall, mm: less would leave chords of outline and offset, and the fit, no room."""
+
+MOST_OFF = TOLERANCES.leftover - TOLERANCES.arc_fit
+"""Most that may, mm: the corners of a larger cutter need the rest of the permitted leftover."""
+
+
+class PathSettings(Parameters):
+    """How exact the finished walls are, and what their paths are made of."""
+
+    inner_tolerance: Millimetres = Field(
+        TOLERANCES.outline, ge=0, le=DEEPEST_INTO, description="Deepest that finishing may cut into a wall."
+    )
+    outer_tolerance: Millimetres = Field(
+        2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
+        ge=LEAST_OFF,
+        le=MOST_OFF,
+        description="Most that finishing may leave on a wall; at least inner_tolerance.",
+    )
+    lines_per_arc: int = Field(
+        1, ge=1, le=100, description="An arc is written where it stands for at least so many lines."
+    )
+
+    @model_validator(mode="after")
+    def _outwards(self) -> Self:
+        if self.outer_tolerance < self.inner_tolerance:
+            raise ValueError(
+                f"outer_tolerance {self.outer_tolerance:g} is below inner_tolerance "
+                f"{self.inner_tolerance:g}; paths stay off walls, so give it at least as much"
+            )
+        return self
+
+    @property
+    def bias(self) -> float:
+        """How far off the wall the path of finishing is planned, mm: in the middle of both tolerances."""
+        return (self.outer_tolerance - self.inner_tolerance) / 2
+
+    @property
+    def tolerance(self) -> float:
+        """How far a path may stray from the parallel of the flattened outline, mm."""
+        return (self.outer_tolerance + self.inner_tolerance) / 2 - TOLERANCES.flatten
+
+
+class CamSettings(Parameters):
+    """The table ``[cam]`` of a design file."""
+
+    control: str = Field(
+        "linuxcnc", min_length=1, max_length=40, description="Control that reads the program."
+    )
+    work_offset: WorkOffset = Field(
+        "G54", description="Work offset: G54 to G59; G59.3, G54.1 P48 or G154 P99 where the control has it."
+    )
+    origin: Literal["axis", "corner", "centre"] = Field(
+        "axis", description="X and Y zero: the part's axis, the stock's lower left corner, or its centre."
+    )
+    tools: tuple[str, ...] = Field(
+        (), description="Names of the cutters to use; empty: chosen from the library."
+    )
+    operations: tuple[str, ...] = Field(
+        (), description="Names of operations that are asked before the built-in ones."
+    )
+    tool_library: str = Field("", max_length=200, description="A tool library beside the design file.")
+    cutting: dict[str, CuttingChange] = Field(
+        default_factory=dict, description="Tool name to cutting data, over those of the library."
+    )
+    machine: Machine = Field(Machine(), description="The mill.")
+    post: Posting = Field(Posting(), description="How the program is written.")
+    second_side: SecondSide = Field(SecondSide(), description="The second side.")
+    measured: Measured = Field(Measured(), description="Offsets as measured.")
+    stock: Stock = Field(Stock(), description="The plate.")
+    hold: Hold = Field(Hold(), description="How the part is held.")
+    nest: Nesting | None = Field(None, description="A table [cam.nest] puts several parts on one plate.")
+    climb: bool = Field(True, description="Climb milling; false cuts conventionally.")
+    coolant: Literal["flood", "mist", "off"] = Field("flood", description="Coolant while cutting.")
+    clearance: Millimetres = Field(
+        5.0, ge=LEAST_CLEARANCE, le=200, description="Height of rapids over stock and clamp."
+    )
+    breakthrough: Millimetres = Field(0.3, ge=0, le=5, description="How far through cuts go below the part.")
+    stock_to_leave: Millimetres = Field(0.2, ge=0, le=5, description="Left on walls by roughing.")
+    floor_to_leave: Millimetres = Field(
+        0.2, ge=0, le=5, description="Left on floors of recesses by roughing; at most half of the depth."
+    )
+    path: PathSettings = Field(PathSettings(), description="Accuracy of walls, and lines and arcs.")
+    spring_passes: int = Field(1, ge=0, le=5, description="Repeats of the last finishing pass.")
+    finish_step: Ratio = Field(
+        2.0,
+        gt=0,
+        le=10,
+        description="Deepest finishing pass in cutter diameters; less where much is left for a fine mill.",
+    )
+    compensation: Compensation = Field(
+        "computer",
+        description="Where finishing allows for the cutter's radius: in the path, at the control (G41, G42 "
+        "with the radius in D), or in the path with its wear at the control.",
+    )
+    wear_limit: Millimetres = Field(
+        0.1,
+        ge=0.01,
+        le=1,
+        description="By so much D may differ from the planned one, up or down, as a radius.",
+    )
+    corner_mill: Millimetres = Field(
+        2.0, ge=0.1, le=20, description="No smaller end mill is chosen for the sake of sharp inside corners."
+    )
+    chip_thinning: bool = Field(
+        True, description="Raise the feed where a small engagement makes chips thinner than planned."
+    )
+    clearing: Literal["contour", "adaptive"] = Field(
+        "contour",
+        description="How recesses and openings are roughed: along their walls, or with bounded engagement.",
+    )
+    engagement: Degrees = Field(
+        60.0, ge=30, le=120, description="Greatest engagement of a cutter in adaptive clearing."
+    )
+    adaptive_depth: Ratio = Field(
+        1.5, gt=0, le=5, description="Depth of an adaptive pass in cutter diameters."
+    )
+    deburr: Millimetres = Field(
+        0.0, ge=0, le=5, description="Width of a chamfer on all edges of the top face; 0 for none."
+    )
+    mark: str = Field(
+        "",
+        max_length=60,
+        description="Text engraved where the top face has most room; {part} stands for the part's name.",
+    )
+    mark_height: Millimetres = Field(4.0, ge=LEAST_HEIGHT, le=100, description="Height of its capitals.")
+    mark_depth: Millimetres = Field(0.2, gt=0, le=2, description="Depth of its lines.")
+    mark_line: Millimetres = Field(
+        0.6, ge=0.1, le=5, description="Greatest width of its lines; at least half of it is cut."
+    )
+    ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
+
+
+class Hole(Parameters):
+    """A table ``[cam.part.NAME.holes.HOLE]``: what becomes of a round hole."""
+
+    fit: HoleClass | None = Field(None, description="ISO 286 class to whose middle the hole is made.")
+    thread: str | None = Field(
+        None,
+        max_length=20,
+        description="Metric thread, such as M6 or M6x0.75; the hole gets its core diameter.",
+    )
+    depth: Millimetres | None = Field(
+        None, gt=0, le=500, description="Depth of the thread; by default all of the hole."
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.fit is None) == (self.thread is None):
+            raise ValueError("give it a fit or a thread, one of the two")
+        if self.depth is not None and self.thread is None:
+            raise ValueError("depth is that of a thread; a fit goes all through the hole, so leave depth out")
+        return self
+
+
+class PartSettings(CamSettings):
+    """A table ``[cam.part.NAME]``, laid over ``[cam]``."""
+
+    holes: dict[str, Hole] = Field(
+        default_factory=dict, description="Name of a round hole to its fit or thread."
+    )

@@ -1,0 +1,120 @@
+"""Cutters, and how they cut a material."""
+
+from enum import StrEnum
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mechwright.contracts.parameters import Parameters
+from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
+from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+
+
+class ToolKind(StrEnum):
+    """Kinds of cutter that the program can use."""
+
+    END_MILL = "end-mill"
+    DRILL = "drill"
+    SPOT_DRILL = "spot-drill"
+    BULL_NOSE = "bull-nose"
+    BALL = "ball"
+    CHAMFER = "chamfer-mill"
+    THREAD_MILL = "thread-mill"
+
+
+MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
+"""Cutters that clear and finish with end and side."""
+
+
+class CuttingData(Parameters):
+    """How a tool cuts one material."""
+
+    cutting_speed: MetresPerMin = Field(gt=0, le=2000, description="Speed of the cutting edge.")
+    chip_load: Millimetres = Field(gt=0, le=2, description="Feed per tooth; per lip for a drill.")
+    step_down: Ratio = Field(
+        0.5, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
+    )
+    step_over: Ratio = Field(0.4, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+
+
+class CuttingChange(Parameters):
+    """What a design says of a tool's cutting data; what it leaves out stays as the library has it."""
+
+    cutting_speed: MetresPerMin | None = Field(None, gt=0, le=2000, description="Speed of the cutting edge.")
+    chip_load: Millimetres | None = Field(
+        None, gt=0, le=2, description="Feed per tooth; per lip for a drill."
+    )
+    step_down: Ratio | None = Field(
+        None, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
+    )
+    step_over: Ratio | None = Field(None, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+
+
+class Tool(Parameters):
+    """A cutter in its holder."""
+
+    name: str = Field(min_length=1, max_length=40, pattern=r"^[a-z0-9][a-z0-9_.-]*$", description="Its name.")
+    number: int = Field(ge=1, le=9999, description="T number; the length offset H is the same.")
+    kind: ToolKind = Field(description="What it is.")
+    diameter: Millimetres = Field(gt=0, le=100, description="Cutting diameter.")
+    flutes: int = Field(2, ge=1, le=12, description="Number of cutting edges.")
+    flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
+    centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
+    point_angle: Degrees = Field(
+        118.0, gt=30, le=180, description="Full angle of a drill's point, or of a chamfer mill."
+    )
+    corner_radius: Millimetres = Field(0.0, ge=0, le=50, description="Radius of a bull-nose mill's corner.")
+    tip_diameter: Millimetres = Field(0.0, ge=0, le=50, description="Flat at the tip of a chamfer mill.")
+    shank_diameter: Millimetres | None = Field(
+        None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
+    )
+    stick_out: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=400,
+        description="Length out of the holder, if it is set; the setup sheet says the least.",
+    )
+    holder_diameter: Millimetres = Field(
+        40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
+    )
+    life: Annotated[Ratio, Field(gt=0, le=10000)] | None = Field(
+        None, description="Minutes in cut after which an edge is worn."
+    )
+    substrate: Literal["carbide", "hss"] = Field("carbide", description="What it is made of.")
+    coating: str = Field("", max_length=20, description="Its coating, as the setup sheet names it.")
+    length: Millimetres | None = Field(
+        None, ge=-1000, le=1000, description="Its length offset H as measured at the machine."
+    )
+    diameter_offset: int | None = Field(
+        None, ge=1, le=9999, description="D number for cutter compensation; by default that of the tool."
+    )
+    cutting: dict[str, CuttingData] = Field(
+        default_factory=dict, description="Material name to cutting data."
+    )
+
+    @model_validator(mode="after")
+    def _shape(self) -> Self:
+        if self.corner_radius > self.diameter / 2:
+            raise ValueError("corner_radius must be at most half of the diameter")
+        if self.tip_diameter >= self.diameter:
+            raise ValueError("tip_diameter must be below the diameter")
+        if (self.kind is ToolKind.BULL_NOSE) != (self.corner_radius > 0):
+            raise ValueError("a bull-nose mill has a corner_radius, and no other tool has one")
+        if self.stick_out is not None and self.stick_out < self.flute_length:
+            raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
+        return self
+
+    @property
+    def radius(self) -> float:
+        """Half the diameter, mm."""
+        return self.diameter / 2
+
+    @property
+    def d_number(self) -> int:
+        """D number of its cutter compensation."""
+        return self.number if self.diameter_offset is None else self.diameter_offset
+
+    @property
+    def nose(self) -> float:
+        """Radius of the rounded corner between end and side, mm: 0 for a flat end, the radius for a ball."""
+        return self.radius if self.kind is ToolKind.BALL else self.corner_radius

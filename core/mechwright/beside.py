@@ -1,0 +1,116 @@
+"""Work in a second interpreter, for what needs libraries that take as long to import as all other work.
+
+The second interpreter is faster, never different: what goes wrong there is done once more in this one, which
+also tells the error. A second interpreter and no thread, because an import holds the interpreter's lock; and
+started afresh, because a fork of a process with threads may hang.
+"""
+
+import contextlib
+import importlib
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from typing import IO, TypeVar, cast
+
+R = TypeVar("R")
+
+_SERVE = "from mechwright.beside import serve; serve()"
+
+
+class Beside:
+    """A second interpreter that imports some modules, and then works on one call.
+
+    Parameters
+    ----------
+    modules
+        Names; one that cannot be imported does no harm before the call needs it.
+    """
+
+    def __init__(self, modules: Sequence[str]) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._call: tuple[Callable[..., object], tuple[object, ...]] | None = None
+        if sys.executable:
+            try:
+                # -P: a module in the current folder must not stand in for one of ours.
+                self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and our own words
+                    [sys.executable, "-P", "-c", _SERVE, *modules],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL,
+                )
+            except OSError:
+                return
+
+    def ask(self, function: Callable[..., object], *arguments: object) -> None:
+        """Begin the call of a function of a module, without side effects; arguments are copied by pickle."""
+        self._call = function, arguments
+        if self._process is None or self._process.stdin is None:
+            return
+        try:
+            request = pickle.dumps(self._call)
+        except Exception:  # noqa: BLE001,RUF100 - what cannot be copied says so in many ways
+            self.close()
+            return
+        # A pipe holds some ten kB, and the other end reads it when its imports are done.
+        threading.Thread(target=_send, args=(self._process.stdin, request), daemon=True).start()
+
+    def result(self, kind: type[R]) -> R:
+        """What the function gives, of the type ``kind``; raises what it raises."""
+        assert self._call is not None  # noqa: S101 - asked before
+        if self._process is not None and self._process.stdout is not None:
+            try:
+                answer = pickle.load(self._process.stdout)  # noqa: S301 - from a process of our own
+            except Exception:  # noqa: BLE001,RUF100 - a process that broke down may leave anything
+                answer = None
+            self.close()
+            if isinstance(answer, kind):
+                return answer
+        function, arguments = self._call
+        return cast(R, function(*arguments))
+
+    def close(self) -> None:
+        """End the second interpreter, whatever it is at."""
+        if self._process is None:
+            return
+        self._process.kill()
+        for stream in (self._process.stdin, self._process.stdout):
+            if stream is not None:
+                with contextlib.suppress(OSError):
+                    stream.close()
+        self._process.wait()
+        self._process = None
+
+    def __enter__(self) -> "Beside":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def _send(pipe: IO[bytes], request: bytes) -> None:
+    """Write a request; one that cannot be sent is never answered, and then done here."""
+    with contextlib.suppress(OSError, ValueError):  # the other end is gone, or the pipe closed meanwhile
+        pipe.write(request)
+        pipe.flush()
+
+
+def serve() -> None:
+    """The second interpreter: read a call from standard input, write what it gives to standard output."""
+    answer = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # libraries that print would spoil the answer
+    for module in sys.argv[1:]:
+        with contextlib.suppress(ImportError):
+            importlib.import_module(module)
+    function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from the process that started this one
+    threading.Thread(target=_end_with_the_caller, daemon=True).start()
+    pickle.dump(function(*arguments), answer)
+    answer.close()
+    os._exit(0)  # nothing is left to tidy up, and the libraries take a while for it
+
+
+def _end_with_the_caller() -> None:
+    sys.stdin.buffer.read()
+    os._exit(1)

@@ -1,0 +1,7 @@
+"""Building: what is made of a design, each thing once, and the contracts of what judges and shows it."""
+
+from mechwright.build.build import Build, Wanted
+from mechwright.build.inspection import Inspection
+from mechwright.build.page import Page
+
+__all__ = ["Build", "Inspection", "Page", "Wanted"]

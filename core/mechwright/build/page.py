@@ -1,0 +1,50 @@
+"""The contract of a page: files that are made of a build."""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import ClassVar
+
+from mechwright.build.build import Build
+from mechwright.contracts.plugin import Plugin
+
+
+class Page(Plugin):
+    r"""Files of one kind, such as a table of the motion or the setup sheets.
+
+    The same build gives the same bytes. Example of a whole page::
+
+        class Masses(Page):
+            name = "masses"
+            commands = frozenset({"model", "build"})
+
+            def files(self, build):
+                lines = [f"{part.name},{part.thickness}" for part in build.parts]
+                return {"masses.csv": "\\n".join(lines) + "\\n"}
+    """
+
+    kind = "page"
+    plural = "pages"
+    commands: ClassVar[frozenset[str]]
+    """Names of the commands that write it."""
+    doing: ClassVar[str] = ""
+    """What is made, for a progress bar; pages of the same words are one step of it."""
+
+    def warm(self, build: Build) -> None:
+        """Start what takes long before the design is even read; by default nothing."""
+
+    def begin(self, build: Build) -> None:
+        """Start work that can go on beside other work, as the design is found sound; by default nothing."""
+
+    def late(self, build: Build) -> bool:  # noqa: ARG002 - for those whose work goes on beside
+        """Whether its files are best asked for last, because work for them goes on beside other work."""
+        return False
+
+    @abstractmethod
+    def files(self, build: Build) -> Mapping[str, str | bytes]:
+        """File name to content.
+
+        Raises
+        ------
+        MechwrightError
+            It cannot be made; nothing of the whole run is written then.
+        """

@@ -1,0 +1,146 @@
+"""The commands of the core. Each imports what it needs when it runs, so that ``--help`` stays fast."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mechwright.cli.command import (
+    Also,
+    AsJson,
+    At,
+    Command,
+    Curves,
+    DesignFile,
+    OutputFolder,
+    Samples,
+    names,
+)
+from mechwright.contracts.plugin import Plugin
+from mechwright.plugins.hookspecs import hookimpl
+
+SAMPLES = 721
+"""Default number of samples: every half degree of one turn, both ends included."""
+
+
+class Families(Command):
+    """``mechwright families``."""
+
+    name = "families"
+    order = 10
+
+    def run(self, as_json: AsJson = False) -> None:
+        """List what is installed, and plugins that are broken."""
+        from mechwright.cli import listing
+
+        listing.families(as_json)
+
+
+class New(Command):
+    """``mechwright new``."""
+
+    name = "new"
+    order = 20
+
+    def run(
+        self,
+        family: Annotated[str, typer.Argument(help="A family's name; see `families`.", show_default=False)],
+        output: Annotated[
+            Path | None,
+            typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
+        ] = None,
+        requirement: Annotated[
+            str, typer.Option(metavar="KIND", help="A requirement file instead, for `synthesize`.")
+        ] = "",
+        force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
+    ) -> None:
+        """Write a commented design file that builds as it is."""
+        from mechwright.cli import listing
+
+        listing.new(family, requirement, output, force)
+
+
+class Check(Command):
+    """``mechwright check``."""
+
+    name = "check"
+    order = 30
+
+    def run(self, design: DesignFile, as_json: AsJson = False) -> None:
+        """Say what an engineer would object to.
+
+        The exit code is 1 if something forbids building.
+        """
+        from mechwright.cli import check
+
+        check.check(design, as_json)
+
+
+class Solve(Command):
+    """``mechwright solve``."""
+
+    name = "solve"
+    order = 40
+
+    def run(self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) -> None:
+        """Write the motion: tables, and a page that moves.
+
+        They are motion.csv, summary.json and motion.html.
+        """
+        from mechwright.build import Wanted
+        from mechwright.cli.perform import perform
+        from mechwright.contracts.finding import Stage
+
+        perform(design, output, Wanted("solve", samples), Stage.MOTION)
+
+
+class Build(Command):
+    """``mechwright build``."""
+
+    name = "build"
+    order = 70
+
+    def run(
+        self,
+        design: DesignFile,
+        output: OutputFolder,
+        samples: Samples = SAMPLES,
+        also: Also = "",
+        dxf_curves: Curves = "spline",
+        at: At = "",
+    ) -> None:
+        """Write everything: motion, solids, drawings, programs."""
+        from mechwright.build import Wanted
+        from mechwright.cli.perform import perform
+        from mechwright.contracts.finding import Stage
+
+        perform(design, output, Wanted("build", samples, at, names(also), dxf_curves), Stage.MACHINING)
+
+
+class Synthesize(Command):
+    """``mechwright synthesize``."""
+
+    name = "synthesize"
+    order = 90
+
+    def run(
+        self,
+        requirement: Annotated[
+            Path,
+            typer.Argument(metavar="REQUIREMENT", help="A requirement file (TOML).", show_default=False),
+        ],
+        output: OutputFolder,
+    ) -> None:
+        """Find designs that meet a requirement.
+
+        One design file each, best first. The exit code is 1 if none meets it.
+        """
+        from mechwright.cli import synthesis
+
+        synthesis.synthesize(requirement, output)
+
+
+@hookimpl
+def mechwright_register() -> list[type[Plugin]]:
+    """The commands that need no other room."""
+    return [Families, New, Check, Solve, Build, Synthesize]

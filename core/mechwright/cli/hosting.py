@@ -1,0 +1,19 @@
+"""The host as the command line opens it."""
+
+import typer
+
+from mechwright.plugins.host import Host, host
+
+
+def open_host(*, warn: bool = True) -> Host:
+    """The host of this process; what is broken in it is named on standard error."""
+    found = host()
+    if warn:
+        warn_broken(found)
+    return found
+
+
+def warn_broken(found: Host) -> None:
+    """Name the plugins that could not be used, on standard error."""
+    for broken in found.broken:
+        typer.echo(f"mechwright: warning: {broken}", err=True)

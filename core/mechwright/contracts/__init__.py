@@ -1,0 +1,1 @@
+"""The contracts: what a plugin gives and what it is given."""

@@ -1,0 +1,41 @@
+"""The contract of an exporter: what writes parts in one file format."""
+
+from abc import abstractmethod
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright.contracts.plugin import Plugin
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+
+
+class Exporter(Plugin):
+    """Writes parts in one file format. The same parts give the same bytes."""
+
+    kind = "exporter"
+    plural = "formats"
+    texts = ("suffix",)
+
+    suffix: ClassVar[str]
+    """Ending of its files."""
+    modules: ClassVar[tuple[str, ...]] = ()
+    """Names of modules that it imports when it writes and that take long to import: where they are not
+    imported yet, ``build`` may let it write in a second process, beside other work. A copy made by pickle
+    has to write the same bytes."""
+
+    @abstractmethod
+    def part(self, part: "Part") -> bytes:
+        """One part by itself, in its own coordinates."""
+
+    def assembly(
+        self,
+        name: str,  # noqa: ARG002 - used by formats that hold assemblies
+        parts: "Sequence[Part]",  # noqa: ARG002
+        motion: "Motion",  # noqa: ARG002
+        sample: int = 0,  # noqa: ARG002
+    ) -> bytes | None:
+        """All instances in their poses at one sample of the motion; None if the format holds single parts."""
+        return None

@@ -1,0 +1,116 @@
+"""The contract of a mechanism family."""
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
+
+from mechwright.contracts.finding import Finding
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.plugin import Plugin
+
+if TYPE_CHECKING:
+    import shapely
+
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.part import Part
+    from mechwright.contracts.synthesis import Progress, Synthesis
+
+P = TypeVar("P", bound=Parameters)
+
+
+class Family(Plugin, Generic[P]):
+    """A mechanism family: parameters in, findings, motion and parts out.
+
+    A family is stateless. Its methods take validated parameters and never touch files. Heavy imports
+    (scipy, shapely, cadquery) belong at the top of the modules that need them, and those modules are
+    imported inside the method that uses them, so that listing families stays fast.
+
+    Every parameter that ``Params`` accepts changes some result.
+    """
+
+    kind = "family"
+    plural = "families"
+    texts = ("title", "summary")
+
+    title: ClassVar[str]
+    """A few words, as a heading."""
+    summary: ClassVar[str]
+    """One sentence."""
+    Params: type[P]
+    """The table ``[parameters]``."""
+    requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
+    """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
+
+    @classmethod
+    def fault(cls) -> str:
+        """Whether ``Params`` is a table."""
+        params = getattr(cls, "Params", None)
+        if isinstance(params, type) and issubclass(params, Parameters):
+            return ""
+        return "Params is no subclass of mechwright.Parameters"
+
+    @abstractmethod
+    def check(self, params: P) -> Sequence[Finding]:
+        """Everything that an engineer would object to, and the figures worth knowing."""
+
+    @abstractmethod
+    def solve(self, params: P, samples: int) -> "Motion":
+        """The motion over one period of the input, ``samples`` of them, both ends included."""
+
+    @abstractmethod
+    def parts(self, params: P) -> "Sequence[Part]":
+        """The parts to make.
+
+        Raises
+        ------
+        MechwrightError
+            The parameters describe no part; ``check`` says why.
+        """
+
+    def check_cut(
+        self,
+        params: P,  # noqa: ARG002 - used by families whose parts mate
+        cut: "Mapping[str, shapely.Polygon]",  # noqa: ARG002
+    ) -> Sequence[Finding]:
+        """Judge the parts as the chosen cutters leave them.
+
+        Parameters
+        ----------
+        params
+            The design.
+        cut
+            Part name to its outline, mm, with the corners that no chosen cutter reaches still filled.
+
+        Returns
+        -------
+        findings
+            An error where the remainder spoils the function (gears that no longer mesh). The default
+            finds nothing: the remainder is reported by the proof all the same.
+        """
+        return ()
+
+    def synthesise(
+        self,
+        kind: str,
+        requirement: Parameters,
+        progress: "Progress",
+    ) -> "Synthesis[P]":
+        """Find designs that meet a requirement.
+
+        Parameters
+        ----------
+        kind
+            A key of ``requirements``.
+        requirement
+            An instance of its model. The same requirement gives the same designs: random starts are
+            drawn from a seed that is one of its fields.
+        progress
+            To be called now and then.
+
+        Returns
+        -------
+        synthesis
+            Designs, best first; none, and an error finding that says what would be feasible, if the
+            requirement cannot be met.
+        """
+        raise NotImplementedError(f"family {self.name} has no synthesis of kind {kind!r}")

@@ -1,0 +1,97 @@
+"""Workpiece materials: the one place that knows their densities and elastic constants, and how they are cut.
+
+The cutting figures are ranges for starting values, rounded from what workshop handbooks and makers of solid
+carbide cutters commonly print for each group (mean of several, no single maker): unalloyed steel of about
+600 N/mm², wrought aluminium, free-cutting brass, acetal copolymer. Speeds of high-speed steel are a third of
+those of carbide. The specific cutting force is Kienzle's, k_c = k_c1.1 h^-m with h in mm: for metals of the
+usual tables, for acetal a rough estimate. What a cutter's maker says of it counts more than any of this.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
+
+from mechwright.errors import DesignError
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """A workpiece material.
+
+    Parameters
+    ----------
+    name
+        As design files say it.
+    density
+        g/cm³.
+    modulus
+        Young's modulus, MPa.
+    poisson
+        Poisson's ratio.
+    strength
+        Yield or proof strength of the usual grade, MPa.
+    speed
+        Lowest and highest usual cutting speed of solid carbide, m/min.
+    chip_share
+        Lowest and highest usual chip load of an end mill, in its diameters.
+    force
+        Specific cutting force of a chip 1 mm thick, N/mm² (k_c1.1).
+    force_exponent
+        By which the specific force grows as the chip gets thinner (m).
+    long_chips
+        Whether chips of a drill do not break by themselves.
+    """
+
+    name: str
+    density: float
+    modulus: float
+    poisson: float
+    strength: float
+    speed: tuple[float, float]
+    chip_share: tuple[float, float]
+    force: float
+    force_exponent: float
+    long_chips: bool
+
+    @property
+    def unbroken(self) -> float:
+        """How deep a drill goes at once, in diameters: from there on long chips have to be broken."""
+        return UNBROKEN if self.long_chips else JAMS
+
+
+UNBROKEN = 3.0
+"""From this depth in diameters the chip of a drill has to be broken, where the material's does not break."""
+JAMS = 5.0
+"""From this depth in diameters chips of any kind jam, and the drill comes out of the hole after each peck."""
+
+HSS_SPEED = 1 / 3
+"""Cutting speed of high-speed steel in that of carbide: what both may be heated to."""
+
+MATERIALS = {
+    material.name: material
+    for material in (
+        Material(
+            "aluminium", 2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, long_chips=True
+        ),
+        Material("brass", 8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, long_chips=False),
+        Material("steel", 7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1800, 0.20, long_chips=True),
+        Material("pom", 1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 120, 0.20, long_chips=True),
+    )
+}
+
+
+def material(name: str) -> Material:
+    """Look a material up; raises DesignError that lists the known ones."""
+    try:
+        return MATERIALS[name]
+    except KeyError:
+        raise DesignError(f"material {name!r} is not known; one of: {', '.join(sorted(MATERIALS))}") from None
+
+
+MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS)}),
+]
+"""A field of a design's table that names a material."""

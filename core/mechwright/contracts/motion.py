@@ -1,0 +1,128 @@
+"""How a mechanism moves: named channels over the input angle, and the pose of every body."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.errors import KinematicsError
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A sampled quantity: ``values`` (n,) float in ``unit`` (SI with millimetres: mm, rad, rad/s, mm/s^2)."""
+
+    values: Array
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A single figure and its unit."""
+
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """Where a body is at each sample: a body point p stands at ``rotation @ p + position``.
+
+    Parameters
+    ----------
+    position
+        (n, 3) float, mm.
+    rotation
+        (n, 3, 3) float, proper orthogonal.
+    """
+
+    position: Array
+    rotation: Array
+
+    @classmethod
+    def planar(cls, x: Array | float, y: Array | float, angle: Array, z: float = 0.0) -> "Poses":
+        """Poses of a body that turns about z; ``angle`` (n,) rad, ``x`` and ``y`` (n,) or a constant, mm."""
+        angle = np.asarray(angle, dtype=float)
+        c, s = np.cos(angle), np.sin(angle)
+        position = np.empty((angle.size, 3))
+        position[:, 0], position[:, 1], position[:, 2] = x, y, z
+        rotation = np.zeros((angle.size, 3, 3))
+        rotation[:, 0, 0], rotation[:, 0, 1] = c, -s
+        rotation[:, 1, 0], rotation[:, 1, 1] = s, c
+        rotation[:, 2, 2] = 1.0
+        return cls(position, rotation)
+
+    def transform(self, points: Array) -> Array:
+        """Move body points (k, 3), mm, to every pose: (n, k, 3), mm."""
+        moved: Array = np.einsum("nij,kj->nki", self.rotation, points) + self.position[:, None, :]
+        return moved
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """A point whose path is worth seeing: a ``body``, and a place in that body's coordinates, mm."""
+
+    body: str
+    point: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The motion of a mechanism.
+
+    Parameters
+    ----------
+    input_name
+        Name of the channel that drives (``"theta2"``); it is one of ``channels``.
+    channels
+        Name to channel; all of one length n, in the order they are printed.
+    poses
+        Body name to its poses, n samples each, for every body that a part is an instance of.
+    scalars
+        Figures of the whole motion (maxima, ratios), name to value and unit.
+    traces
+        Points whose paths are drawn, by name: the coupler point of a linkage.
+
+    Raises
+    ------
+    KinematicsError
+        The input is no channel, a channel or body has another number of samples than the input, or a trace
+        is that of no body.
+    """
+
+    input_name: str
+    channels: Mapping[str, Channel]
+    poses: Mapping[str, Poses] = field(default_factory=dict)
+    scalars: Mapping[str, Scalar] = field(default_factory=dict)
+    traces: Mapping[str, Trace] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.input_name not in self.channels:
+            raise KinematicsError(f"the input {self.input_name!r} of the motion is none of its channels")
+        n = self.samples
+        shapes: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
+            f"channel {name}": (channel.values.shape, (n,)) for name, channel in self.channels.items()
+        }
+        for body, poses in self.poses.items():
+            shapes[f"positions of body {body}"] = (poses.position.shape, (n, 3))
+            shapes[f"rotations of body {body}"] = (poses.rotation.shape, (n, 3, 3))
+        for what, (shape, wanted) in shapes.items():
+            if shape != wanted:
+                raise KinematicsError(f"{what}: shape {shape}; the input has {n} samples, so {wanted}")
+        for name, trace in self.traces.items():
+            if trace.body not in self.poses:
+                raise KinematicsError(
+                    f"the trace {name!r} is a point of body {trace.body!r}, which has no poses"
+                )
+
+    def path(self, name: str) -> Array:
+        """Path (n, 3), mm, of the trace ``name``."""
+        trace = self.traces[name]
+        path: Array = self.poses[trace.body].transform(np.array([trace.point]))[:, 0]
+        return path
+
+    @property
+    def samples(self) -> int:
+        """Number of samples n."""
+        return int(self.channels[self.input_name].values.size)

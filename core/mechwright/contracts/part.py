@@ -1,0 +1,237 @@
+"""Parts, and the features that machining sees on them.
+
+Heights are measured downwards from the part's top face, so a feature that starts at the top and goes through
+a 10 mm plate has ``top = 0`` and ``depth = 10``. The solid stands on z = 0 and reaches up to the thickness.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from mechwright.contracts.details import Detail
+from mechwright.contracts.fits import Fit
+from mechwright.errors import DesignError, GeometryError
+from mechwright.geometry import Arc, Loop, Outline
+from mechwright.geometry.segments import Point, Segment
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+Colour = tuple[float, float, float]
+_NAME = re.compile(r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?")
+
+
+def check_name(name: str, what: str = "name") -> str:
+    """Give ``name`` back if it can be a file name anywhere, else raise DesignError.
+
+    >>> check_name("gear-2")
+    'gear-2'
+    """
+    if not _NAME.fullmatch(name):
+        raise DesignError(
+            f"{what} {name!r} cannot be a file name; use up to 64 of a-z, 0-9, - and _, "
+            "a letter or digit at both ends"
+        )
+    return name
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A wall through or into the plate, along a loop.
+
+    ``side`` says where the cutter runs. ``tab_sites`` are points on the loop where a holding tab does least
+    harm, mm, each with the longest tab that fits there; empty if any place will do.
+    """
+
+    name: str
+    loop: Loop
+    side: Literal["outside", "inside"]
+    top: float
+    depth: float
+    tab_sites: tuple[tuple[Point, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Bore:
+    """A round hole.
+
+    With a ``fit`` the diameter is the middle of its tolerance; drawing and program note its limits.
+    """
+
+    name: str
+    centre: Point
+    diameter: float
+    top: float
+    depth: float
+    fit: Fit | None = None
+
+
+@dataclass(frozen=True)
+class Pocket:
+    """A flat-bottomed recess inside ``boundary``, around ``islands``.
+
+    A boundary that reaches beyond the plate's outline, or along it, is open there: the cutter runs out over
+    the edge, and no wall stands. A groove across the rim is drawn a little longer than the plate. The recess
+    of one level may lie in that of another: ``top`` is then the other's ``depth``.
+
+    With a ``floor_radius``, mm, a fillet joins floor and walls: h above the floor the recess is narrower all
+    round by r - √(r² - (r - h)²). A ball or a bull nose of this radius makes it.
+    """
+
+    name: str
+    boundary: Loop
+    islands: tuple[Loop, ...]
+    top: float
+    depth: float
+    floor_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.floor_radius <= self.depth:
+            raise GeometryError(
+                f"pocket {self.name}: the floor_radius is {self.floor_radius:g} mm, not 0 to its depth of "
+                f"{self.depth:g} mm"
+            )
+
+    def inset(self, height: float) -> float:
+        """How much narrower the recess is on every side at a height above its floor, mm."""
+        short = max(self.floor_radius - max(height, 0.0), 0.0)
+        return self.floor_radius - math.sqrt(self.floor_radius**2 - short**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenProfile(Pocket):
+    """A recess along an open path: a groove ``"on"`` it, or a step on its ``"left"`` or ``"right"``.
+
+    What it takes follows from ``path`` and ``width``. A groove is the strip whose centre line is the path,
+    with half circles at its ends, as a cutter of that width leaves it. A step is the strip between the path,
+    where its wall stands, and the same moved sideways by the width; inside the plate it ends square.
+    As for every recess, the strip is open where it reaches beyond the plate's outline, so the path of a step
+    along an edge starts and ends outside.
+
+    Raises
+    ------
+    GeometryError
+        The path does not hang together, closes, or bends too sharply for the width.
+
+    Examples
+    --------
+    >>> from mechwright.geometry import Line
+    >>> path = (Line((0.0, 0.0), (20.0, 0.0)),)
+    >>> groove = OpenProfile("groove", 0.0, 2.0, path=path, side="on", width=4.0)
+    >>> round(groove.boundary.area, 3)
+    92.566
+    """
+
+    boundary: Loop = field(init=False)
+    islands: tuple[Loop, ...] = field(init=False, default=())
+    path: tuple[Segment, ...]
+    side: Literal["left", "right", "on"]
+    width: float
+
+    def __post_init__(self) -> None:
+        from mechwright.geometry.strip import strip
+
+        super().__post_init__()
+        half = self.width / 2
+        left, right = {"on": (half, half), "left": (self.width, 0.0), "right": (0.0, self.width)}[self.side]
+        try:
+            boundary = strip(self.path, left, right, "round" if self.side == "on" else "square")
+        except GeometryError as error:
+            raise GeometryError(f"{self.name}: {error}") from error
+        object.__setattr__(self, "boundary", boundary)
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "OpenProfile":
+        """The feature turned about the origin, rad, then shifted, mm."""
+        return replace(self, path=tuple(segment.moved(x, y, angle) for segment in self.path))
+
+
+Feature = Profile | Bore | Pocket
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One copy of a part.
+
+    It belongs to a ``body`` of the motion, its underside stands at the height ``z``, mm, and its ``colour``
+    is the part's unless it has one of its own.
+    """
+
+    body: str
+    z: float = 0.0
+    colour: Colour | None = None
+
+
+@dataclass(frozen=True)
+class Part:
+    """A thing to make.
+
+    Parameters
+    ----------
+    name
+        Also the stem of its files.
+    outline
+        The plate seen from above, origin on the part's own axis; None for a part built as a solid.
+    thickness
+        mm; 0 for a part built as a solid.
+    material
+        A name of the material table (``"aluminium"``, ``"steel"``, ``"brass"``, ``"pom"``).
+    instances
+        Where copies stand in the mechanism.
+    colour
+        Red, green, blue, each 0 to 1.
+    machined
+        Features in the order of the drawing; empty means: those of the outline.
+    build
+        Makes the solid of a part that is no plate.
+    details
+        Chamfers, threads and engravings of a plate's top face.
+    """
+
+    name: str
+    outline: Outline | None
+    thickness: float
+    material: str
+    instances: tuple[Instance, ...] = ()
+    colour: Colour = (0.7, 0.7, 0.72)
+    machined: tuple[Feature, ...] = ()
+    build: "Callable[[], cq.Solid] | None" = None
+    details: tuple[Detail, ...] = ()
+
+    def __post_init__(self) -> None:
+        check_name(self.name, "part name")
+        if (self.outline is None) == (self.build is None):
+            raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
+        if self.outline is not None and not self.thickness > 0:
+            raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
+
+    @property
+    def outlines(self) -> tuple[Outline, ...]:
+        """What is cut free of the plate: the outline; of several parts on one plate, one each."""
+        return () if self.outline is None else (self.outline,)
+
+    @property
+    def axes(self) -> tuple[Point, ...]:
+        """Where the axes of :attr:`outlines` stand, mm."""
+        return ((0.0, 0.0),)
+
+    def colour_of(self, instance: Instance) -> Colour:
+        """The colour that a copy of the part shows."""
+        return self.colour if instance.colour is None else instance.colour
+
+    @cached_property
+    def features(self) -> tuple[Feature, ...]:
+        """What machining has to cut: every loop once, openings first."""
+        if self.machined or self.outline is None:
+            return self.machined
+        features: list[Feature] = []
+        for number, loop in enumerate(self.outline.inner, start=1):
+            segment = loop.segments[0]
+            if loop.is_circle and isinstance(segment, Arc):
+                features.append(Bore(f"bore-{number}", segment.centre, 2 * segment.radius, 0, self.thickness))
+            else:
+                features.append(Profile(f"opening-{number}", loop, "inside", 0, self.thickness))
+        features.append(Profile("outside", self.outline.outer, "outside", 0, self.thickness))
+        return tuple(features)

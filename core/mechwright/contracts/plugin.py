@@ -1,0 +1,50 @@
+"""What every class that a plugin registers has in common, and how the host tells their kinds apart.
+
+Glossary
+--------
+contract
+    A class that derives from :class:`Plugin` itself: ``Family``, ``Exporter``, ``Control`` ... It says what
+    its subclasses give.
+kind
+    What people call the subclasses of one contract: a family, a control. The host files each class that is
+    registered under the contract it derives from, so a new kind of plugin changes nothing in the host.
+"""
+
+from abc import ABC
+from typing import ClassVar
+
+HOOK_API = 2
+"""Version of the contracts of this program; a class states the one that it was written for."""
+
+
+class Plugin(ABC):
+    """The base of all contracts.
+
+    A contract states ``kind``, ``plural`` and ``texts``; its subclasses state ``api`` (by inheritance) and
+    ``name``. A class is registered by the hook ``mechwright_register``; the host makes one instance of it
+    without arguments.
+    """
+
+    api: ClassVar[int] = HOOK_API
+    name: ClassVar[str]
+    """Lower-case name with hyphens, as design files and the command line say it."""
+
+    kind: ClassVar[str] = "plugin"
+    """What one of this contract is called, for messages."""
+    plural: ClassVar[str] = "plugins"
+    """What all of them are called, for listings."""
+    texts: ClassVar[tuple[str, ...]] = ()
+    """Names of further attributes that each class gives as text."""
+
+    @classmethod
+    def fault(cls) -> str:
+        """What else keeps a class from being used, in words that follow its name; nothing if it is sound."""
+        return ""
+
+
+def contract_of(cls: type[Plugin]) -> type[Plugin] | None:
+    """The contract that a class derives from; None for :class:`Plugin` and for a contract itself."""
+    for base in cls.__mro__[1:]:
+        if Plugin in base.__bases__:
+            return base
+    return None

@@ -1,0 +1,251 @@
+"""What stands of a plate at each height: the outline, less the recesses that reach that height.
+
+A recess that reaches beyond the outline is open there, and nothing of it stands in the opening. Solids, mass,
+pictures and interference ask here, so that a part is the same in all of them. Chamfers
+count in the volume; layers do not show them.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mechwright.contracts.details import Chamfer, band_of
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.geometry import circle
+from mechwright.tolerances import TOLERANCES
+
+if TYPE_CHECKING:
+    import shapely
+
+FINE = 1e-5
+"""Chord error of the polygons that a volume is made of, mm: a millionth of the volume of any part in use."""
+STEPS = 8
+"""Layers of a fillet: in between a wall of 3 mm fillet is 0.6 mm off at most, and never too small."""
+NODES = 16
+"""Places at which a fillet is measured for its volume: exact to far below FINE where its shape is regular."""
+ROUND = 64
+"""Chords per quarter circle around the ends of walls."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A layer of a part with one cross-section.
+
+    Parameters
+    ----------
+    top, bottom
+        Depths below the part's top face, mm, ``top`` the smaller.
+    shape
+        What stands there, part coordinates, mm; it may be in several pieces.
+    """
+
+    top: float
+    bottom: float
+    shape: "shapely.Polygon | shapely.MultiPolygon"
+
+
+def plan_view(
+    feature: Feature, tolerance: float = TOLERANCES.flatten
+) -> "shapely.Polygon | shapely.MultiPolygon":
+    """A feature seen from above: what it takes, or what an outside profile surrounds.
+
+    A recess comes as it is drawn, with all that reaches beyond the plate.
+    """
+    import shapely
+
+    match feature:
+        case Bore():
+            radius = feature.diameter / 2
+            return shapely.Polygon(circle(feature.centre, radius).flatten(tolerance)[:-1])
+        case Profile():
+            return shapely.Polygon(feature.loop.flatten(tolerance))
+        case Pocket():
+            islands = [shapely.Polygon(loop.flatten(tolerance)) for loop in feature.islands]
+            outside = shapely.Polygon(feature.boundary.flatten(tolerance))
+            # Overlays leave specks of lines beside what they are asked for.
+            view = shapely.get_parts(shapely.difference(outside, shapely.union_all(islands)))
+            pieces = [piece for piece in view if piece.geom_type == "Polygon"]
+            return pieces[0] if len(pieces) == 1 else shapely.MultiPolygon(pieces)
+
+
+def blind(part: Part) -> tuple[Feature, ...]:
+    """The features that do not go through the whole plate: the outline does not show them."""
+    through = part.thickness - TOLERANCES.closure
+    return tuple(f for f in part.features if f.top > TOLERANCES.closure or f.top + f.depth < through)
+
+
+def sections(part: Part, tolerance: float = TOLERANCES.flatten, steps: int = STEPS) -> tuple[Section, ...]:
+    """The layers of a plate part from its top face to its underside.
+
+    Parameters
+    ----------
+    part
+        A plate; a part without outline has no layers.
+    tolerance
+        Chord error of the polygons, mm.
+    steps
+        Layers of a floor's fillet, each as large as at its bottom; 0 leaves fillets out.
+
+    Examples
+    --------
+    A groove across a plate, open at both ends:
+
+    >>> from mechwright.geometry import Loop, Outline
+    >>> plate = Loop.polygon([(0, 0), (30, 0), (30, 20), (0, 20)])
+    >>> groove = Loop.polygon([(-5, 8), (35, 8), (35, 12), (-5, 12)])
+    >>> machined = (Pocket("groove", groove, (), 0, 2), Profile("outside", plate, "outside", 0, 5))
+    >>> part = Part("plate", Outline(plate), 5.0, "steel", machined=machined)
+    >>> [(layer.top, layer.bottom, layer.shape.area) for layer in sections(part)]
+    [(0.0, 2.0, 480.0), (2.0, 5.0, 600.0)]
+    """
+    import shapely
+
+    if part.outline is None:
+        return ()
+    round_floors = [f for f in blind(part) if isinstance(f, Pocket) and f.floor_radius > 0] if steps else []
+    plain = _layers(part, tolerance, [z for feature in round_floors for z in _heights(feature, steps)])
+    if not round_floors:
+        return plain
+    feet = [(feature, *_foot(part, feature, plain, tolerance)) for feature in round_floors]
+    layers = []
+    for layer in plain:
+        strips = [
+            shapely.intersection(inside, shapely.buffer(lines, feature.inset(height), quad_segs=ROUND))
+            for feature, inside, lines in feet
+            if 0 <= (height := feature.top + feature.depth - layer.bottom) < feature.floor_radius
+        ]
+        shape = shapely.union_all([layer.shape, *strips]) if strips else layer.shape
+        layers.append(Section(layer.top, layer.bottom, shape))
+    return tuple(layers)
+
+
+def _layers(part: Part, tolerance: float, extra: Sequence[float] = ()) -> tuple[Section, ...]:
+    """The layers without fillets; ``extra`` are more depths to divide at."""
+    assert part.outline is not None  # noqa: S101 - asked of plates only
+    return cut_layers(part.outline.polygon(tolerance), blind(part), part.thickness, tolerance, extra)
+
+
+def cut_layers(
+    whole: "shapely.Geometry",
+    features: Sequence[Feature],
+    depth: float,
+    tolerance: float = TOLERANCES.flatten,
+    extra: Sequence[float] = (),
+) -> tuple[Section, ...]:
+    """The layers of a plate of the plan view ``whole`` down to a depth, mm, less its features.
+
+    Fillets on floors are left out; ``extra`` are more depths to divide at.
+    """
+    import shapely
+
+    heights = {0.0, depth, *extra}
+    for feature in features:
+        heights |= {float(feature.top), float(min(feature.top + feature.depth, depth))}
+    views = [plan_view(feature, tolerance) for feature in features]
+    layers = []
+    for top, bottom in pairwise(sorted(h for h in heights if 0 <= h <= depth)):
+        if bottom - top <= TOLERANCES.closure:
+            continue
+        middle = (top + bottom) / 2
+        shape = whole
+        for feature, view in zip(features, views, strict=True):
+            if feature.top < middle < feature.top + feature.depth:
+                outside = isinstance(feature, Profile) and feature.side == "outside"
+                shape = shapely.intersection(shape, view) if outside else shapely.difference(shape, view)
+        layers.append(Section(top, bottom, shape))
+    return tuple(layers)
+
+
+def _heights(feature: Pocket, steps: int) -> list[float]:
+    """Depths at which the layers of a fillet begin, mm, at even angles."""
+    floor, radius = feature.top + feature.depth, feature.floor_radius
+    angles = (math.pi / 2 * step / steps for step in range(1, steps + 1))
+    return [floor - radius * (1 - math.cos(angle)) for angle in angles]
+
+
+def walls(part: Part, feature: Pocket, tolerance: float = TOLERANCES.flatten) -> "shapely.Geometry":
+    """The lines at which walls stand on the floor of a recess, part coordinates, mm."""
+    return _foot(part, feature, _layers(part, tolerance), tolerance)[1]
+
+
+def _foot(
+    part: Part, feature: Pocket, layers: Sequence[Section], tolerance: float
+) -> "tuple[shapely.Geometry, shapely.Geometry]":
+    """The floor of a recess, less what goes deeper, and the lines at which walls stand on it."""
+    import shapely
+
+    assert part.outline is not None  # noqa: S101 - asked of plates only
+    floor = feature.top + feature.depth
+    above = next(layer for layer in layers if abs(layer.bottom - floor) <= TOLERANCES.closure)
+    below = next((layer for layer in layers if abs(layer.top - floor) <= TOLERANCES.closure), above)
+    view = plan_view(feature, tolerance)
+    # A boundary that is the plate's own edge has no wall; both are chords of the same curve.
+    lines = shapely.intersection(shapely.boundary(view), shapely.buffer(above.shape, 2 * tolerance))
+    return shapely.intersection(view, below.shape), lines
+
+
+def volume(part: Part) -> float:
+    """Volume of a plate part, mm³, recesses and chamfers taken out; 0 for one built as a solid.
+
+    The plate itself is exact, what is taken out of it is right to ``FINE``.
+    """
+    if part.outline is None:
+        return 0.0
+    solid = part.outline.area * part.thickness
+    if not blind(part) and not part.details:
+        return solid
+    whole = part.outline.polygon(FINE).area
+    layers = _layers(part, FINE)
+    taken = sum((whole - layer.shape.area) * (layer.bottom - layer.top) for layer in layers)
+    solid += sum(_fillet_volume(part, f, layers) for f in blind(part)) - float(taken)
+    return solid - _chamfer_volume(part) if part.details else solid
+
+
+def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> float:
+    """Volume of a recess's fillet, mm³: Gauss' quadrature of its sections over the angle."""
+    import shapely
+
+    if not (isinstance(feature, Pocket) and feature.floor_radius > 0):
+        return 0.0
+    inside, lines = _foot(part, feature, layers, FINE)
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    angles, radius = (nodes + 1) * math.pi / 4, feature.floor_radius
+    areas = [
+        shapely.intersection(
+            inside, shapely.buffer(lines, feature.inset(radius * (1 - math.cos(angle))), quad_segs=ROUND)
+        ).area
+        for angle in angles.tolist()
+    ]
+    return float(math.pi / 4 * radius * np.sum(weights * np.sin(angles) * areas))
+
+
+DEPTHS = 2
+"""Depths at which chamfers are looked at, between those where one begins or ends: two (of Gauss) are exact,
+for the area of a band along an edge is a polynomial of degree 2."""
+BAND = 10 * FINE
+"""Chord error of the polygons along which details are cut, mm: both sides of a band have it."""
+
+
+def _chamfer_volume(part: Part) -> float:
+    """What chamfers take of the layers of a part, mm³."""
+    import shapely
+
+    layers = sections(part, BAND)
+    nodes, weights = np.polynomial.legendre.leggauss(DEPTHS)
+    chamfers = [detail for detail in part.details if isinstance(detail, Chamfer)]
+    ends = {chamfer.width for chamfer in chamfers}
+    taken = 0.0
+    for layer in layers:
+        inner = {depth for depth in ends if layer.top < depth < layer.bottom}
+        for top, bottom in pairwise(sorted({layer.top, layer.bottom} | inner)):
+            for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
+                depth = top + (bottom - top) * (1 + node) / 2
+                cut = [band_of(one, depth, BAND) for one in chamfers if depth < one.width]
+                if cut:
+                    area = shapely.intersection(layer.shape, shapely.union_all(cut)).area
+                    taken += float(area) * weight * (bottom - top) / 2
+    return taken

@@ -1,0 +1,140 @@
+"""Design files: TOML text in, a checked design out.
+
+A design file is data. It names a family, gives its parameters and says how the parts are made::
+
+    format = 1
+    family = "elliptic-gears"
+    name = "elliptic-pair"
+
+    [parameters]
+    eccentricity = 0.4
+
+    [cam]
+    work_offset = "G54"
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part, check_name
+from mechwright.contracts.table import Table
+from mechwright.designs.files import read_toml
+from mechwright.designs.tables import read_table, unknown
+from mechwright.errors import DesignError, PluginError
+from mechwright.plugins.host import Host
+
+V = TypeVar("V")
+
+FORMAT = 1
+"""Version of the design file's own layout."""
+
+HEAD = ("format", "family", "name")
+"""Keys of every file; what else it may hold are tables."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design file that has been read and found well-formed.
+
+    Parameters
+    ----------
+    name
+        Of the design; also a file name.
+    family
+        The family that it names.
+    params
+        The table ``[parameters]``.
+    path
+        The file.
+    digest
+        SHA-256 of its bytes.
+    tables
+        Name to value of every table that is registered; see :meth:`table`.
+    readers
+        Those tables.
+    """
+
+    name: str
+    family: Family[Any]
+    params: Parameters
+    path: Path
+    digest: str
+    tables: Mapping[str, Any] = field(default_factory=dict)
+    readers: tuple[Table[Any], ...] = ()
+
+    def table(self, contract: type[Table[V]]) -> V:
+        """The value of a registered table, by the class that reads it."""
+        value: V = self.tables[contract.name]
+        return value
+
+    def parts(self) -> Sequence[Part]:
+        """The parts as the family gives them, with what the tables ask of them.
+
+        Raises
+        ------
+        GeometryError
+            A part cannot be made.
+        DesignError
+            What a table asks cannot be done.
+        """
+        parts: Sequence[Part] = self.family.parts(self.params)
+        for reader in self.readers:
+            parts = reader.parts(self.tables[reader.name], parts, self.path)
+        return parts
+
+
+def load(path: Path, host: Host) -> Design:
+    """Read a design file.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be read.
+    DesignError
+        Something in it is wrong: one line for each wrong thing.
+    PluginError
+        Its family is not installed.
+    """
+    content, digest = read_toml(path)
+    tables = host.of(Table)
+    name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
+    params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
+    readers = tuple(entry.item for entry in tables.values())
+    return Design(name, family, params, path, digest, read_tables(content, path, host), readers)
+
+
+def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:
+    """The values of all registered tables of a file; raises as :meth:`Table.read` does."""
+    return {name: entry.item.read(content.get(name, {}), path) for name, entry in host.of(Table).items()}
+
+
+def read_head(
+    content: Mapping[str, Any], path: Path, host: Host, keys: tuple[str, ...]
+) -> tuple[str, Family[Any]]:
+    """Name and family of a file whose top level may hold ``keys``; raises as :func:`load` does."""
+    for key in content:
+        if key not in keys:
+            raise DesignError(f"{path}: {unknown(key, keys)}")
+    layout = content.get("format", FORMAT)
+    if type(layout) is not int or layout != FORMAT:  # true and 1.0 equal 1
+        raise DesignError(f"{path}: format: {layout!r} is not known; this program reads format {FORMAT}")
+    family_name = content.get("family")
+    if not isinstance(family_name, str):
+        fault = "is missing" if family_name is None else f"{family_name!r} is no text"
+        known = ", ".join(sorted(host.of(Family))) or "none is installed"
+        raise DesignError(f"{path}: family: {fault}; name one of: {known}")
+    name = content.get("name", path.stem)
+    if not isinstance(name, str):
+        raise DesignError(f"{path}: name: {name!r} is no text")
+    try:
+        check_name(name)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from error
+    try:
+        return name, host.family(family_name)
+    except PluginError as error:
+        raise PluginError(f"{path}: family: {error}") from error

@@ -1,0 +1,57 @@
+"""Reading files that people write: sizes, encodings, and what lies beside a design file."""
+
+import hashlib
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from mechwright.errors import DesignError, OutputError
+
+SIZE_LIMIT = 1_000_000
+"""Bytes: a design file is some lines; anything larger was given by mistake."""
+
+
+def beside(path: Path, name: str, key: str) -> Path:
+    """A file in or below the folder of the design file ``path``; raises DesignError if it leads out of it."""
+    folder = path.resolve().parent
+    try:
+        found = (folder / name).resolve()
+    except (OSError, ValueError, RuntimeError) as error:  # a loop of links, or a null byte
+        raise DesignError(f"{path}: {key}: {name!r} is no file: {error}") from error
+    if not found.is_relative_to(folder):
+        raise DesignError(
+            f"{path}: {key}: {name!r} leads out of the folder of the design file; put the file beside it"
+        )
+    return found
+
+
+def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
+    """Text and SHA-256 of a file; raises OutputError or DesignError that names it.
+
+    The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
+    without null bytes.
+    """
+    try:
+        with path.open("rb") as file:
+            data = file.read(limit + 1)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be read: {error.strerror or error}") from error
+    if len(data) > limit:
+        raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
+    digest = hashlib.sha256(data).hexdigest()
+    try:
+        return data.decode("utf-8-sig"), digest
+    except UnicodeDecodeError as error:
+        if older is not None and b"\0" not in data:
+            return data.decode(older), digest
+        raise DesignError(f"{path}: is no UTF-8 text (byte {error.start}); is it the right file?") from error
+
+
+def read_toml(path: Path) -> tuple[dict[str, Any], str]:
+    """Content and SHA-256 of a TOML file; raises DesignError that names file, line and column."""
+    text, digest = read_text(path)
+    try:
+        return tomllib.loads(text), digest
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        reason = str(error) if isinstance(error, tomllib.TOMLDecodeError) else "nested too deep"
+        raise DesignError(f"{path}: is no valid TOML: {reason}") from error

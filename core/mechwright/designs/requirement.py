@@ -1,0 +1,127 @@
+"""Requirement files: what a synthesis is asked for.
+
+They are laid out as design files are, with the table ``[requirement]`` in the place of ``[parameters]``::
+
+    format = 1
+    family = "slider-crank"
+    name = "quick-return"
+
+    [requirement]
+    kind = "stroke"
+    stroke = 120
+
+    [cam]
+    work_offset = "G54"
+
+``kind`` may be left out where the family knows one only. Other tables, such as ``[cam]``, go into the
+designs.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.table import Table
+from mechwright.designs.design import HEAD, read_head, read_tables
+from mechwright.designs.files import read_toml
+from mechwright.designs.tables import read_table, unknown
+from mechwright.errors import DesignError
+from mechwright.plugins.host import Host
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A requirement file that has been read and found well-formed.
+
+    Parameters
+    ----------
+    name
+        Stem of the names of the designs.
+    family
+        The family that it names.
+    kind
+        A key of ``family.requirements``.
+    table
+        The table ``[requirement]``, of the kind's model.
+    tables
+        Each registered table with its value for the designs.
+    files
+        Name to the file that goes along with the designs.
+    inputs
+        The files that the tables name, by the names they give them.
+    path
+        The file.
+    digest
+        SHA-256 of its bytes.
+    """
+
+    name: str
+    family: Family[Any]
+    kind: str
+    table: Parameters
+    tables: tuple[tuple[Table[Any], Any], ...]
+    files: Mapping[str, Path]
+    inputs: Mapping[str, Path]
+    path: Path
+    digest: str
+
+
+def load_requirement(path: Path, host: Host) -> Requirement:
+    """Read a requirement file.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be read.
+    DesignError
+        Something in it is wrong, one line for each wrong thing; or its family has no synthesis.
+    PluginError
+        Its family is not installed.
+    """
+    content, digest = read_toml(path)
+    registered = host.of(Table)
+    name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
+    require_synthesis(family, str(path))
+    table = content.get("requirement", {})
+    kinds = tuple(family.requirements)
+    rest = table
+    kind: object = kinds[0] if len(kinds) == 1 else None
+    if isinstance(table, dict):
+        rest = {key: value for key, value in table.items() if key != "kind"}
+        kind = table.get("kind", kind)
+    if kind is None:
+        raise DesignError(f"{path}: requirement.kind: is missing; one of: {', '.join(kinds)}")
+    if not isinstance(kind, str) or kind not in kinds:
+        raise DesignError(f"{path}: requirement.kind: {unknown(str(kind), kinds, 'kind')}")
+    tables: list[tuple[Table[Any], Any]] = []
+    files: dict[str, Path] = {}
+    inputs: dict[str, Path] = {}
+    for key, value in read_tables(content, path, host).items():
+        reader = registered[key].item
+        inputs |= reader.inputs(value, path)
+        carried, along = reader.carried(value, path)
+        tables.append((reader, carried))
+        files |= along
+    return Requirement(
+        name,
+        family,
+        kind,
+        read_table(family.requirements[kind], rest, str(path), "requirement"),
+        tuple(tables),
+        files,
+        inputs,
+        path,
+        digest,
+    )
+
+
+def require_synthesis(family: Family[Any], where: str) -> None:
+    """Raise DesignError that begins with ``where`` if the family has no synthesis."""
+    if not family.requirements:
+        raise DesignError(
+            f"{where}: family {family.name} has no synthesis; "
+            f"write a design with mechwright new {family.name}"
+        )

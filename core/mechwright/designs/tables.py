@@ -1,0 +1,68 @@
+"""Tables of a design file against their models, and what is said of mistakes in them."""
+
+import difflib
+from collections.abc import Iterator, Mapping
+from typing import TypeVar, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from mechwright.errors import DesignError
+
+T = TypeVar("T", bound=BaseModel)
+
+_MESSAGES = {
+    "tuple_type": "should be a list in square brackets",
+    "model_type": "should be a table",
+    "int_parsing": "should be a whole number",
+    "int_from_float": "should be a whole number",
+    "int_type": "should be a whole number",
+}
+"""Where pydantic speaks of Python's types, by its own name of the error."""
+
+
+def read_table(model: type[T], table: object, source: str, where: str) -> T:
+    """Validate one table; raises DesignError with a line for each wrong key."""
+    if not isinstance(table, Mapping):
+        raise DesignError(f"{source}: {where}: is {table!r}; write a table [{where}]")
+    try:
+        return model.model_validate(dict(table))
+    except ValidationError as error:
+        lines = [f"{source}: {line}" for line in _explain(error, model, where)]
+        raise DesignError("\n".join(lines)) from None
+
+
+def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iterator[str]:
+    for item in error.errors(include_url=False):
+        keys = [str(key) for key in item["loc"]]
+        place = ".".join([where, *keys])
+        if item["type"] == "extra_forbidden":
+            fields = tuple(_table_at(model, keys[:-1]).model_fields)
+            yield f"{'.'.join([where, *keys[:-1]])}: {unknown(keys[-1], fields)}"
+        elif item["type"] == "missing":
+            yield f"{place}: is missing"
+        else:
+            message = _MESSAGES.get(item["type"]) or item["msg"]
+            for start in ("Value error, ", "Input ", "String "):
+                message = message.removeprefix(start)
+            value = item.get("input")
+            if isinstance(value, (str, int, float)) and item["type"] != "unit" and keys:
+                message = f"{value!r} {message}"
+            yield f"{place}: {message}"
+
+
+def _table_at(model: type[BaseModel], keys: list[str]) -> type[BaseModel]:
+    for key in keys:
+        field = model.model_fields.get(key)
+        if field is None:
+            continue  # the key of a table of tables
+        for kind in (field.annotation, *get_args(field.annotation)):
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                model = kind
+    return model
+
+
+def unknown(key: str, known: tuple[str, ...], what: str = "key") -> str:
+    """Say that a key is not known, and what was probably meant."""
+    close = difflib.get_close_matches(key, known, 1)
+    hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
+    return f"unknown {what} {key!r}; {hint}"

@@ -1,0 +1,1 @@
+"""Mechanics that families share."""

@@ -1,0 +1,35 @@
+"""Gears of any pitch curves that roll on each other: teeth, outlines, and the proof that a pair meshes.
+
+Glossary
+--------
+pitch curve
+    The curve of a gear that rolls on that of its mate without slip; round in a spur gear.
+pitch point
+    Where both pitch curves touch, on the line of centres.
+driver, driven gear
+    The gear whose angle is given, and the other.
+"""
+
+from mechwright.mechanics.gearing.contour import FIT, gear_loop
+from mechwright.mechanics.gearing.mesh import Mesh, mesh, swing
+from mechwright.mechanics.gearing.pair import Pair
+from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
+from mechwright.mechanics.gearing.proof import MeshProof, prove_mesh
+from mechwright.mechanics.gearing.rack import SIDES, Rack
+from mechwright.mechanics.gearing.teeth import Teeth
+
+__all__ = [
+    "FIT",
+    "SIDES",
+    "Frame",
+    "Mesh",
+    "MeshProof",
+    "Pair",
+    "PitchCurve",
+    "Rack",
+    "Teeth",
+    "gear_loop",
+    "mesh",
+    "prove_mesh",
+    "swing",
+]

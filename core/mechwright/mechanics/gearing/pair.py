@@ -1,0 +1,66 @@
+"""Two pitch curves that roll on each other about fixed axes.
+
+The driver turns about O1 = (0, 0), the driven gear about O2 = (a, 0), both angles counter-clockwise. The
+pitch point lies between the axes: at -θ1 in the driver's body frame, at π - θ2 in that of the driven gear.
+With θ2 = f(θ1), f' = dθ2/dθ1 below 0 (the pair is external), rolling without slip, f' r2 = -r1, makes
+
+    r1 = -a f'/(1 - f'),  r2 = a/(1 - f'),  r1 + r2 = a.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.mechanics.gearing.pitch_curve import PitchCurve
+
+
+@dataclass(frozen=True)
+class Pair(ABC):
+    """An external pair.
+
+    Parameters
+    ----------
+    driver, driven
+        Pitch curves; their perimeters stand to each other as the numbers of teeth.
+    distance
+        Centre distance a, mm.
+    """
+
+    driver: PitchCurve
+    driven: PitchCurve
+    distance: float
+
+    @abstractmethod
+    def law(self, theta: Array) -> tuple[Array, Array]:
+        """θ2 (...), rad, and its derivative f' (...) at angles θ1 (...), rad."""
+
+    def pitch_radii(self, theta: Array) -> tuple[Array, Array]:
+        """r1 and r2 (...), mm, at angles θ1 (...), rad."""
+        r2 = self.distance / (1 - self.law(theta)[1])
+        return self.distance - r2, r2
+
+    def turns(self, teeth: int) -> int:
+        """Turns of a driver with so many teeth after which the same teeth meet again."""
+        mate = round(teeth * self.driven.perimeter / self.driver.perimeter)
+        return mate // math.gcd(teeth, mate)
+
+    def angles(self, arc: Array) -> tuple[Array, Array]:
+        """θ1 and θ2 (n,), rad, with the pitch point at arcs (n,), mm, of the driver; steps are small."""
+        theta: Array = -np.unwrap(self.driver.frame_at(arc).polar_angle)
+        return theta, self.law(theta)[0]
+
+    def tilt(self, arc: Array) -> Array:
+        """ν (n,), rad, of both pitch curves in the pitch point, at arcs as in :meth:`angles`."""
+        return self.driver.frame_at(arc).tilt
+
+    def levers(self, arc: Array, pressure_angle: float) -> tuple[Array, Array]:
+        """Distances (n,), mm, of axis O2 from the two lines of action, at arcs as in :meth:`angles`.
+
+        The first belongs to the flank that stops the driven gear turning counter-clockwise, the second to the
+        other: r2 cos(ν ± α). A normal play c lets the gear turn by c over the lever.
+        """
+        r2, tilt = self.pitch_radii(self.angles(arc)[0])[1], self.tilt(arc)
+        return r2 * np.cos(tilt + pressure_angle), r2 * np.cos(tilt - pressure_angle)

@@ -1,0 +1,140 @@
+"""Teeth at equal arcs of a pitch curve: where each flank, fillet, root and tip begins and ends."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.errors import GeometryError
+from mechwright.mechanics.gearing.pitch_curve import PitchCurve
+from mechwright.mechanics.gearing.rack import SIDES, Rack
+
+_TRIM = 1e-13
+"""Residual of the tip trim in units of the mean radius: rounding, ten times."""
+
+_TRIM_STEPS = 25
+"""Newton's method needs four to six; this is only reached by curves that do not meet."""
+
+_STRAIGHT = 1e12
+"""mm. A curve with a greater radius is straight."""
+
+_FACTOR_SAMPLES = 33
+"""Points per flank for its least regularity factor; the curvature hardly changes on one."""
+
+
+@dataclass(frozen=True)
+class Teeth:
+    """All teeth of one gear.
+
+    Parameters
+    ----------
+    curve, rack
+        Pitch curve, convex, and generating rack; ``count`` pitches are the perimeter.
+    count
+        Number of teeth z.
+    offset
+        Arc at the middle of tooth 0, in pitches.
+
+    Arrays over flanks have shape (z, 2): the space, then its side -1 and +1.
+    """
+
+    curve: PitchCurve
+    rack: Rack
+    count: int
+    offset: float
+
+    @cached_property
+    def tooth_arcs(self) -> Array:
+        """Arc (z,), mm, to the middle of each tooth."""
+        arcs: Array = (np.arange(self.count, dtype=np.float64) + self.offset) * self.rack.pitch
+        return arcs
+
+    @cached_property
+    def space_arcs(self) -> Array:
+        """Arc (z,), mm, to the middle of each space; space j follows tooth j."""
+        return self.tooth_arcs + self.rack.pitch / 2
+
+    @cached_property
+    def flank_arcs(self) -> Array:
+        """Arc s_f (z, 2), mm, where each flank crosses the pitch curve."""
+        arcs: Array = self.space_arcs[:, None] + SIDES * self.rack.half_space
+        return arcs
+
+    @cached_property
+    def arc_centres(self) -> Array:
+        """Arc x (z, 2), mm, at which the centres of the rack's tip arcs touch the root."""
+        arcs: Array = self.space_arcs[:, None] + SIDES * self.rack.half_land
+        return arcs
+
+    @cached_property
+    def join_arcs(self) -> Array:
+        """Arc (z, 2), mm, at which the rack cuts the point where flank and fillet meet."""
+        reach = self.rack.straight_depth / math.sin(2 * self.rack.pressure_angle) * 2
+        arcs: Array = self.flank_arcs - SIDES * reach
+        return arcs
+
+    @cached_property
+    def least_regularity(self) -> Array:
+        """Least regularity factor (z, 2) of each flank over sin²α: 1 at the pitch curve, 0 is undercut."""
+        t = np.linspace(0, 1, _FACTOR_SAMPLES)
+        start = self.flank_arcs[..., None]
+        frame = self.curve.frame_at(start + t * (self.join_arcs[..., None] - start))
+        factor = self.rack.regularity(frame, start, SIDES[:, None]).min(axis=-1)
+        least: Array = factor / math.sin(self.rack.pressure_angle) ** 2
+        return least
+
+    @cached_property
+    def tip_trim(self) -> tuple[Array, Array]:
+        """Where flank and tip meet: two arrays (z, 2) of parameters, rad.
+
+        The first belongs to the frame that makes the flank's point, the second to the one below the tip's
+        point. Newton's method in both at once.
+
+        Raises
+        ------
+        GeometryError
+            They do not meet.
+        """
+        curve, rack, crossing = self.curve, self.rack, self.flank_arcs
+        sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)
+        radius = np.clip(curve.frame_at(crossing).radius, -_STRAIGHT, _STRAIGHT)
+        # On a circle of this radius the height is |u| sin α cos α + u² cos⁴α / (2 ρ) to second order.
+        half, square = sin * cos, cos**4 / (2 * radius)
+        u = SIDES * 2 * rack.addendum / (half + np.sqrt(half**2 + 4 * square * rack.addendum))
+        v = curve.parameter(crossing + u)
+        w = curve.parameter(crossing + u * (1 - cos * cos * radius / (radius + rack.addendum)))
+        for _ in range(_TRIM_STEPS):
+            on_flank, on_tip = curve.frame(v), curve.frame(w)
+            gap = rack.flank(on_flank, crossing, SIDES) - on_tip.offset(rack.addendum)
+            if np.abs(gap).max() < _TRIM * curve.perimeter / math.tau:
+                return v, w
+            direction = on_flank.tangent + (SIDES * cos / sin)[:, None] * on_flank.normal
+            rate_v = (rack.regularity(on_flank, crossing, SIDES) * curve.arc_rate(v))[..., None] * direction
+            rate_w = ((1 + rack.addendum / on_tip.radius) * curve.arc_rate(w))[..., None] * on_tip.tangent
+            determinant = rate_v[..., 1] * rate_w[..., 0] - rate_v[..., 0] * rate_w[..., 1]
+            v = v - (rate_w[..., 0] * gap[..., 1] - rate_w[..., 1] * gap[..., 0]) / determinant
+            w = w - (rate_v[..., 0] * gap[..., 1] - rate_v[..., 1] * gap[..., 0]) / determinant
+        raise GeometryError(f"addendum: a flank does not reach {rack.addendum:g} mm over the pitch curve")
+
+    @cached_property
+    def tip_lands(self) -> tuple[Array, Array]:
+        """Parameters (z,), rad, below the two ends of each tooth's tip, in counter-clockwise order."""
+        below = self.tip_trim[1]
+        first = np.roll(below[:, 1], 1)
+        first[0] -= math.tau
+        return first, below[:, 0]
+
+    @cached_property
+    def tip_widths(self) -> Array:
+        """Length (z,), mm, of each tip along the offset curve; negative where the tooth is pointed."""
+        first, last = self.tip_lands
+        # The length of a parallel curve is that of the curve and the height times its turn.
+        one, two = self.curve.frame(first), self.curve.frame(last)
+        turn = np.arctan2(
+            one.normal[:, 0] * two.normal[:, 1] - one.normal[:, 1] * two.normal[:, 0],
+            (one.normal * two.normal).sum(axis=1),
+        )
+        widths: Array = two.arc - one.arc + self.rack.addendum * turn
+        return widths

@@ -1,0 +1,156 @@
+"""How near plates and spindles come to each other in plan over a turn.
+
+Distances are taken at samples of the motion, from outlines without their openings; between two samples a
+plate moves by no more than its step, so half a step is added to the clearance: what is called clear is clear
+at every instant.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Poses
+from mechwright.errors import GeometryError
+from mechwright.geometry import Outline
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+PLAN_CHORD = 0.05
+"""Chord error, mm, of the outlines that are compared; it is added to the clearance."""
+
+_BEND = 1.1
+"""A path between two samples is at most so much longer than its chord; an arc of 80 degrees still is."""
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A plate to be dealt to a layer.
+
+    Parameters
+    ----------
+    name
+        Its own.
+    body
+        The body of the motion that it belongs to.
+    outline
+        In the body's coordinates, mm.
+    thickness
+        mm.
+    layers
+        The layers it may stand in; empty for any but 0, which is the ground plate's.
+    """
+
+    name: str
+    body: str
+    outline: Outline
+    thickness: float
+    layers: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Spindle:
+    """A pin or shaft through plates.
+
+    Parameters
+    ----------
+    name
+        Its own.
+    body
+        The body that it is fixed in.
+    centre
+        Its axis in the body's coordinates, x + i y, mm.
+    radius
+        The largest along its length, mm, heads left out.
+    plates
+        Names of the plates that it joins.
+    head
+        Radius, mm, of a head on top of the highest plate, or 0; no plate above may come close to it.
+    """
+
+    name: str
+    body: str
+    centre: complex
+    radius: float
+    plates: tuple[str, ...]
+    head: float = 0.0
+
+
+class Closeness:
+    """Distances of plates and spindles over a turn; each plate is flattened once."""
+
+    def __init__(
+        self,
+        plates: Sequence[Plate],
+        spindles: Sequence[Spindle],
+        poses: Mapping[str, Poses],
+        clearance: float,
+    ) -> None:
+        missing = ({plate.body for plate in plates} | {spindle.body for spindle in spindles}) - set(poses)
+        if missing:
+            raise GeometryError(f"the motion has no poses of {', '.join(sorted(missing))}")
+        self.limit = clearance + 2 * PLAN_CHORD
+        self.placed = {
+            plate.name: _placed(plate.outline.outer.flatten(PLAN_CHORD), poses[plate.body])
+            for plate in plates
+        }
+        self.poses = poses
+        self.steps = {name: _step(points) for name, points in self.placed.items()}
+        self.areas: dict[str, NDArray[np.object_]] = {}
+        self.axes: dict[str, tuple[NDArray[np.object_], Array]] = {}
+        self.room: dict[tuple[str, str], float] = {}
+
+    def plates(self, one: Plate, two: Plate) -> bool:
+        """Whether two plates come too close in plan."""
+        import shapely
+
+        if one.body == two.body:
+            distance = shapely.distance(self._area(one.name)[:1], self._area(two.name)[:1])
+            return bool(distance.min() < self.limit)
+        moved = self.steps[one.name] + self.steps[two.name]
+        distance = shapely.distance(self._area(one.name), self._area(two.name))
+        return bool((distance < self.limit + moved / 2).any())
+
+    def spindle(self, spindle: Spindle, plate: Plate, radius: float) -> bool:
+        """Whether a plate comes too close to a spindle of this radius."""
+        import shapely
+
+        if spindle.name not in self.axes:
+            centre = np.array([[spindle.centre.real, spindle.centre.imag]])
+            axis = _placed(centre, self.poses[spindle.body])
+            self.axes[spindle.name] = shapely.points(axis[:, 0]), _step(axis)
+        points, step = self.axes[spindle.name]
+        if (spindle.name, plate.name) not in self.room:
+            if spindle.body == plate.body:
+                room = shapely.distance(self._area(plate.name)[:1], points[:1])
+            else:
+                room = shapely.distance(self._area(plate.name), points) - (self.steps[plate.name] + step) / 2
+            self.room[spindle.name, plate.name] = float(room.min())
+        return self.room[spindle.name, plate.name] - radius < self.limit
+
+    def _area(self, name: str) -> "NDArray[np.object_]":
+        import shapely
+
+        if name not in self.areas:
+            areas = shapely.polygons(self.placed[name])
+            shapely.prepare(areas)
+            self.areas[name] = areas
+        return self.areas[name]
+
+
+def _placed(points: Array, poses: Poses) -> Array:
+    """Points (k, 2) of a body in every pose, (n, k, 2)."""
+    turned = np.einsum("nij,kj->nki", poses.rotation[:, :2, :2], points)
+    return np.asarray(turned + poses.position[:, None, :2], dtype=np.float64)
+
+
+def _step(placed: Array) -> Array:
+    """The farthest that any of the points (n, k, 2) moves to a neighbouring sample, (n,), mm."""
+    if len(placed) < 2:
+        return np.zeros(len(placed))
+    moved = _BEND * np.hypot(*np.moveaxis(np.diff(placed, axis=0), 2, 0)).max(axis=1)
+    step: Array = np.maximum(np.append(moved, 0.0), np.append(0.0, moved))
+    return step

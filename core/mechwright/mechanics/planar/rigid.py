@@ -1,0 +1,130 @@
+"""Motion of points and bodies in the plane, from pose to jerk."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Poses
+
+Plane = NDArray[np.complex128]
+"""Points or vectors of the plane, x + i y."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """Angle (...) in rad, and its first three rates in rad/s, rad/s², rad/s³."""
+
+    theta: Array
+    omega: Array
+    alpha: Array
+    jerk: Array
+
+    @classmethod
+    def of(
+        cls, theta: ArrayLike, omega: ArrayLike = 0.0, alpha: ArrayLike = 0.0, jerk: ArrayLike = 0.0
+    ) -> "Turning":
+        """Broadcast the four to one shape.
+
+        >>> Turning.of([0.0, 1.0], 2.0).omega.tolist()
+        [2.0, 2.0]
+        """
+        arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
+        return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
+
+    @property
+    def direction(self) -> Plane:
+        """The unit vectors exp(i θ)."""
+        unit: Plane = np.exp(1j * self.theta)
+        return unit
+
+    @property
+    def velocity_factor(self) -> Plane:
+        """What turns a lever into its velocity: i ω."""
+        return np.asarray(1j * self.omega, np.complex128)
+
+    @property
+    def acceleration_factor(self) -> Plane:
+        """What turns a lever into its acceleration: i α - ω²."""
+        return np.asarray(1j * self.alpha - self.omega**2, np.complex128)
+
+    @property
+    def jerk_factor(self) -> Plane:
+        """What turns a lever into its jerk: i (j - ω³) - 3 ω α."""
+        return np.asarray(1j * (self.jerk - self.omega**3) - 3 * self.omega * self.alpha, np.complex128)
+
+
+@dataclass(frozen=True, slots=True)
+class PointMotion:
+    """Position (...) of a point in mm, and its first three rates in mm/s, mm/s², mm/s³."""
+
+    position: Plane
+    velocity: Plane
+    acceleration: Plane
+    jerk: Plane
+
+    @classmethod
+    def of(
+        cls,
+        position: ArrayLike,
+        velocity: ArrayLike = 0.0,
+        acceleration: ArrayLike = 0.0,
+        jerk: ArrayLike = 0.0,
+    ) -> "PointMotion":
+        """Broadcast the four to one shape; a position alone is a point at rest."""
+        arrays = (np.asarray(values, dtype=complex) for values in (position, velocity, acceleration, jerk))
+        return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
+
+    @property
+    def speed(self) -> Array:
+        """Magnitude of the velocity (...), mm/s."""
+        return np.abs(self.velocity)
+
+
+@dataclass(frozen=True, slots=True)
+class BodyMotion:
+    """Motion of a body: of the origin of its coordinates, and of its angle.
+
+    Examples
+    --------
+    A crank of 2 mm that turns about (1, 0) with 3 rad/s:
+
+    >>> crank = BodyMotion.about(1 + 0j, Turning.of([0.0, np.pi / 2], 3.0))
+    >>> crank.point(2.0).velocity.round(12).tolist()
+    [6j, (-6+0j)]
+    """
+
+    origin: PointMotion
+    turning: Turning
+
+    @classmethod
+    def about(cls, centre: complex, turning: Turning) -> "BodyMotion":
+        """A body that turns about a point of the ground, which is its origin."""
+        return cls(PointMotion.of(np.full(turning.theta.shape, centre, dtype=complex)), turning)
+
+    @classmethod
+    def sliding(cls, origin: PointMotion, theta: ArrayLike = 0.0) -> "BodyMotion":
+        """A body that only shifts, its angle ``theta`` in rad for good."""
+        return cls(origin, Turning.of(np.broadcast_to(np.asarray(theta, float), origin.position.shape)))
+
+    def point(self, place: ArrayLike) -> PointMotion:
+        """Motion of body points: ``place`` (...) is x + i y in the body's coordinates, mm."""
+        turning, origin = self.turning, self.origin
+        lever = np.asarray(place, dtype=complex) * turning.direction
+        return PointMotion(
+            origin.position + lever,
+            origin.velocity + turning.velocity_factor * lever,
+            origin.acceleration + turning.acceleration_factor * lever,
+            origin.jerk + turning.jerk_factor * lever,
+        )
+
+    def to_body(self, position: ArrayLike) -> Plane:
+        """Body coordinates of points (...) of the ground."""
+        seen: Plane = (np.asarray(position) - self.origin.position) / self.turning.direction
+        return seen
+
+    def poses(self, z: float = 0.0) -> Poses:
+        """Give the poses for a :class:`mechwright.contracts.motion.Motion`, all at the height ``z``, mm."""
+        position = self.origin.position
+        return Poses.planar(position.real, position.imag, self.turning.theta, z)

@@ -1,0 +1,263 @@
+"""The plugin host: finds plugins, keeps what they register, and turns a broken one into a warning."""
+
+import os
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.metadata import Distribution, EntryPoint, distributions
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import pluggy
+
+from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of
+from mechwright.errors import PluginError
+from mechwright.plugins import hookspecs
+
+if TYPE_CHECKING:
+    from mechwright.contracts.family import Family
+
+GROUP = "mechwright"
+"""Entry-point group in which a distribution names its plugin modules."""
+COMMANDS = "mechwright.commands"
+"""Entry-point group of the modules that register commands, which are all that ``--help`` needs."""
+BUILT_IN = "mechwright"
+"""The distribution whose plugins go first, so that a third party cannot take their names."""
+DISABLE = "MECHWRIGHT_DISABLE_PLUGINS"
+"""Environment variable with the names of plugins to leave out, separated by commas."""
+
+HOOK = hookspecs.mechwright_register.__name__
+_NAME = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
+_SUFFIX = re.compile(r"(\.[a-z0-9]+)+")
+# A plugin may fail in any way; sys.exit() at import is one of them. Only the keyboard stops the host.
+_ANY_FAILURE = (Exception, SystemExit)
+
+T = TypeVar("T")
+C = TypeVar("C", bound=Plugin)
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """A plugin, or something it registers, that cannot be used."""
+
+    distribution: str
+    plugin: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"plugin {self.plugin} of {self.distribution} is not used: {self.reason}"
+
+
+@dataclass(frozen=True, slots=True)
+class Registered(Generic[T]):
+    """A registered class and the distribution it comes from."""
+
+    item: T
+    distribution: str
+    plugin: str
+
+
+@dataclass
+class Host:
+    """What is installed.
+
+    Parameters
+    ----------
+    registered
+        Contract to name to registration.
+    broken
+        What could not be used, and why.
+    """
+
+    registered: dict[type[Plugin], dict[str, Registered[Any]]] = field(default_factory=dict)
+    broken: list[Broken] = field(default_factory=list)
+
+    def of(self, contract: type[C]) -> "dict[str, Registered[C]]":
+        """What is registered of a contract, name to registration."""
+        return self.registered.get(contract, {})
+
+    def all(self, contract: type[C]) -> list[C]:
+        """What is registered of a contract, in the order of registration: what is built in comes first."""
+        return [entry.item for entry in self.of(contract).values()]
+
+    def get(self, contract: type[C], name: str) -> C:
+        """One of a contract by its name; raises PluginError that lists the installed ones."""
+        items = self.of(contract)
+        if name in items:
+            return items[name].item
+        known = ", ".join(sorted(items)) or "none is installed"
+        raise PluginError(f"{contract.kind} {name!r} is not installed; known: {known}")
+
+    def family(self, name: str) -> "Family[Any]":
+        """The family of this name; raises PluginError that lists the installed ones."""
+        from mechwright.contracts.family import (
+            Family,  # its tables take long to import, --help has no use for
+        )
+
+        return self.get(Family, name)
+
+    def add(self, module: object, distribution: str, plugin: str) -> None:
+        """Register one plugin module; whatever is wrong with it ends up in ``broken``."""
+
+        def fail(reason: str) -> None:
+            self.broken.append(Broken(distribution, plugin, reason))
+
+        manager = pluggy.PluginManager(hookspecs.PROJECT)
+        manager.add_hookspecs(hookspecs)
+        try:
+            manager.register(module, plugin)
+        except pluggy.PluginValidationError as error:
+            fail(" ".join(str(error).split()))
+            return
+        for name in dir(module):
+            reason = _hook_fault(module, name)
+            if reason:
+                fail(reason)
+        try:
+            classes = _call(manager.hook.mechwright_register)
+        except _ANY_FAILURE as error:
+            fail(f"{HOOK}: {_reason(error)}")
+            return
+        for cls in classes:
+            reason = _class_fault(cls) or self._taken(cls)
+            if reason:
+                fail(reason)
+                continue
+            try:
+                made = cls()
+            except _ANY_FAILURE as error:
+                fail(f"{cls.__name__}(): {_reason(error)}")
+                continue
+            self._file(cls)[cls.name] = Registered(made, distribution, plugin)
+
+    def _file(self, cls: type[Plugin]) -> "dict[str, Registered[Any]]":
+        """Where a class is filed: under its contract."""
+        contract = contract_of(cls)
+        assert contract is not None  # noqa: S101 - a class without one has been refused
+        return self.registered.setdefault(contract, {})
+
+    def _taken(self, cls: type[Plugin]) -> str:
+        items = self._file(cls)
+        if cls.name not in items:
+            return ""
+        other = items[cls.name]
+        return f"{cls.kind} {cls.name!r} is already registered by {other.plugin} of {other.distribution}"
+
+
+def _hook_fault(module: object, name: str) -> str:
+    """What is wrong with the attribute of a plugin, if it is or looks like a hook; else nothing."""
+    try:
+        value = getattr(module, name)
+        marked = isinstance(getattr(value, f"{hookspecs.PROJECT}_impl", None), dict)
+        marks_others = isinstance(getattr(value, f"{hookspecs.PROJECT}_spec", None), dict)
+    except _ANY_FAILURE:
+        return ""  # A lazy attribute that fails is no hook.
+    looks_like = name.startswith(HOOK) and callable(value) and not marks_others
+    if not (marked or looks_like):
+        return ""
+    if name != HOOK:
+        return f"there is no hook {name}; since hook API 2 one hook gives all classes: {HOOK}"
+    # pluggy passes over a function without the mark in silence.
+    return "" if marked else f"hook {name} is not marked with mechwright.plugins.hookspecs.hookimpl"
+
+
+def _call(hook: pluggy.HookCaller) -> list[Any]:
+    """The classes that one plugin's hook gives."""
+    if not hook.get_hookimpls():
+        return []
+    batches: list[Sequence[Any]] = hook()
+    if not batches:
+        raise TypeError("it returns nothing; return a list of classes")
+    if isinstance(batches[0], type) or not isinstance(batches[0], Iterable):
+        raise TypeError(f"it returns {batches[0]!r}; return a list of classes")
+    return list(batches[0])
+
+
+def _class_fault(cls: Any) -> str:
+    """What keeps a class from being registered; nothing if it is well made."""
+    if not (isinstance(cls, type) and issubclass(cls, Plugin)):
+        return f"{cls!r} is no class of a contract, such as mechwright.Family"
+    contract = contract_of(cls)
+    if contract is None:
+        return f"{cls.__name__} is a contract itself; register classes that derive from it"
+    api = getattr(cls, "api", None)
+    if api != HOOK_API:
+        return f"{cls.__name__} was written for hook API {api}; this is {HOOK_API}"
+    name = getattr(cls, "name", None)
+    if not isinstance(name, str):
+        return f"{cls.__name__} has no name"
+    if not _NAME.fullmatch(name):
+        return f"{cls.__name__}: name {name!r} is not of lower-case letters, digits and single hyphens"
+    for text in contract.texts:
+        if not isinstance(getattr(cls, text, None), str):
+            return f"{cls.__name__} has no {text}"
+    suffix = getattr(cls, "suffix", None)
+    if isinstance(suffix, str) and not _SUFFIX.fullmatch(suffix):
+        return f"{cls.__name__}: suffix {suffix!r} is not a dot with lower-case letters and digits"
+    try:
+        fault = cls.fault()
+    except _ANY_FAILURE as error:
+        fault = f"fault(): {_reason(error)}"
+    return f"{cls.__name__}: {fault}" if fault else ""
+
+
+def _reason(error: BaseException) -> str:
+    text = str(error).strip().splitlines()
+    said = "".join(c for c in text[0] if c.isprintable()) if text else ""
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
+def load(
+    points: list[tuple[str, EntryPoint]] | None = None,
+    disabled: frozenset[str] | None = None,
+    group: str = GROUP,
+) -> Host:
+    """Load plugins from ``points`` (distribution name and entry point), or from what a group has installed.
+
+    Names in ``disabled`` are skipped; None reads them from the environment variable
+    ``MECHWRIGHT_DISABLE_PLUGINS``, separated by commas.
+    """
+    found = Host()
+    if points is None:
+        points, found.broken = hook_points(distributions(), group)
+    if disabled is None:
+        disabled = frozenset(name.strip() for name in os.environ.get(DISABLE, "").split(",") if name.strip())
+    for distribution, point in points:
+        if point.name in disabled:
+            continue
+        try:
+            module = point.load()
+        except _ANY_FAILURE as error:
+            found.broken.append(Broken(distribution, point.name, _reason(error)))
+            continue
+        found.add(module, distribution, point.name)
+    return found
+
+
+def hook_points(
+    everything: Iterable[Distribution], group: str = GROUP
+) -> tuple[list[tuple[str, EntryPoint]], list[Broken]]:
+    """The entry points of a group, built-in ones first, then by name; and what cannot be read."""
+    points: dict[tuple[str, str, str], tuple[str, EntryPoint]] = {}
+    broken = []
+    for distribution in everything:
+        name = "unknown"
+        try:
+            # Other people's broken packages are none of our business.
+            if f"[{group}]" not in (distribution.read_text("entry_points.txt") or ""):
+                continue
+            name = distribution.metadata["Name"] or name
+            for point in distribution.entry_points:
+                if point.group == group:
+                    # An editable install can be listed twice; the first on the path counts.
+                    points.setdefault((name, point.name, point.value), (name, point))
+        except _ANY_FAILURE as error:
+            broken.append(Broken(name, "entry_points.txt", _reason(error)))
+    ordered = sorted(points.values(), key=lambda item: (item[0] != BUILT_IN, item[0], item[1].name))
+    return ordered, broken
+
+
+@cache
+def host() -> Host:
+    """The host of this process, loaded once."""
+    return load()

@@ -1,0 +1,1 @@
+"""The Larch 300 control for Mechwright."""

@@ -1,0 +1,1 @@
+"""Trochoidal slotting for Mechwright."""

@@ -1,0 +1,127 @@
+"""Holes that are threaded, or made to a fit."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mechwright.contracts.details import Thread
+from mechwright.contracts.fits import CLASSES, hole_fit
+from mechwright.contracts.holes import CLEARANCE, fitted, hole, joined, threaded
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.contracts.sections import volume
+from mechwright.contracts.threads import COARSE, metric
+from mechwright.errors import GeometryError
+from mechwright.geometry import Loop, Outline, circle
+
+SQUARE = Loop.polygon([(0, 0), (80, 0), (80, 60), (0, 60)])
+
+
+def plate(diameter=6.0, thickness=8.0, at=(30.0, 30.0), machined=()):
+    inner = Loop((circle(at, diameter / 2, clockwise=True, tag="hole"),))
+    return Part("base", Outline(SQUARE, (inner,)), thickness, "steel", machined=machined)
+
+
+@pytest.mark.parametrize(("text", "found"), [("M6", (6, 1)), (" M8x1 ", (8, 1)), ("M2.5", (2.5, 0.45))])
+def test_designations(text, found):
+    assert metric(text) == found
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("6", "no metric thread; write M6"), ("M9", "no coarse pitch in ISO 261"), ("M6x4", "the pitch is 4")],
+)
+def test_designations_that_are_none(text, said):
+    with pytest.raises(GeometryError, match=said):
+        metric(text)
+
+
+@settings(deadline=None)
+@given(
+    nominal=st.sampled_from([d for d in COARSE if d <= 36]), share=st.floats(0, 1), thickness=st.floats(1, 30)
+)
+def test_every_coarse_thread_goes_into_holes_from_its_core_to_its_clearance(nominal, share, thickness):
+    low = nominal - 1.0825 * COARSE[nominal]
+    drawn = low + share * (CLEARANCE * nominal - low)
+    part = threaded(plate(drawn, thickness, (40.0, 30.0)), "bore-1", f"M{nominal:g}")
+    (thread,) = part.details
+    assert isinstance(thread, Thread)
+    assert (thread.diameter, thread.pitch, thread.depth) == (nominal, COARSE[nominal], thickness)
+    # Outline, feature and detail are the same hole, of the thread's core.
+    assert hole(part, "bore-1").diameter == pytest.approx(thread.core, abs=1e-6)
+    taken = math.pi / 4 * thread.core**2 * thickness
+    assert volume(part) == pytest.approx(80 * 60 * thickness - taken, rel=1e-6)
+
+
+@given(size=st.integers(1, 40), name=st.sampled_from(CLASSES))
+def test_a_fit_makes_the_middle_of_its_tolerance(size, name):
+    part = fitted(plate(float(size)), "bore-1", name)
+    fit = hole_fit(size, name)
+    bore = hole(part, "bore-1")
+    assert (bore.fit, bore.diameter) == (fit, fit.middle)
+    (inner,) = part.outline.inner
+    assert inner.segments[0].radius * 2 == pytest.approx(fit.middle)
+    # The next fit is one of the same size, and where something is pressed in, it has room.
+    assert fitted(part, "bore-1", "H7") == fitted(plate(float(size)), "bore-1", "H7")
+    assert hole(joined(part), "bore-1").diameter == max(fit.middle, size)
+
+
+def test_what_is_screwed_in_has_room_and_other_parts_stay_the_same_object():
+    part = plate()
+    assert joined(part) is part
+    assert hole(joined(threaded(part, "bore-1", "M6")), "bore-1").diameter == 6.0
+
+
+def test_a_blind_hole_is_threaded_down_to_a_pitch_above_its_floor():
+    machined = (Bore("blind", (30.0, 30.0), 6.0, 0, 5), Profile("outside", SQUARE, "outside", 0, 8))
+    part = Part("base", Outline(SQUARE), 8.0, "steel", machined=machined)
+    made = threaded(part, "blind", "M6")
+    assert made.details[0].depth == 4.0
+    assert made.outline == part.outline
+    with pytest.raises(GeometryError, match="blind of part base is 5 mm deep; no thread of 6 mm"):
+        threaded(part, "blind", "M6", 6.0)
+
+
+@pytest.mark.parametrize(
+    ("part", "name", "thread", "said"),
+    [
+        (plate(), "bore-2", "M6", r"no round hole 'bore-2'; it has: bore-1 \(6 mm\)"),
+        (
+            plate(),
+            "bore-1",
+            "M12",
+            "no thread for bore-1 of part base, a hole of 6 mm; for that there is M5, M6",
+        ),
+        (plate(20.0), "bore-1", "M6", "no thread for bore-1 of part base, a hole of 20 mm"),
+        (plate(6.0, at=(3.5, 30.0)), "bore-1", "M6", "leaves a wall of 0.50 mm; it needs one pitch, 1 mm"),
+        (threaded(plate(), "bore-1", "M6"), "bore-1", "M6", "has a thread already"),
+    ],
+)
+def test_threads_that_cannot_be(part, name, thread, said):
+    with pytest.raises(GeometryError, match=said):
+        threaded(part, name, thread)
+
+
+def test_a_hole_below_the_top_face_has_no_thread_and_a_recess_beside_one_is_a_wall():
+    outside = Profile("outside", SQUARE, "outside", 0, 8)
+    low = (Bore("low", (30.0, 30.0), 6.0, 3, 5), outside)
+    with pytest.raises(GeometryError, match="starts 3 mm below the top face; threads start at it"):
+        threaded(plate(machined=low), "low", "M6")
+    slot = Pocket("slot", Loop.polygon([(33.5, 20), (40, 20), (40, 40), (33.5, 40)]), (), 0, 2)
+    with pytest.raises(GeometryError, match=r"leaves a wall of 0\.50 mm"):
+        threaded(plate(machined=(Bore("bore-1", (30.0, 30.0), 6.0, 0, 8), slot, outside)), "bore-1", "M6")
+
+
+def test_a_fit_beyond_the_tables_is_refused():
+    big = Part(
+        "base",
+        Outline(
+            Loop((circle((0, 0), 150),)),
+        ),
+        8.0,
+        "steel",
+        machined=(Bore("bore", (0.0, 0.0), 200.0, 0, 4), Profile("outside", SQUARE, "outside", 0, 8)),
+    )
+    with pytest.raises(GeometryError, match="the table goes up to 180 mm"):
+        fitted(big, "bore", "H7")

@@ -1,0 +1,200 @@
+"""Every contract has its section in the page on plugins, which begins with a whole plugin that works."""
+
+import importlib
+import math
+import pkgutil
+import re
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+import mechwright
+import mechwright_cad
+import mechwright_cam
+from mechwright import Build, Design, Host, Instance, Loop, Outline, Part, Plugin, Stage, Wanted, circle
+from mechwright.contracts.finding import errors
+from mechwright.designs.design import load
+from mechwright.plugins.host import HOOK
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
+SECTIONS = dict(re.findall(r"^## `(\w+)`: [^\n]+\n(.*?)(?=^## |\Z)", PAGE, re.M | re.S))
+"""Contract to the text of its section."""
+COMMON = {name for name in {**vars(Plugin), **Plugin.__annotations__} if not name.startswith("_")}
+"""What every contract has, which the page says once."""
+
+
+def contracts():
+    for package in (mechwright, mechwright_cad, mechwright_cam):
+        for item in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if not item.name.endswith("__main__"):
+                importlib.import_module(item.name)
+    ours = ("mechwright.", "mechwright_cad.", "mechwright_cam.")
+    return {cls for cls in Plugin.__subclasses__() if cls.__module__.startswith(ours)}
+
+
+@cache
+def example(contract):
+    """The whole plugin at the head of a section, as a module."""
+    (code,) = (
+        block
+        for block in re.findall(r"^```python\n(.*?)^```$", SECTIONS[contract], re.M | re.S)
+        if HOOK in block
+    )
+    module = ModuleType(f"example_of_{contract.lower()}")
+    exec(compile(code, f"docs/plugins.md, {contract}", "exec"), module.__dict__)  # noqa: S102 - our own page
+    return module
+
+
+def hosted(*names):
+    host = Host()
+    for name in names:
+        host.add(example(name), "the page on plugins", name.lower())
+    assert [str(broken) for broken in host.broken] == []
+    return host
+
+
+@cache
+def one(contract, cls):
+    """The instance that the host makes of a class of an example."""
+    (made,) = (
+        item for item in hosted(contract).all(cls) if type(item).__module__ == example(contract).__name__
+    )
+    return made
+
+
+@pytest.fixture
+def flywheel():
+    family = one("Family", mechwright.Family)
+    design = Design("wheel", family, family.Params(), Path("wheel.toml"), "")
+    with Build(design, Host(), Wanted(samples=5)) as build:
+        yield build
+
+
+def test_every_contract_has_its_section_with_an_example_that_the_host_takes():
+    found = {cls.__name__: cls for cls in contracts()}
+    assert {"Family", "Control", "Exporter", "Page", "Inspection", "Table", "Command"} <= found.keys()
+    assert found.keys() == SECTIONS.keys()
+    for name, cls in found.items():
+        assert hosted(name).all(cls), f"the example of {name} registers none"
+
+
+def test_every_section_stands_in_the_table_of_contracts():
+    table = re.findall(r"^\| \[`(\w+)`\]\(#", PAGE, re.M)
+    assert sorted(table) == sorted(SECTIONS)
+
+
+def test_every_member_of_a_contract_is_in_its_section():
+    missing = {
+        f"{cls.__name__}.{name}"
+        for cls in contracts()
+        for name in {**vars(cls), **vars(cls).get("__annotations__", {})}
+        if not (name.startswith("_") or re.search(rf"`{name}[`(]", SECTIONS[cls.__name__]) or name in COMMON)
+    }
+    assert missing == set()
+    assert sorted(name for name in COMMON if f"`{name}`" not in PAGE and f"`{name}()`" not in PAGE) == []
+
+
+def test_the_family_moves_is_made_and_is_refused_where_it_has_to_be(flywheel):
+    family = flywheel.design.family
+    assert family.check(family.Params()) == []
+    (fault,) = errors(family.check(family.Params(bore=72)))
+    assert (fault.value, fault.remedy) == (4, "use at most 70 mm")
+    assert family.check(family.Params(bore=70)) == []
+    assert flywheel.motion.channels["time"].values[-1] == pytest.approx(0.1)
+    (part,) = flywheel.parts
+    assert part.outline.area == pytest.approx(math.pi * (40**2 - 5**2))
+
+
+def test_the_control_spells_and_reads_its_own_words():
+    from mechwright_cam.controls.contract import Control
+    from mechwright_cam.machining import machine
+    from mechwright_cam.testing import plate_job
+
+    spruce = one("Control", Control)
+    made = machine(plate_job(control="spruce"), spruce)
+    assert "\nM108\n" in made.text
+    assert made.proof.ok
+    assert spruce.table_words("tool.tbl") == "Copy tool.tbl into the folder of the machine."
+
+
+def test_the_operation_cuts_what_it_claims_and_its_program_is_proven():
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.machining import machine
+    from mechwright_cam.operations.contract import Operation
+    from mechwright_cam.planning import Assignments
+    from mechwright_cam.setup.lay_out import make_job
+    from mechwright_cam.shop.library import load_library
+    from mechwright_cam.shop.settings import CamSettings
+
+    square = Loop.polygon([(-20.0, -20.0), (20.0, -20.0), (20.0, 20.0), (-20.0, 20.0)])
+    hole = Loop((circle((0.0, 0.0), 3.0, clockwise=True),))
+    part = Part("plate", Outline(square, (hole,)), 4.0, "aluminium")
+    settings = CamSettings.model_validate({"operations": ["plunge"]})
+    job = make_job(part, settings, [load_library().get("mill-6")])
+    made = machine(job, LinuxCnc(), assignments=Assignments([one("Operation", Operation)]))
+    assert "bore-1: plunge" in [cut.name for section in made.program.sections for cut in section.operations]
+    assert made.proof.ok
+
+
+def test_the_rule_refuses_what_is_too_fast():
+    from mechwright import ProofError
+    from mechwright_cam.controls.linuxcnc import LinuxCnc
+    from mechwright_cam.machining import machine
+    from mechwright_cam.proof import Rule
+    from mechwright_cam.testing import plate_job
+
+    rule = one("Rule", Rule)
+    with pytest.raises(ProofError, match="our limit is F400; lower the feed"):
+        machine(plate_job(), LinuxCnc(), rules=[rule])
+
+
+def test_the_exporter_writes_the_contour(flywheel):
+    contour = one("Exporter", mechwright.Exporter)
+    lines = contour.part(flywheel.parts[0]).decode().splitlines()
+    radii = [math.hypot(*map(float, line.split(","))) for line in lines]
+    assert radii == pytest.approx([40] * len(lines), abs=1e-3)
+
+
+def test_the_page_tells_the_travels(flywheel):
+    files = one("Page", mechwright.Page).files(flywheel)
+    assert "angle,rad,0,6.28319\n" in files["travels.csv"]
+
+
+def test_the_inspection_finds_what_is_too_heavy_and_nothing_else(flywheel):
+    handling = one("Inspection", mechwright.Inspection)
+    assert list(handling.findings(flywheel)) == []
+    disc = Outline(Loop((circle((0.0, 0.0), 400.0),)))
+    flywheel.__dict__["parts"] = [Part("disc", disc, 40.0, "steel", (Instance("disc"),))]
+    (heavy,) = handling.findings(flywheel)
+    assert heavy.message == "part disc has 20.1 dm³, the limit is 15"
+    assert heavy.stage is Stage.MACHINING
+
+
+def test_the_table_is_read_written_and_used(tmp_path):
+    host = hosted("Family", "Table")
+    table = host.get(mechwright.Table, "title-block")
+    path = tmp_path / "wheel.toml"
+    path.write_text('family = "flywheel"\n\n[title-block]\nauthor = "Ada"\n', encoding="utf-8")
+    with Build(load(path, host), host) as build:
+        files = host.get(mechwright.Page, "title-page").files(build)
+    assert files == {"title.txt": "wheel, drawn by Ada, a4\n"}
+    path.write_text("\n".join(['family = "flywheel"', *table.text()]), encoding="utf-8")
+    assert load(path, host).tables["title-block"].author == ""
+    path.write_text('family = "flywheel"\n[title-block]\nauthr = "Ada"\n', encoding="utf-8")
+    with pytest.raises(
+        mechwright.DesignError, match="title-block: unknown key 'authr'; did you mean 'author'"
+    ):
+        load(path, host)
+
+
+def test_the_command_prints_what_it_says():
+    app = typer.Typer()
+    app.command("weigh")(one("Command", mechwright.Command).run)
+    done = CliRunner().invoke(app, [str(ROOT / "examples" / "slider-crank-quick-return.toml")])
+    assert done.exit_code == 0, done.output
+    assert re.search(r"^rod: [\d.]+ g$", done.output, re.M)
