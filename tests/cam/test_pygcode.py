@@ -42,4 +42,4 @@ def test_planned_programs(control: str) -> None:
     made_of = machine(
         job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", **settings), host().get(Control, control)
     )
-    assert agree([made_of.text], control, 0.0) > 150
+    assert agree([*made_of.files.values()], control, 0.0) > 150
