@@ -12,8 +12,8 @@ import numpy as np
 import shapely
 from bench_pipeline import forget
 from harness import race, report, require
-from mechwright.design.design import load
 
+from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cam import planning
 from mechwright_cam.planning.prepare import plates, prepare

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from mechwright.build.build import SAMPLES
 from mechwright.cli.command import (
     Also,
     AsJson,
@@ -18,9 +19,6 @@ from mechwright.cli.command import (
 )
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
-
-SAMPLES = 721
-"""Default number of samples: every half degree of one turn, both ends included."""
 
 
 class Families(Command):
