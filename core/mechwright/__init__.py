@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from mechwright.arrays import Array
     from mechwright.build import Build, Inspection, Page, Wanted
     from mechwright.cli.command import Command
+    from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         refuse,
         until_error,
     )
+    from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
     from mechwright.contracts.parameters import Parameters
@@ -53,10 +55,12 @@ _HOMES = {
     "mechwright.arrays": "Array",
     "mechwright.build": "Build Inspection Page Wanted",
     "mechwright.cli.command": "Command",
+    "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
     "mechwright.contracts.parameters": "Parameters",
@@ -84,6 +88,7 @@ __all__ = [
     "TOLERANCES",
     "Arc",
     "Array",
+    "AsMade",
     "BSpline",
     "Bore",
     "Build",
@@ -107,6 +112,12 @@ __all__ = [
     "KinematicsError",
     "Line",
     "Loop",
+    "MadeCurve",
+    "MadeFigure",
+    "MadeHole",
+    "MadePart",
+    "MadeRing",
+    "MadeSection",
     "MaterialName",
     "MechwrightError",
     "Motion",

@@ -48,3 +48,8 @@ def least_backlash(params: EllipticGearParams) -> float:
 def backlash_of(params: EllipticGearParams) -> float:
     """The design's backlash, mm."""
     return least_backlash(params) if params.backlash is None else params.backlash
+
+
+def with_backlash(params: EllipticGearParams, backlash: float) -> EllipticGearParams:
+    """The same design with another backlash, mm."""
+    return params.model_copy(update={"backlash": backlash})

@@ -3,14 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import AsMade, Family, Finding, Parameters, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import MadePart, Motion, Part, Progress, Synthesis
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -55,6 +55,12 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.cut import cut_findings
 
         return cut_findings(params, cut)
+
+    def as_made(self, params: EllipticGearParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+        """Play, transmission error and backlash of each pair, and whether it jams."""
+        from mechwright_elliptic_gears.as_made import as_made
+
+        return as_made(params, made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -4,6 +4,7 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
+from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
@@ -11,6 +12,7 @@ from mechwright.contracts.plugin import Plugin
 if TYPE_CHECKING:
     import shapely
 
+    from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
@@ -88,6 +90,30 @@ class Family(Plugin, Generic[P]):
             finds nothing: the remainder is reported by the proof all the same.
         """
         return ()
+
+    def as_made(
+        self,
+        params: P,  # noqa: ARG002 - used by families whose parts mate
+        made: "Mapping[str, Sequence[MadePart]]",  # noqa: ARG002
+    ) -> AsMade:
+        """Say how the mechanism runs with parts as their programs leave them.
+
+        Parameters
+        ----------
+        params
+            The design.
+        made
+            Part name to its copies as they come off the machine; one where every copy is cut by the same
+            program.
+
+        Returns
+        -------
+        as_made
+            Figures and curves over the corridor of the path and the tolerances of what is not made here;
+            an error where it cannot be put together or does not turn, whose remedy has been tried. The
+            default says nothing.
+        """
+        return AsMade()
 
     def synthesise(
         self,
