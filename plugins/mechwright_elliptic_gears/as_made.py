@@ -86,7 +86,8 @@ class MadePair:
             ahead, behind = self.gaps.play((-off_centre, 0.0), more - self.corridor)
             return ahead + behind
         ahead, behind = self.gaps.play((0.0, 0.0), more - self.corridor - off_centre)
-        return np.minimum(ahead, behind)
+        least: Array = np.minimum(ahead, behind)
+        return least
 
     @property
     def title(self) -> str:
@@ -141,7 +142,6 @@ def _figures(pair: MadePair) -> list[MadeFigure]:
     tight = pair.gaps.play((-c, 0.0), -pair.corridor)
     loose = pair.gaps.play((c, 0.0), pair.corridor)
     least, name = least_backlash(params), ".".join(pair.names)
-    spread = [tight, loose, made]
     cos = math.cos(rack_of(params).pressure_angle)
     room, gap = pair.contacts.room, pair.gaps.gap
     taken = room - gap[np.abs(gap - room) < LEFT]  # others lie beyond a tip
@@ -150,10 +150,13 @@ def _figures(pair: MadePair) -> list[MadeFigure]:
     def figure(key: str, title: str, asked: float | None, values: list[float], rule: str = "") -> MadeFigure:
         design, as_made, *both = values
         low, high = min(as_made, *both), max(as_made, *both)
-        return MadeFigure(f"{name}.{key}", f"{what}: {title}", "µrad", asked, design, as_made, low, high, rule)
+        return MadeFigure(
+            f"{name}.{key}", f"{what}: {title}", "µrad", asked, design, as_made, low, high, rule
+        )
 
     def total(play: tuple[Array, Array]) -> Array:
-        return (play[0] + play[1]) * MICRO
+        both: Array = (play[0] + play[1]) * MICRO
+        return both
 
     rule = f"2 (g cos δ + v sin α) cos α / (s4 cos(α + δ) cos(α - δ)), centre distance ± {c:g} mm"
     return [
@@ -201,23 +204,23 @@ def _figures(pair: MadePair) -> list[MadeFigure]:
             if params.stages == 1
             else "least with which a train as made turns: 2 (D + c) / cos α",
         ),
-    ] if spread else []
+    ]
 
 
 def _curve(pair: MadePair) -> MadeCurve:
-    turn = np.degrees(pair.gaps.theta)
+    turn = np.degrees(pair.gaps.theta) % 360.0
     ahead, behind = pair.gaps.play()
     drawn = pair.contacts.gaps(0.0).play()
-    first = turn <= turn[0] + 360.0
+    order = np.argsort(turn, kind="stable")
     return MadeCurve(
         f"{pair.title}: play",
         f"{pair.names[0]}, degrees",
         "µrad",
-        turn[first],
+        turn[order],
         {
-            "as drawn": ((drawn[0] + drawn[1]) * MICRO)[first],
-            "as made": ((ahead + behind) * MICRO)[first],
-            "in the worst case": (pair.spare(OFF_CENTRE) * MICRO)[first],
+            "as drawn": ((drawn[0] + drawn[1]) * MICRO)[order],
+            "as made": ((ahead + behind) * MICRO)[order],
+            "in the worst case": (pair.spare(OFF_CENTRE) * MICRO)[order],
         },
     )
 
@@ -229,7 +232,7 @@ def _running(pair: MadePair) -> list[Finding]:
         worst = int(np.argmin(spare))
         if spare[worst] > 0:
             continue
-        what = "jams" if severity is Severity.ERROR else f"jams with its axes {off_centre:g} mm off"
+        what = "jam" if severity is Severity.ERROR else f"jam with axes {off_centre:g} mm off"
         better, works = _tried(pair)
         return [
             Finding(

@@ -9,7 +9,13 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from mechwright import Finding, GeometryError, Severity, Stage, material, of_stage, until_error
-from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
+from mechwright.contracts.finding import errors
+from mechwright_elliptic_gears.assembly import (
+    backlash_of,
+    jamming_backlash,
+    least_backlash,
+    with_backlash,
+)
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
     ellipse_of,
@@ -47,9 +53,13 @@ _CACHED = 32
 def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the part can be built.
 
-    All of it is about the parts: the pitch ellipses of every design roll on each other.
+    All of it is about the parts, for the pitch ellipses of every design roll on each other; only the backlash
+    is about what machining leaves of them.
     """
-    return tuple(_of_the_parts(params))
+    found = list(_of_the_parts(params))
+    if not errors(found):
+        found += _backlash(params)
+    return tuple(found)
 
 
 @of_stage(Stage.PARTS)
@@ -62,7 +72,6 @@ def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
         opening_findings,
         train_findings,
         _drive,
-        _backlash,
         _mesh,
         _figures,
     )
@@ -228,17 +237,24 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
         )
 
 
+@of_stage(Stage.MACHINING)
 def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
-    least = least_backlash(params)
-    if backlash_of(params) >= least:
+    least, given = least_backlash(params), backlash_of(params)
+    if given >= least:
         return
-    better = params.model_copy(update={"backlash": least})
+    jams = given < jamming_backlash(params)
+    does = (
+        "gears as made jam: walls as they are planned"
+        if jams
+        else "gears as made may jam: walls and axes within tolerance"
+    )
+    better = with_backlash(params, least)
     yield Finding(
         "gear.backlash",
-        Severity.WARNING,
+        Severity.ERROR if jams else Severity.WARNING,
         "backlash",
-        f"gears as made may jam: walls and axes within tolerance take up to {least:g} mm of the backlash",
-        backlash_of(params),
+        f"{does} take up to {jamming_backlash(params) if jams else least:g} mm of the backlash",
+        given,
         least,
         "mm",
         f"make backlash at least {least:g}, or leave it out"

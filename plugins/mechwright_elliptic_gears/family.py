@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, refuse
+from mechwright import AsMade, Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
@@ -45,7 +45,7 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.checks import findings
         from mechwright_elliptic_gears.parts import parts_of
 
-        refuse(findings(params))
+        refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
     def check_cut(

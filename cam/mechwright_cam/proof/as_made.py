@@ -17,6 +17,7 @@ from mechwright.contracts.made_part import MadeRing, MadeSection
 from mechwright.contracts.part import Bore
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import Band
 from mechwright_cam.proof.beyond import VISIBLE
 from mechwright_cam.proof.near import Chords
@@ -46,12 +47,7 @@ class Tools:
     @classmethod
     def of(cls, groups: list[Sweep]) -> "Tools":
         """The paths of sweeps in fine chords."""
-        cuts = []
-        for group in groups:
-            points, owner = group.paths.points(group.pieces, CHORD)
-            same = owner[:-1] == owner[1:]
-            cuts.append((group.radius, Chords(points[:-1][same], points[1:][same])))
-        return cls(cuts)
+        return cls([(group.radius, fine_chords(group)[0]) for group in groups])
 
     def off(self, points: Array, outward: Array) -> Array:
         """Distance (k,) from each place to the nearest disc, mm, negative inside of one."""
@@ -71,9 +67,16 @@ class Tools:
         return off
 
 
+def fine_chords(group: Sweep) -> tuple[Chords, Ints]:
+    """The paths of a sweep in fine chords, and the piece (k,) that each belongs to."""
+    points, owner = group.paths.points(group.pieces, CHORD)
+    same = owner[:-1] == owner[1:]
+    return Chords(points[:-1][same], points[1:][same]), owner[:-1][same]
+
+
 def wall_sweeps(scene: Scene) -> Sweeps:
     """What the cutters that make walls sweep: chamfers and threads are cut into walls that stand already."""
-    makers = MILLS | {ToolKind.DRILL}
+    makers = {*MILLS, ToolKind.DRILL}
     if {tool.kind for tool in scene.paths.tools.values()} <= makers:
         return scene.sweeps
     return Sweeps(scene.paths.of_kinds(makers))
@@ -126,9 +129,7 @@ def rings_here(scene: Scene, rest: Shape, band: Band) -> list[Ring]:
             if np.abs(away - feature.diameter / 2).max() < ON_CIRCLE:
                 own.append(feature)
                 break
-    plugs = [
-        shapely.Point(bore.centre).buffer(bore.diameter / 2 + 2 * TOLERANCES.leftover) for bore in own
-    ]
+    plugs = [shapely.Point(bore.centre).buffer(bore.diameter / 2 + 2 * TOLERANCES.leftover) for bore in own]
     closed = shapely.union_all([rest, *plugs]) if plugs else rest
     return [*rings_of(closed), *(circle_ring(bore.centre, bore.diameter / 2) for bore in own)]
 

@@ -84,9 +84,7 @@ def _owners(placed: Sequence[Placed]) -> Callable[[Array], int]:
     )
 
 
-def _shared(
-    sections: Sequence[MadeSection], placed: Sequence[Placed]
-) -> list[tuple[MadeSection, ...]]:
+def _shared(sections: Sequence[MadeSection], placed: Sequence[Placed]) -> list[tuple[MadeSection, ...]]:
     """The sections of a plate as those of each part on it, in the part's own coordinates."""
     owner = _owners(placed)
     rings = [(section, ring, owner(ring.points[0])) for section in sections for ring in section.rings]
@@ -119,8 +117,8 @@ def _turned_back(points: Array, one: Placed) -> Array:
 
 
 def _placed_back(ring: MadeRing, one: Placed) -> MadeRing:
-    outward = _turned_back(ring.outward + (one.x, one.y), one)
-    return replace(ring, points=_turned_back(ring.points, one), outward=outward)
+    points = _turned_back(ring.points, one)
+    return replace(ring, points=points, outward=_turned_back(ring.points + ring.outward, one) - points)
 
 
 def _turned_over(ring: MadeRing, sign: Array, origin: Array) -> MadeRing:

@@ -2,9 +2,12 @@
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadeSection, Witness
-from mechwright_cam.proof.as_made import Tools
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.as_made import fine_chords
 from mechwright_cam.proof.sweep import Sweep, Sweeps
+from mechwright_cam.proof.wall_stock import HINTED
 
 SEEN = 1e-4
 """A smaller step is none, mm: the last decimal of a program may move a pass by as much."""
@@ -22,26 +25,31 @@ def witnesses(sweeps: Sweeps, section: MadeSection) -> list[Witness]:
         return []
     places = np.concatenate([ring.points for ring in section.rings])
     outward = np.concatenate([ring.outward for ring in section.rings])
+    # Corners are left by all passes, and differ in depth as their cutters do.
     off = np.concatenate([np.where(ring.corner, -np.inf, 0.0) for ring in section.rings])
-    found = []
     above = sweeps.at(-section.top, -section.top)
-    depths = np.concatenate([group.pieces.low for group in above]) if above else np.empty(0)
-    for z in _levels(depths, section):
-        at_depth = [
-            Sweep(g.radius, g.paths, g.pieces.only(np.abs(g.pieces.low - z) < ONE_DEPTH)) for g in above
-        ]
-        reached = Tools.of([sweep for sweep in at_depth if len(sweep.pieces)]).beside(places, outward)
-        step = off - np.minimum(off, reached)
-        worst = int(np.argmax(np.nan_to_num(step)))
+    beside = [_beside(group, places, outward) for group in above]
+    found = []
+    for level in np.unique(np.concatenate([levels for levels, _, _ in beside])) if beside else ():
+        z = float(level) * ONE_DEPTH
+        if not -section.bottom + ONE_DEPTH < z < -section.top - ONE_DEPTH:
+            continue
+        reached = off.copy()
+        for levels, place, away in beside:
+            here = levels == level
+            np.minimum.at(reached, place[here], away[here])
+        step = np.nan_to_num(off - reached)
+        worst = int(np.argmax(step))
         if step[worst] > SEEN:
             x, y = places[worst].tolist()
             found.append(Witness(-z, float(step[worst]), (x, y)))
-        off = np.minimum(off, reached)
+        off = reached
     return found[::-1]
 
 
-def _levels(depths: np.ndarray, section: MadeSection) -> list[float]:
-    """Heights z at which passes end in a section, mm, lowest first."""
-    inside = (depths > -section.bottom + ONE_DEPTH) & (depths < -section.top - ONE_DEPTH)
-    levels: list[float] = (np.unique(np.round(depths[inside] / ONE_DEPTH)) * ONE_DEPTH).tolist()
-    return levels
+def _beside(group: Sweep, places: Array, outward: Array) -> tuple[Ints, Ints, Array]:
+    """Depth of the path, place, and how far that is off, mm, of each pair of a place and a path beside it."""
+    chords, owner = fine_chords(group)
+    line, place = chords.pairs(places + group.radius * outward, HINTED)
+    levels = np.round(group.pieces.low / ONE_DEPTH).astype(np.int64)[owner][line]
+    return levels, place, chords.distances(places, place, line) - group.radius

@@ -57,6 +57,12 @@ class MadeRing:
         x, y = self.points.T
         return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
 
+    @property
+    def planned(self) -> Array:
+        """Where its cutters were to make it: places (n, 2), mm."""
+        points: Array = self.points - self.off[:, None] * self.outward
+        return points
+
     def moved(self, more: float) -> Array:
         """The points (n, 2) with ``more`` mm of material on the wall, less where it is negative."""
         return self.points + more * self.outward
@@ -73,8 +79,22 @@ class MadeSection:
     bottom: float
     rings: tuple[MadeRing, ...]
 
+    def shape(self, *, planned: bool = False, more: float = 0.0) -> "shapely.Geometry":
+        """The cross-section as made, with ``more`` mm on all walls, or as planned; it may have pieces."""
+        import shapely
+
+        closed = [
+            (ring.area > 0, shapely.Polygon(ring.planned if planned else ring.moved(more)))
+            for ring in self.rings
+        ]
+        solid, open_ = (
+            shapely.union_all([shapely.make_valid(shape) for filled, shape in closed if filled is wanted])
+            for wanted in (True, False)
+        )
+        return shapely.difference(solid, open_)
+
     def polygon(self, more: float = 0.0) -> "shapely.Polygon":
-        """The cross-section as made, with ``more`` mm on all walls; the largest piece, if there are several.
+        """The largest piece of :meth:`shape`.
 
         Raises
         ------
@@ -83,14 +103,11 @@ class MadeSection:
         """
         import shapely
 
-        if not self.rings:
+        pieces = shapely.get_parts(self.shape(more=more)).tolist()
+        if not pieces:
             raise ValueError("a section without walls has no outline")
-        closed = [shapely.make_valid(shapely.Polygon(ring.moved(more))) for ring in self.rings]
-        solid = [s for ring, s in zip(self.rings, closed, strict=True) if ring.area > 0]
-        open_ = [s for ring, s in zip(self.rings, closed, strict=True) if ring.area <= 0]
-        whole = shapely.difference(shapely.union_all(solid), shapely.union_all(open_))
-        pieces = [one for one in shapely.get_parts(whole).tolist() if isinstance(one, shapely.Polygon)]
-        return max(pieces, key=lambda piece: piece.area)
+        largest: shapely.Polygon = max(pieces, key=lambda piece: piece.area)
+        return largest
 
     def hole_at(self, x: float, y: float, diameter: float) -> "MadeHole | None":
         """The round hole of about that diameter, mm, about a point; None if there is none.
@@ -214,4 +231,3 @@ class MadePart:
         if not rings:
             return np.empty(0)
         return np.concatenate([ring.off[~ring.corner] for ring in rings])
-
