@@ -129,9 +129,10 @@ def about_bore(params: EllipticGearParams, part: MadePart) -> Array:
     """The outside of a gear as made (n, 2), mm, counter-clockwise, about the middle of its bore as made."""
     outside = part.outline.polygon().exterior
     points = shapely.get_coordinates(outside)[:-1]
-    points = points if shapely.is_ccw(outside) else points[::-1]
     bore = part.hole_at(0.0, 0.0, params.bore) if params.bore else None
-    return points if bore is None else points - (bore.x, bore.y)
+    middle = (0.0, 0.0) if bore is None else (bore.x, bore.y)
+    about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - middle
+    return about
 
 
 def _figures(pair: MadePair) -> list[MadeFigure]:

@@ -7,13 +7,14 @@ curved slot the lever is 0 and x of order √h, so x is found where it is: on th
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from mechwright import Array
 from mechwright_geneva.kinematics import Points, Stroke
@@ -28,6 +29,11 @@ HALVINGS = 10
 
 FAR = 1.0
 """How far from its wall a roller is still looked at, mm: more is no matter of play."""
+
+WAY = 20001
+"""Corners of a roller's way: on 200 mm they are a hundredth apart."""
+TINY = 1e-30
+"""mm², so that an edge without length divides nothing by 0."""
 
 Room = Callable[[Points], Array]
 """How far points in the wheel's frame may move before a roller there touches, mm; below 0 it is in a wall."""
@@ -122,47 +128,69 @@ def _most_room(at: Points, room: Room) -> Array:
     return turn
 
 
-def drawn_room(m: Mechanism, half: float, chord: int = 20001) -> Room:
+def drawn_room(m: Mechanism, half: float) -> Room:
     """The room in a slot whose walls stand ``half`` mm off the roller all along its exact way.
 
-    In a straight slot the way goes on past mid stroke nowhere: the slot ends there.
+    A straight slot ends where the roller turns back.
     """
     if m.straight:
-        axis = np.exp(-1j * m.wheel_half)
-        way: Points = np.array([m.bottom, 2 * m.rim]) * axis
+        way: Points = np.linspace(m.bottom, 2 * m.rim, WAY) * np.exp(-1j * m.wheel_half)
     else:
-        lead = np.linspace(math.pi / 2, m.crank_half, 501)
+        lead = np.linspace(math.pi / 2, m.crank_half, WAY)
         before = m.axes - m.crank * np.exp(1j * lead)
         after = (m.axes - m.crank * np.exp(-1j * lead[::-1])) * np.exp(-2j * m.wheel_half)
-        way = np.concatenate((before[:-1], m.stroke(np.linspace(0, 1, chord)).track, after[1:]))
-    edges = _tree(np.column_stack((way.real, way.imag)))
-    return lambda points: half - _distance(edges, points, FAR)
+        way = np.concatenate((before[:-1], m.stroke(np.linspace(0, 1, WAY)).track, after[1:]))
+    near = _Nearest.of([way], closed=False)
+    return lambda points: half - near.distance(points, FAR)
 
 
 def made_room(material: shapely.Geometry, roller: float) -> Room:
-    """The room for a roller of that radius, mm, beside the material of a wheel as made."""
+    """The room for a roller of that radius, mm, beside the material of a wheel as made.
+
+    The walls are followed in steps that are short against the roller.
+    """
     shapely.prepare(material)
-    rings = shapely.get_rings(shapely.get_parts(material))
-    edges = _tree(*[shapely.get_coordinates(ring) for ring in rings])
+    rings = [
+        shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(shapely.get_parts(material)).tolist()
+    ]
+    near = _Nearest.of([ring[:, 0] + 1j * ring[:, 1] for ring in rings], closed=True)
 
     def room(points: Points) -> Array:
-        away = _distance(edges, points, roller + FAR)
+        away = near.distance(points, roller + FAR)
         inside: NDArray[np.bool_] = shapely.contains_xy(material, points.real, points.imag)
         return np.where(inside, -away, away) - roller
 
     return room
 
 
-def _tree(*lines: Array) -> shapely.STRtree:
-    pieces = [np.stack((line[:-1], line[1:]), axis=1) for line in lines]
-    return shapely.STRtree(shapely.linestrings(np.concatenate(pieces)))
+@dataclass(frozen=True)
+class _Nearest:
+    """Corners of lines, and the corner before and after each."""
 
+    tree: cKDTree
+    corner: Points
+    before: Points
+    after: Points
 
-def _distance(edges: shapely.STRtree, points: Points, most: float) -> Array:
-    """Distance (n,) of points from the nearest edge, mm; ``most`` where it is more."""
-    found = np.full(points.shape, most)
-    (at, _), away = edges.query_nearest(
-        shapely.points(points.real, points.imag), max_distance=most, return_distance=True, all_matches=False
-    )
-    found[at] = away
-    return found
+    @classmethod
+    def of(cls, lines: Sequence[Points], *, closed: bool) -> "_Nearest":
+        before, after = ([np.roll(line, turn) for line in lines] for turn in (1, -1))
+        if not closed:
+            for line, back, on in zip(lines, before, after, strict=True):
+                back[0], on[-1] = line[0], line[-1]
+        corner = np.concatenate(lines)
+        tree = cKDTree(np.column_stack((corner.real, corner.imag)))
+        return cls(tree, corner, np.concatenate(before), np.concatenate(after))
+
+    def distance(self, points: Points, most: float) -> Array:
+        """Distance (n,) of points from the edges at their nearest corner, mm; ``most`` where it is more."""
+        found, at = self.tree.query(np.column_stack((points.real, points.imag)), distance_upper_bound=most)
+        near = np.flatnonzero(np.isfinite(found))
+        corner = self.corner[at[near]]
+        away = np.full(points.shape, most)
+        away[near] = found[near]
+        for other in (self.before[at[near]], self.after[at[near]]):
+            edge, way = other - corner, points[near] - corner
+            share = np.clip((way * np.conj(edge)).real / np.maximum(np.abs(edge) ** 2, TINY), 0.0, 1.0)
+            away[near] = np.minimum(away[near], np.abs(way - share * edge))
+        return away
