@@ -1,14 +1,14 @@
 """The family ``four-bar``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import AsMade, Family, Finding, Parameters, refuse
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import MadePart, Motion, Part, Progress, Synthesis
 
 
 class FourBars(Family[FourBarParams]):
@@ -45,6 +45,12 @@ class FourBars(Family[FourBarParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+        """Error of the follower and of the coupler point, from bores and pins."""
+        from mechwright_four_bar.as_made import as_made
+
+        return as_made(params, made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -1,14 +1,14 @@
 """The family ``spherical``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
+from mechwright import AsMade, Family, Finding, Parameters, Progress, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part
+    from mechwright import MadePart, Motion, Part
 
 
 class Spherical(Family[SphericalParams]):
@@ -48,6 +48,12 @@ class Spherical(Family[SphericalParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+        """Error of the output, in angles, from the bores of flat strips."""
+        from mechwright_spherical.as_made import as_made
+
+        return as_made(params, made)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress
