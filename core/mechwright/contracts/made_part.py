@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
     import shapely
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 Point = tuple[float, float]
 
 ABOUT = 0.1
-"""Share of its radius by which the wall of a hole may be off: a keyway's walls and floor are farther away."""
+"""Share of its radius by which the wall of a hole may be off: a fit or a thread changes a hole by less."""
 MOSTLY = 0.5
 """Least share of a wall that is on the circle of a hole."""
 
@@ -120,7 +121,8 @@ class MadeSection:
             away = np.hypot(*(ring.points - (x, y)).T)
             near = np.abs(away - diameter / 2) < ABOUT * diameter / 2
             if near.mean() > MOSTLY:
-                return MadeHole.of(ring.points[near])
+                on = np.abs(away - np.median(away[near])) < 2 * TOLERANCES.leftover
+                return MadeHole.of(ring.points[on])
         return None
 
 
