@@ -83,13 +83,15 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
     rates = output_rates(bar, phi)
     figures, curves = [], []
     found = _worst(sure, pins, rates, dict.fromkeys(pins, rates["pin"]))
-    figures.append(_figure("follower.error", "greatest error of the follower", "µrad", found, MICRO))
+    drawn = len(pins) * rates["pin"] * params.running_fit / 2
+    figures.append(_figure("follower.error", "greatest error of the follower", "µrad", drawn, found, MICRO))
     curves.append(_curve("Error of the follower", "µrad", phi, found, MICRO))
     if params.coupler_point is not None:
         moves = point_rates(bar, params.coupler_point, phi)
         near = {name: moves["pin-a" if name.startswith("A") else "pin-b"] for name in pins}
         found = _worst(sure, pins, moves, near)
-        figures.append(_figure("point.error", "greatest error of the coupler point", "mm", found, 1.0))
+        drawn = np.sum(list(near.values()), axis=0) * params.running_fit / 2
+        figures.append(_figure("point.error", "greatest error of the coupler point", "mm", drawn, found, 1.0))
         curves.append(_curve("Error of the coupler point", "mm", phi, found, 1.0))
     least = min(pins.values(), key=lambda one: one.room - one.spread)
     figures.append(
@@ -123,10 +125,12 @@ def _worst(
     return still, made, made + more
 
 
-def _figure(name: str, title: str, unit: str, found: tuple[Array, Array, Array], scale: float) -> MadeFigure:
+def _figure(
+    name: str, title: str, unit: str, drawn: Array, found: tuple[Array, Array, Array], scale: float
+) -> MadeFigure:
     still, made, most = (float(one.max()) * scale for one in found)
     rule = "(Σ ρ) / |N| + |Σ (∂/∂l) Δl|, every pin standing off in the worst direction; least: pins centred"
-    return MadeFigure(name, title, unit, None, 0.0, made, still, most, rule)
+    return MadeFigure(name, title, unit, None, float(drawn.max()) * scale, made, still, most, rule)
 
 
 def _curve(title: str, unit: str, phi: Array, found: tuple[Array, Array, Array], scale: float) -> MadeCurve:

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from mechwright import Finding, Severity, Stage, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
+from mechwright_geneva.clearance_checks import clearance_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
 from mechwright_geneva.locking import cover, free_play
@@ -25,7 +26,7 @@ _CACHED = 32
 @lru_cache(_CACHED)
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    return until_error(params, feasibility, _mechanism_findings)
+    return until_error(params, feasibility, _mechanism_findings, clearance_findings)
 
 
 @of_stage(Stage.PARTS)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, refuse
+from mechwright import AsMade, Family, Finding, Parameters, Stage, refuse
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
 
@@ -43,7 +43,7 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.checks import findings
         from mechwright_geneva.parts import parts_of
 
-        refuse(findings(params))
+        refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
     def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:

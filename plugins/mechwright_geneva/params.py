@@ -59,7 +59,7 @@ class GenevaParams(Parameters):
     )
     roller_radius: Millimetres = Field(5.0, ge=0.5, le=100, description="Radius of the rollers.")
     groove_clearance: Millimetres = Field(
-        0.05, ge=0, le=2, description="How much wider a slot is than the roller."
+        0.08, ge=0, le=2, description="How much wider a slot is than the roller; 0.08 runs as made."
     )
     rollers: int = Field(1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.")
     lock_radius: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(

@@ -16,10 +16,10 @@ import numpy as np
 from mechwright import Array, AsMade, MadeCurve, MadeFigure, MadePart
 from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
 from mechwright_spherical.flat import strip
-from mechwright_spherical.linkage import Phase, linkage_of
+from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
-from mechwright_spherical.places import link_arcs
-from mechwright_spherical.shells import shells_of
+from mechwright_spherical.places import link_arcs, second_size
+from mechwright_spherical.shells import Shells, shells_of
 from mechwright_spherical.vectors import cross, dot, norm
 
 SAMPLES = 361
@@ -69,20 +69,21 @@ def as_made(params: SphericalParams, made: Mapping[str, Sequence[MadePart]]) -> 
     """Judge the linkage of flat strips, each bent as drawn."""
     linkage, shells, flat = linkage_of(params), shells_of(params), params.flat
     phase, hardware = linkage.shown, params.hardware
-    arcs = dict(link_arcs(linkage)) | {"coupler": float(np.arccos(float(phase.loop.ca)))}
-    if not all(f"flat-{name}" in made for name in arcs):
+    arcs, strips = _shown(linkage, shells)
+    if not set(strips.values()) <= set(made):
         return AsMade()
+    strip_of = {name: made[part][0] for name, part in strips.items()}
     bore = hardware.pin_diameter + hardware.fit
     links: dict[str, MadeLink] = {}
     for name, angle in arcs.items():
         radius = shells.arc(name)[0]
         ends = Hole(0j, bore), Hole(complex(strip(angle, radius, flat).length), bore)
-        found = link(made[f"flat-{name}"][0], *ends)
+        found = link(strip_of[name], *ends)
         if found is None:
             return AsMade()
         stretch = _stretch(angle, radius, flat)
         links[name] = MadeLink(found.off / stretch, found.spread / stretch)
-    pins = _pins(params, made, arcs)
+    pins = _pins(params, strip_of, arcs)
     radii = {name: shells.arc(BORES[name][0])[0] for name in pins}
     rates = output_rates(phase, arcs["ground"])
     still = np.abs(np.sum([rates[name] * one.off for name, one in links.items()], axis=0))
@@ -127,6 +128,15 @@ def as_made(params: SphericalParams, made: Mapping[str, Sequence[MadePart]]) -> 
     return AsMade(figures, (curve,), tuple(jammed))
 
 
+def _shown(linkage: Linkage, shells: Shells) -> tuple[dict[str, float], dict[str, str]]:
+    """Arc, rad, and flat part of every link in the phase that is shown."""
+    phase = linkage.shown
+    other = second_size(linkage, shells) if phase.number == 2 else {}
+    arcs = link_arcs(linkage) | other | {"coupler": float(np.arccos(float(phase.loop.ca)))}
+    second = {*other, *(("coupler",) if phase.number == 2 else ())}
+    return arcs, {name: f"flat-{name}{'-n' if name in second else ''}" for name in arcs}
+
+
 def _stretch(angle: float, radius: float, flat: FlatTable) -> float:
     """Change of a strip's length with its arc, mm/rad: facets grow with the tangent, bends with the angle."""
     half = angle / strip(angle, radius, flat).bends / 2
@@ -136,7 +146,7 @@ def _stretch(angle: float, radius: float, flat: FlatTable) -> float:
 
 
 def _pins(
-    params: SphericalParams, made: Mapping[str, Sequence[MadePart]], arcs: Mapping[str, float]
+    params: SphericalParams, strip_of: Mapping[str, MadePart], arcs: Mapping[str, float]
 ) -> dict[str, Joint]:
     """The joints whose bores are there; of a five-bar the one that the arm carries as well."""
     hardware, shells = params.hardware, shells_of(params)
@@ -147,7 +157,7 @@ def _pins(
             continue  # the output axis itself
         length = strip(arcs[plate], shells.arc(plate)[0], params.flat).length
         hole = Hole(complex(end * length), bore)
-        found = joint(name, made[f"flat-{plate}"][0], hole, hardware.pin_diameter)
+        found = joint(name, strip_of[plate], hole, hardware.pin_diameter)
         if found is not None:
             pins[name] = found
     return pins

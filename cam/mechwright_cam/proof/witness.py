@@ -21,16 +21,16 @@ def witnesses(sweeps: Sweeps, section: MadeSection) -> list[Witness]:
     A flat cutter clears all above its tip. So a wall is farthest out at its foot, and steps in where a pass
     that has gone on a line of its own has ended.
     """
-    if not section.rings:
-        return []
-    places = np.concatenate([ring.points for ring in section.rings])
-    outward = np.concatenate([ring.outward for ring in section.rings])
-    # Corners are left by all passes, and differ in depth as their cutters do.
-    off = np.concatenate([np.where(ring.corner, -np.inf, 0.0) for ring in section.rings])
     above = sweeps.at(-section.top, -section.top)
+    if not section.rings or not above:
+        return []
+    # Corners are left by all passes, and differ in depth as their cutters do.
+    places = np.concatenate([ring.points[~ring.corner] for ring in section.rings])
+    outward = np.concatenate([ring.outward[~ring.corner] for ring in section.rings])
+    off = np.zeros(len(places))
     beside = [_beside(group, places, outward) for group in above]
     found = []
-    for level in np.unique(np.concatenate([levels for levels, _, _ in beside])) if beside else ():
+    for level in np.unique(np.concatenate([levels for levels, _, _ in beside])):
         z = float(level) * ONE_DEPTH
         if not -section.bottom + ONE_DEPTH < z < -section.top - ONE_DEPTH:
             continue
@@ -38,7 +38,7 @@ def witnesses(sweeps: Sweeps, section: MadeSection) -> list[Witness]:
         for levels, place, away in beside:
             here = levels == level
             np.minimum.at(reached, place[here], away[here])
-        step = np.nan_to_num(off - reached)
+        step = off - reached
         worst = int(np.argmax(step))
         if step[worst] > SEEN:
             x, y = places[worst].tolist()
