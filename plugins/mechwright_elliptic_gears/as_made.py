@@ -71,10 +71,14 @@ class MadePair:
 
     @cached_property
     def disagreement(self) -> float:
-        """By how much both ways differ at most, as a share of the greatest play."""
+        """By how much both ways differ at most, as a share of the greatest play.
+
+        Where that is less than what walls within tolerance make of it, of that.
+        """
         ahead, behind = self.gaps.play()
         off = max(np.abs(ahead - self.mesh.ahead).max(), np.abs(behind - self.mesh.behind).max())
-        return float(off / np.abs(np.concatenate((ahead, behind))).max())
+        lever = float(np.abs(self.gaps.lever).min())
+        return float(off / max(np.abs(np.concatenate((ahead, behind))).max(), LEFT / lever))
 
     def spare(self, off_centre: float, more: float = 0.0) -> Array:
         """What is left of the play (n,), rad, in the worst of the corridor and with the axes off, mm.
