@@ -3,14 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, Stage, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import MadePart, Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -56,7 +56,7 @@ class EllipticGears(Family[EllipticGearParams]):
 
         return cut_findings(params, cut)
 
-    def as_made(self, params: EllipticGearParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+    def as_made(self, params: EllipticGearParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Play, transmission error and backlash of each pair, and whether it jams."""
         from mechwright_elliptic_gears.as_made import as_made
 

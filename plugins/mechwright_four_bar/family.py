@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright import MadePart, Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis
 
 
 class FourBars(Family[FourBarParams]):
@@ -46,7 +46,7 @@ class FourBars(Family[FourBarParams]):
         refuse(findings(params))
         return parts_of(params)
 
-    def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+    def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
         from mechwright_four_bar.as_made import as_made
 

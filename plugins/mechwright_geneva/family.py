@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, Stage, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
 
 if TYPE_CHECKING:
-    from mechwright import MadePart, Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis
 
 
 class Geneva(Family[GenevaParams]):
@@ -46,7 +46,7 @@ class Geneva(Family[GenevaParams]):
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
-    def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+    def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Roller in its slot, error of the wheel in motion, and the lock."""
         from mechwright_geneva.as_made import as_made
 

@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, refuse
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import MadePart, Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -49,7 +49,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         refuse(findings(params))
         return parts_of(params)
 
-    def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+    def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the slider, and its play in the guide."""
         from mechwright_slider_crank.as_made import as_made
 

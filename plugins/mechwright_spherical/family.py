@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import AsMade, Family, Finding, Parameters, Progress, Synthesis, refuse
+from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import MadePart, Motion, Part
+    from mechwright import AsMade, MadePart, Motion, Part
 
 
 class Spherical(Family[SphericalParams]):
@@ -49,7 +49,7 @@ class Spherical(Family[SphericalParams]):
         refuse(findings(params))
         return parts_of(params)
 
-    def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> AsMade:
+    def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the output, in angles, from the bores of flat strips."""
         from mechwright_spherical.as_made import as_made
 

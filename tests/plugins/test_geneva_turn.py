@@ -11,7 +11,7 @@ from geneva_turn import prove
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import Stage, errors
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.family import Geneva
@@ -137,7 +137,7 @@ def tables(draw):
 @given(tables())
 def test_a_design_that_check_calls_clean_has_no_overlap(table):
     params = GenevaParams(**table)
-    assume(not errors(Geneva().check(params)))
+    assume(not errors(Geneva().check(params), Stage.PARTS))
     m = mechanism_of(params)
     proof = prove(m, Geneva().parts(params))
     assert proof.clean, proof

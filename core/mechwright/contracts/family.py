@@ -4,7 +4,6 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
-from mechwright.contracts.as_made import AsMade
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
@@ -12,6 +11,7 @@ from mechwright.contracts.plugin import Plugin
 if TYPE_CHECKING:
     import shapely
 
+    from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
@@ -95,7 +95,7 @@ class Family(Plugin, Generic[P]):
         self,
         params: P,  # noqa: ARG002 - used by families whose parts mate
         made: "Mapping[str, Sequence[MadePart]]",  # noqa: ARG002
-    ) -> AsMade:
+    ) -> "AsMade":
         """Say how the mechanism runs with parts as their programs leave them.
 
         Parameters
@@ -113,6 +113,8 @@ class Family(Plugin, Generic[P]):
             an error where it cannot be put together or does not turn, whose remedy has been tried. The
             default says nothing.
         """
+        from mechwright.contracts.as_made import AsMade
+
         return AsMade()
 
     def synthesise(
