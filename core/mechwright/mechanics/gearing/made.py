@@ -15,7 +15,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
@@ -131,6 +130,8 @@ def signed_depth(outline: Array, points: Array) -> Array:
     >>> signed_depth(square, np.array([[1.0, 2.0], [5.0, 2.0]])).tolist()
     [1.0, -1.0]
     """
+    import shapely
+
     edges = shapely.linestrings(np.stack((outline, np.roll(outline, -1, axis=0)), axis=1))
     _, distance = shapely.STRtree(edges).query_nearest(
         shapely.points(points), return_distance=True, all_matches=False
