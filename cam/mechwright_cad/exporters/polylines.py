@@ -39,7 +39,9 @@ def polylines(
         space = document.modelspace()
         for name, rings in layers.items():
             for ring in rings:
-                space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": name})
+                drawn = space.add_lwpolyline([], close=True, dxfattribs={"layer": name})
+                # All points at once, without widths and bulges: one by one takes time in their square.
+                drawn.lwpoints.extend(np.column_stack((ring, np.zeros((len(ring), 3)))).tolist())
         for (x, y), words in marks:
             space.add_circle((x, y), MARK, dxfattribs={"layer": "MARK"})
             note = space.add_text(words, height=TEXT_HEIGHT / 2, dxfattribs={"layer": "MARK"})

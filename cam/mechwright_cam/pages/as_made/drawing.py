@@ -5,9 +5,10 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart
+from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters.polylines import polylines
 
-FINE = 2e-4
+FINE = TOLERANCES.flatten / 2
 """Chord error of the polylines, mm."""
 DIGITS = 5
 """Decimals of coordinates, mm."""
