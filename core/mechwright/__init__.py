@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
     from mechwright.contracts.table import Table
+    from mechwright.contracts.tolerance_settings import Tolerances
+    from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
     from mechwright.designs.design import Design
     from mechwright.errors import (
         DesignError,
@@ -64,6 +66,8 @@ _HOMES = {
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
     "mechwright.contracts.table": "Table",
+    "mechwright.contracts.tolerance_settings": "Tolerances",
+    "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
     "mechwright.designs.design": "Design",
     "mechwright.errors": (
         "DesignError GeometryError KinematicsError MechwrightError OutputError PluginError ProgramError "
@@ -92,6 +96,7 @@ __all__ = [
     "Channel",
     "Colour",
     "Command",
+    "Contributor",
     "Design",
     "DesignError",
     "Detail",
@@ -112,6 +117,7 @@ __all__ = [
     "Motion",
     "OpenProfile",
     "Outline",
+    "Output",
     "OutputError",
     "Page",
     "Parameters",
@@ -132,9 +138,12 @@ __all__ = [
     "Synthesis",
     "Table",
     "Thread",
+    "ToleranceModel",
+    "Tolerances",
     "ToolError",
     "Trace",
     "Wanted",
+    "Zone",
     "__version__",
     "at_stage",
     "circle",

@@ -8,7 +8,7 @@ from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class FourBars(Family[FourBarParams]):
@@ -45,6 +45,12 @@ class FourBars(Family[FourBarParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the follower's angle and of the coupler point, from links and pins."""
+        from mechwright_four_bar.tolerances import FourBarTolerances
+
+        return FourBarTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

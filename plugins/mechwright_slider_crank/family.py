@@ -8,7 +8,7 @@ from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -48,6 +48,12 @@ class SliderCrankFamily(Family[SliderCrankParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def tolerances(self, params: SliderCrankParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the slider's position and of the coupler point, from links, pins and guide."""
+        from mechwright_slider_crank.tolerances import SliderCrankTolerances
+
+        return SliderCrankTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
