@@ -8,7 +8,7 @@ from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part
+    from mechwright import Motion, Part, ToleranceModel, Tolerances
 
 
 class Spherical(Family[SphericalParams]):
@@ -48,6 +48,12 @@ class Spherical(Family[SphericalParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def tolerances(self, params: SphericalParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the output angle and of the path point, from arcs and pins."""
+        from mechwright_spherical.tolerances import SphericalTolerances
+
+        return SphericalTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress
