@@ -10,7 +10,7 @@ from mechwright_elliptic_gears.requirements import REQUIREMENTS
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -55,6 +55,12 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.cut import cut_findings
 
         return cut_findings(params, cut)
+
+    def tolerances(self, params: EllipticGearParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Play and transmission error, from walls, centre distances and run-out."""
+        from mechwright_elliptic_gears.tolerances import GearTolerances
+
+        return GearTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

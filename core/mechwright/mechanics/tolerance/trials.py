@@ -13,6 +13,9 @@ from mechwright.mechanics.tolerance.proportion import Share, share_of
 _CHUNK = 20_000
 """Mechanisms at a time: an array of them is 160 kB."""
 
+_BLOCK = 5000
+"""Mechanisms at a time over a whole turn."""
+
 _TURN = 90
 """Positions of a turn in which a mechanism is looked at where a figure of the whole turn is asked for: every
 4°, where a play that goes like a cosine is within 0.06 % of its extremes."""
@@ -104,12 +107,28 @@ def _values(
     whole = [name for name in outputs if wanted[name] is None]
     if whole:
         turn = model.positions[:: max(1, (model.positions.size - 1) // _TURN)]
-        errors = model.errors([one[..., None] for one in deviations], turn)
-        nominal = model.nominal(turn)
-        for name in whole:
-            values = nominal[name][:, None] + errors[name]
-            least = values.min(axis=-1)
-            yield name, least if outputs[name].figure == "least" else values.max(axis=-1) - least
+        blocks = [
+            _figures(model, outputs, whole, [one[:, start : start + _BLOCK] for one in deviations], turn)
+            for start in range(0, deviations[0].shape[1], _BLOCK)
+        ]
+        yield from ((name, np.concatenate([block[name] for block in blocks])[None]) for name in whole)
+
+
+def _figures(
+    model: ToleranceModel,
+    outputs: dict[str, Output],
+    names: list[str],
+    deviations: list[Array],
+    turn: Array,
+) -> dict[str, Array]:
+    """Figures (k,) of the whole turn, by output."""
+    errors, nominal = model.errors([one[..., None] for one in deviations], turn), model.nominal(turn)
+    found = {}
+    for name in names:
+        values = nominal[name][0] + errors[name][0]
+        least = values.min(axis=-1)
+        found[name] = least if outputs[name].figure == "least" else values.max(axis=-1) - least
+    return found
 
 
 def _trial(output: Output, values: Array, at: float | None, limit: float | None) -> Trial:
