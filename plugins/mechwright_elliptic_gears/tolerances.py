@@ -12,7 +12,7 @@ is greatest less least of one of them over a turn. Teeth that stand off their bo
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -103,46 +103,46 @@ class GearTolerances(ToleranceModel):
         self.contributors = tuple(one for pair in pairs for one in pair.contributors(tolerances))
         self.outputs = (PLAY, ERROR) if self.phase is None else (FIRST, AHEAD, BEHIND, ERROR)
 
-    def nominal(self, at: Array) -> dict[str, Array]:
-        """Plays, rad, with the backlash of the design and nothing else."""
-        return {name: rows[NOMINAL] for name, rows in self._rows(at).items()}
+    def nominal(self, output: str, at: Array) -> Array:
+        """A play, rad, with the backlash of the design and nothing else."""
+        return self._rows(output, at)[NOMINAL]
 
-    def sensitivities(self, at: Array) -> dict[str, list[Array]]:
+    def sensitivities(self, output: str, at: Array) -> list[Array]:
         """Formulas of the module."""
-        found: dict[str, list[Array]] = {}
-        for name, rows in self._rows(at).items():
-            parts = [rows.get(one.name, np.zeros((one.components, *at.shape))) for one in self.contributors]
-            found[name] = [part[None] for part in parts]
-        return found
+        rows = self._rows(output, at)
+        return [rows.get(one.name, np.zeros((one.components, *at.shape)))[None] for one in self.contributors]
 
-    def errors(self, deviations: Sequence[Array], at: Array) -> Mapping[str, Array]:
+    def errors(self, output: str, deviations: Sequence[Array], at: Array) -> Array:
         """Formulas of the module: what they leave out is of second order, 2 µrad at 20 µm."""
         named = {one.name: value for one, value in zip(self.contributors, deviations, strict=True)}
-        found = {}
-        for name, rows in self._rows(at).items():
-            own = [one for one in rows if one != NOMINAL]
-            rates = np.concatenate([rows[one] for one in own])
-            values = np.concatenate([named[one] for one in own])
-            if values.shape[-1] == 1 < values.ndim and rates.ndim == values.ndim - 1:
-                found[name] = (values[..., 0].T @ rates)[None]  # every mechanism in every position
-            else:
-                found[name] = np.einsum("m...,m...->...", rates, values)[None]
-        return found
+        rows = self._rows(output, at)
+        own = [one for one in rows if one != NOMINAL]
+        rates = np.concatenate([rows[one] for one in own])
+        values = np.concatenate([named[one] for one in own])
+        if values.shape[-1] == 1 < values.ndim and rates.ndim == values.ndim - 1:
+            return np.asarray(values[..., 0].T @ rates)[None]  # every mechanism in every position
+        return np.asarray(sum(rate * value for rate, value in zip(rates, values, strict=True)))[None]
 
-    def _rows(self, at: Array) -> dict[str, Rows]:
-        """Outputs at input angles (...)."""
+    def _rows(self, output: str, at: Array) -> Rows:
+        """An output at input angles (...)."""
+        e, first, second = self.first.eccentricity, self.first, self.second
+        three, *more = (
+            [driven(Turning.of(at), e)] if self.phase is None else train(Turning.of(at), e, self.phase)
+        )
+        ahead = first.side(at, three.theta, 1)
+        if output in {PLAY.name, FIRST.name}:
+            return _sum(ahead, first.side(at, three.theta, -1))
         if self.phase is None:
-            mate = driven(Turning.of(at), self.first.eccentricity).theta
-            ahead, behind = self.first.side(at, mate, 1), self.first.side(at, mate, -1)
-            return {PLAY.name: _sum(ahead, behind), ERROR.name: ahead}
-        three, four, five = train(Turning.of(at), self.first.eccentricity, self.phase)
-        ahead, behind = self.first.side(at, three.theta, 1), self.first.side(at, three.theta, -1)
+            return ahead
+        four, five = more
         # Gear 4 turns the other way than gear 2, so the flank that drives is the other one.
-        other = {side: self.second.side(four.theta, five.theta, side) for side in (1, -1)}
-        carried = -ratio(np.cos(four.theta), self.second.eccentricity)
-        error = _sum({name: carried * rate for name, rate in ahead.items()}, other[-1])
-        plays = {FIRST.name: _sum(ahead, behind), AHEAD.name: other[-1], BEHIND.name: other[1]}
-        return {**plays, ERROR.name: error}
+        if output == BEHIND.name:
+            return second.side(four.theta, five.theta, 1)
+        other = second.side(four.theta, five.theta, -1)
+        if output == AHEAD.name:
+            return other
+        carried = -ratio(np.cos(four.theta), e)
+        return _sum({name: carried * rate for name, rate in ahead.items()}, other)
 
 
 def _sum(one: Rows, two: Rows) -> Rows:

@@ -14,7 +14,7 @@ so that all four shift the ground vector. To first order, with N = b sin(σ - ψ
 A pin's displacement of any joint is an error of the coupler's length. N = 0 is a toggle.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -58,19 +58,17 @@ class FourBarTolerances(ToleranceModel):
         self.contributors = (*sizes, *pins, *point, *angle)
         self.outputs = (FOLLOWER,) if self.place is None else (FOLLOWER, POINT)
 
-    def nominal(self, at: Array) -> dict[str, Array]:
-        """The follower's angle; the coupler point."""
-        crank, u, w = self._closed(np.zeros(8), 0j, at)
-        found = {FOLLOWER.name: np.angle(w)[None]}
-        if self.place is not None:
-            point = self.bar.crank * crank + self.place * u
-            found[POINT.name] = np.stack([point.real, point.imag])
-        return found
+    def nominal(self, output: str, at: Array) -> Array:
+        """The follower's angle, rad; the coupler point from A0, mm."""
+        crank, u, w = self._closed(np.zeros(4), 0j, at)
+        if self.place is None or output == FOLLOWER.name:
+            return np.angle(w)[None]
+        return components(self.bar.crank * crank + self.place * u)
 
-    def sensitivities(self, at: Array) -> dict[str, list[Array]]:
+    def sensitivities(self, output: str, at: Array) -> list[Array]:
         """Formulas of the module."""
         a, b, c = self.bar.crank, self.bar.follower, self.bar.coupler
-        crank, u, w = self._closed(np.zeros(8), 0j, at)
+        crank, u, w = self._closed(np.zeros(4), 0j, at)
         ground = np.exp(1j * np.full(at.shape, self.bar.ground_angle))
         along, one = np.ones(at.shape, dtype=complex), 1j
         # What each deviation adds to the left side of the loop, per unit; those of a pin along and across u.
@@ -84,12 +82,9 @@ class FourBarTolerances(ToleranceModel):
         with np.errstate(divide="ignore", invalid="ignore"):
             sine = (u * np.conj(w)).imag
             rate = np.where(np.abs(sine) > _TOGGLE, 1 / sine, np.nan)
-        psi = [[_dot(u, d) * rate / b for d in row] for row in steps]
-        found = {FOLLOWER.name: [np.stack(row)[None] for row in psi]}
-        if self.place is not None:
-            sigma = [[_dot(w, d) * rate / c for d in row] for row in steps]
-            found[POINT.name] = self._point(steps, sigma, u)
-        return found
+        if output == FOLLOWER.name:
+            return [np.stack([_dot(u, d) * rate / b for d in row])[None] for row in steps]
+        return self._point(steps, [[_dot(w, d) * rate / c for d in row] for row in steps], u)
 
     def _point(self, steps: list[list[Plane]], sigma: list[list[Array]], u: Plane) -> list[Array]:
         assert self.place is not None  # noqa: S101 - there is no such output else
@@ -102,30 +97,22 @@ class FourBarTolerances(ToleranceModel):
                 1j * self.place * u * rate + (d if name in direct else 0) + own.get(name, 0)
                 for d, rate in zip(row, turn, strict=True)
             ]
-            found.append(np.stack([np.stack([d.real for d in moved]), np.stack([d.imag for d in moved])]))
+            found.append(components(np.stack(moved)))
         return found
 
-    def errors(self, deviations: Sequence[Array], at: Array) -> Mapping[str, Array]:
+    def errors(self, output: str, deviations: Sequence[Array], at: Array) -> Array:
         """The loop closed anew."""
         named = {one.name: value for one, value in zip(self.contributors, deviations, strict=True)}
-        crank, u, w = self._closed(np.zeros(8), 0j, at)
+        crank, u, w = self._closed(np.zeros(4), 0j, at)
         pins = [_plane(named[name]) * u for name in JOINTS]
         turned = at + named["input"][0] if "input" in named else at
         sizes = [named[name][0] for name in LINKS]
         moved, s, p = self._closed(sizes, pins[0] + pins[1] + pins[2] - pins[3], turned)
-        found = {FOLLOWER.name: np.angle(p * np.conj(w))[None]}
-        if self.place is not None:
-            place = self.place + named["point-along"][0] + 1j * named["point-across"][0]
-            error = (
-                pins[0]
-                + pins[1]
-                + (self.bar.crank + sizes[0]) * moved
-                - self.bar.crank * crank
-                + place * s
-                - self.place * u
-            )
-            found[POINT.name] = np.stack([error.real, error.imag])
-        return found
+        if self.place is None or output == FOLLOWER.name:
+            return np.angle(p * np.conj(w))[None]
+        place = self.place + named["point-along"][0] + 1j * named["point-across"][0]
+        start = pins[0] + pins[1] + (self.bar.crank + sizes[0]) * moved - self.bar.crank * crank
+        return components(start + place * s - self.place * u)
 
     def _closed(
         self, sizes: Sequence[Array] | Array, shift: Plane | complex, at: Array
@@ -141,6 +128,11 @@ class FourBarTolerances(ToleranceModel):
 
 _TOGGLE = 1e-6
 """Sine of the angle at B below which a first order says nothing: errors there go with the square root."""
+
+
+def components(z: Plane) -> Array:
+    """Both coordinates (2, ...) of points or displacements of the plane."""
+    return np.stack([z.real, z.imag])
 
 
 def _dot(a: Plane, b: Plane) -> Array:

@@ -8,7 +8,7 @@ from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class Geneva(Family[GenevaParams]):
@@ -45,6 +45,12 @@ class Geneva(Family[GenevaParams]):
 
         refuse(findings(params))
         return parts_of(params)
+
+    def tolerances(self, params: GenevaParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the wheel's angle, and its plays in the slot and in the lock."""
+        from mechwright_geneva.tolerances import GenevaTolerances
+
+        return GenevaTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

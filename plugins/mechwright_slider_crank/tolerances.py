@@ -15,7 +15,7 @@ and to first order
 Re(u) = 0, the rod across the slide, is a toggle.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -68,14 +68,15 @@ class SliderCrankTolerances(ToleranceModel):
         )
         self.outputs = (SLIDER, POINT)
 
-    def nominal(self, at: Array) -> dict[str, Array]:
-        """The slider's position, and the coupler point from A0, mm."""
+    def nominal(self, output: str, at: Array) -> Array:
+        """The slider's position, or the coupler point from A0, mm."""
         crank, u = self._closed(at, 0.0, 0.0, 0.0, 0.0, 0j)
-        slider = self.link.crank * crank + self.link.rod * u
-        point = (self.link.crank * crank + self.place * u) * np.exp(1j * self.link.direction)
-        return {SLIDER.name: slider.real[None], POINT.name: np.stack([point.real, point.imag])}
+        start = self.link.crank * crank
+        if output == SLIDER.name:
+            return np.asarray((start + self.link.rod * u).real)[None]
+        return self._fixed(start + self.place * u)
 
-    def sensitivities(self, at: Array) -> dict[str, list[Array]]:
+    def sensitivities(self, output: str, at: Array) -> list[Array]:
         """Formulas of the module."""
         link = self.link
         crank, u = self._closed(at, 0.0, 0.0, 0.0, 0.0, 0j)
@@ -97,21 +98,22 @@ class SliderCrankTolerances(ToleranceModel):
             "point-across": [(none, none, none, none, 1j * u)],
             "input": [(1j * link.crank * crank, none, none, none, none)],
         }
-        slider, point = [], []
+        found = []
         for one in self.contributors:
-            moved, turned = [], []
+            moved: list[Plane] = []
             for start, shift, length, line, place in named[one.name][: one.components]:
-                loop = start + shift
-                along = (np.conj(u) * loop).real
-                moved.append((length.real + along - u.imag * line.real) * inverse)
-                turn = (line.real - loop.imag - u.imag * length.real) * inverse / link.rod
-                turned.append(start + 1j * self.place * u * turn + place)
-            slider.append(np.stack(moved)[None])
-            fixed = np.stack(turned) * np.exp(1j * link.direction)
-            point.append(np.stack([fixed.real, fixed.imag]))
-        return {SLIDER.name: slider, POINT.name: point}
+                if output == SLIDER.name:
+                    along = (np.conj(u) * (start + shift)).real
+                    moved.append((length.real + along - u.imag * line.real) * inverse + none)
+                else:
+                    across = (start + shift).imag + u.imag * length.real
+                    turn = (line.real - across) * inverse / link.rod
+                    moved.append(start + 1j * self.place * u * turn + place)
+            row = np.stack(moved)
+            found.append(row.real[None] if output == SLIDER.name else self._fixed(row))
+        return found
 
-    def errors(self, deviations: Sequence[Array], at: Array) -> Mapping[str, Array]:
+    def errors(self, output: str, deviations: Sequence[Array], at: Array) -> Array:
         """The loop closed anew."""
         named = {one.name: value for one, value in zip(self.contributors, deviations, strict=True)}
         link = self.link
@@ -121,10 +123,15 @@ class SliderCrankTolerances(ToleranceModel):
         turned = at + named["input"][0] if "input" in named else at
         moved, s = self._closed(turned, a, c, e, g, sum(pins))
         start = pins[0] + pins[1] + (link.crank + a) * moved - link.crank * crank
-        slider = start + pins[2] + (link.rod + c) * s - link.rod * u
+        if output == SLIDER.name:
+            return np.asarray((start + pins[2] + (link.rod + c) * s - link.rod * u).real)[None]
         place = self.place + named["point-along"][0] + 1j * named["point-across"][0]
-        point = (start + place * s - self.place * u) * np.exp(1j * link.direction)
-        return {SLIDER.name: slider.real[None], POINT.name: np.stack([point.real, point.imag])}
+        return self._fixed(start + place * s - self.place * u)
+
+    def _fixed(self, z: Plane) -> Array:
+        """Both coordinates (2, ...) in the fixed frame."""
+        turned = z * np.exp(1j * self.link.direction)
+        return np.stack([turned.real, turned.imag])
 
     def _closed(
         self,

@@ -81,36 +81,34 @@ class SphericalTolerances(ToleranceModel):
         self.contributors = (*arcs, *pins, *tolerances.input("input-angle"))
         self.outputs = (ANGLE, POINT) if four_bar else (POINT,)
 
-    def nominal(self, at: Array) -> dict[str, Array]:
-        """Output angle of a four-bar, from the prolongation of the ground; path point, mm."""
+    def nominal(self, output: str, at: Array) -> Array:
+        """Output angle of a four-bar, rad, from the prolongation of the ground; path point, mm."""
         a, b, c = self._pins(at, {}, {})
-        found = {POINT.name: self.radius * self._point(a, c)}
-        if ANGLE in self.outputs:
-            found[ANGLE.name] = self._angle(b, c, 0.0)[None]
-        return found
+        if output == ANGLE.name:
+            return self._angle(b, c, 0.0)[None]
+        return self.radius * self._point(a, c)
 
-    def sensitivities(self, at: Array) -> dict[str, list[Array]]:
+    def sensitivities(self, output: str, at: Array) -> list[Array]:
         """Formulas of the module."""
         a, b, c = self._pins(at, {}, {})
         along, across = _tangents(a, c, c)
         volume = dot(c, cross(a, b))
         with np.errstate(divide="ignore", invalid="ignore"):
             inverse = np.where(np.abs(volume) > _DEAD, 1 / volume, np.nan)
-        found: dict[str, list[Array]] = {one.name: [] for one in self.outputs}
+        found = []
         for one in self.contributors:
-            columns: dict[str, list[Array]] = {name: [] for name in found}
+            moved = []
             for da, db, dc3, dc4, v, dg in self._steps(one.name, a, b, c, along, across)[: one.components]:
-                moved = inverse * (
-                    (dc3 - dot(v, a) - dot(c, da)) * cross(b, c) + (dc4 - dot(c, db)) * cross(c, a)
-                )
-                columns[POINT.name].append(self.radius * self._point_rate(a, c, da, moved + v))
-                if ANGLE in self.outputs:
-                    columns[ANGLE.name].append(self._angle_rate(b, c, moved, dg)[None])
-            for name, rows in columns.items():
-                found[name].append(np.stack(rows, axis=1))
+                to_a, to_b = dc3 - dot(v, a) - dot(c, da), dc4 - dot(c, db)
+                dc = inverse * (to_a * cross(b, c) + to_b * cross(c, a))
+                if output == ANGLE.name:
+                    moved.append(self._angle_rate(b, c, dc, dg)[None])
+                else:
+                    moved.append(self.radius * self._point_rate(a, c, da, dc + v))
+            found.append(np.stack(moved, axis=1))
         return found
 
-    def errors(self, deviations: Sequence[Array], at: Array) -> Mapping[str, Array]:
+    def errors(self, output: str, deviations: Sequence[Array], at: Array) -> Array:
         """The loop closed anew."""
         named = {one.name: value for one, value in zip(self.contributors, deviations, strict=True)}
         arcs = {key: named[name][0] for key, name in self.names.items()}
@@ -124,11 +122,9 @@ class SphericalTolerances(ToleranceModel):
             for tangent, size in zip(tangents, named[name], strict=False):
                 shifts[place] = shifts[place] + size * tangent / self.radius
         a2, b2, c2 = self._pins(turned, arcs, shifts)
-        error = self._point(a2, _unit(c2 + shifts["c"])) - self._point(a, c)
-        found = {POINT.name: self.radius * error}
-        if ANGLE in self.outputs:
-            found[ANGLE.name] = _turned(self._angle(b2, c2, arcs["ground"]) - self._angle(b, c, 0.0))[None]
-        return found
+        if output == ANGLE.name:
+            return _turned(self._angle(b2, c2, arcs["ground"]) - self._angle(b, c, 0.0))[None]
+        return self.radius * (self._point(a2, _unit(c2 + shifts["c"])) - self._point(a, c))
 
     def _steps(
         self, name: str, a: Array, b: Array, c: Array, along: Array, across: Array

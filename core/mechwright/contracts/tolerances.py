@@ -16,7 +16,7 @@ sensitivity
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -147,7 +147,7 @@ class Contributor:
         return (radius**2 + spread / 4) / self.directions
 
 
-Figure = Literal["at", "least", "spread"]
+Figure = Literal["at", "least", "steady", "spread"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,13 +164,18 @@ class Output:
         Numbers that make it up: 1, or 2 or 3 for the error of a point, whose length is judged.
     figure
         ``"at"``: the error in one position. ``"least"``: the least value of a turn, which has to stay above
-        0, as a play has. ``"spread"``: greatest less least value of a turn, as a transmission error is.
+        0, as a play has; ``"steady"``: the same of a value that does not change over the turn. ``"spread"``: greatest less least value of a turn, as a transmission error is.
     """
 
     name: str
     unit: str
     components: int = 1
     figure: Figure = "at"
+
+    @property
+    def stays_above(self) -> bool:
+        """Whether it is a value that has to stay above 0."""
+        return self.figure in {"least", "steady"}
 
 
 class ToleranceModel(ABC):
@@ -190,16 +195,16 @@ class ToleranceModel(ABC):
     """What an engineer has to know besides, a sentence each: positions in which the first order fails."""
 
     @abstractmethod
-    def nominal(self, at: Array) -> Mapping[str, Array]:
-        """Output name to its nominal value (c, ...); what has no natural zero may give zeros."""
+    def nominal(self, output: str, at: Array) -> Array:
+        """The nominal value (c, ...) of an output."""
 
     @abstractmethod
-    def sensitivities(self, at: Array) -> Mapping[str, Sequence[Array]]:
-        """Output name to an array (c, m, ...) for each contributor: the exact first derivatives.
+    def sensitivities(self, output: str, at: Array) -> Sequence[Array]:
+        """The exact first derivatives of an output: an array (c, m, ...) for each contributor.
 
         NaN where there are none, such as in a dead centre; ``told`` says so.
         """
 
     @abstractmethod
-    def errors(self, deviations: Sequence[Array], at: Array) -> Mapping[str, Array]:
-        """Output name to its exact error (c, ...); NaN where the mechanism cannot be assembled."""
+    def errors(self, output: str, deviations: Sequence[Array], at: Array) -> Array:
+        """The exact error (c, ...) of an output; NaN where the mechanism cannot be assembled."""

@@ -92,7 +92,7 @@ def check_keys(model: ToleranceModel, tolerances: Tolerances) -> None:
                 f"tolerances.of.{name}: there is no such contributor; known: {', '.join(names)}"
             )
     used = {key for one in model.contributors for key in one.key.split()} | {"samples", "seed"}
-    used |= {f"limit_{_KIND[one.unit]}" for one in model.outputs if one.figure != "least"}
+    used |= {f"limit_{_KIND[one.unit]}" for one in model.outputs if not one.stays_above}
     if any(one.figure == "at" for one in model.outputs):
         used.add("at")
     defaults = type(tolerances.settings)()
@@ -140,7 +140,7 @@ def _rounds(
 def _limit(tolerances: Tolerances, model: ToleranceModel, name: str) -> float | None:
     (output,) = (one for one in model.outputs if one.name == name)
     settings = tolerances.settings
-    if output.figure == "least":
+    if output.stays_above:
         return 0.0
     if output.unit == "mm":
         return settings.limit_length

@@ -68,8 +68,8 @@ class Place:
 
 def band(model: ToleranceModel, output: Output, at: Array) -> Band:
     """First order over positions (n,); NaN where there is none."""
-    row = model.sensitivities(at)[output.name]
-    nominal = np.zeros(at.shape) if output.figure == "at" else model.nominal(at)[output.name][0]
+    row = model.sensitivities(output.name, at)
+    nominal = np.zeros(at.shape) if output.figure == "at" else model.nominal(output.name, at)[0]
     sigma = np.sqrt(variances(model.contributors, row).sum(axis=0))
     if output.components > 1:
         return Band(nominal, np.zeros(at.shape), farthest(model.contributors, row), sigma)
@@ -80,8 +80,8 @@ def band(model: ToleranceModel, output: Output, at: Array) -> Band:
 def place_at(model: ToleranceModel, output: Output, at: float) -> Place:
     """First order in one position."""
     where = np.array(at)
-    row = model.sensitivities(where)[output.name]
-    nominal = 0.0 if output.figure == "at" else float(model.nominal(where)[output.name][0])
+    row = model.sensitivities(output.name, where)
+    nominal = 0.0 if output.figure == "at" else float(model.nominal(output.name, where)[0])
     return _place(model, output, row, nominal, (at,))
 
 
@@ -92,7 +92,7 @@ def worst_place(model: ToleranceModel, output: Output) -> Place | None:
 
     def badness(at: Array) -> Array:
         over = band(model, output, at)
-        return -over.low if output.figure == "least" else np.maximum(-over.low, over.high)
+        return -over.low if output.stays_above else np.maximum(-over.low, over.high)
 
     found = _greatest(badness, model.positions)
     return None if found is None else place_at(model, output, found)
@@ -114,8 +114,8 @@ def _greatest(badness: Callable[[Array], Array], positions: Array) -> float | No
 def _spread(model: ToleranceModel, output: Output) -> Place | None:
     """The pair of positions between which the value can differ most."""
     at = model.positions
-    row = model.sensitivities(at)[output.name]
-    nominal = model.nominal(at)[output.name][0]
+    row = model.sensitivities(output.name, at)
+    nominal = model.nominal(output.name, at)[0]
     differences = [part[..., :, None] - part[..., None, :] for part in row]
     high = nominal[:, None] - nominal[None, :] + limits(model.contributors, differences)[1]
     if not np.isfinite(high).any():

@@ -100,42 +100,36 @@ def _values(
     deviations: list[Array],
 ) -> Iterator[tuple[str, Array]]:
     """Errors or figures (c, k) of the mechanisms of one chunk, by output."""
-    places = {at for at in wanted.values() if at is not None}
-    for at in sorted(places):
-        errors = model.errors(deviations, np.array(at))
-        yield from ((name, errors[name]) for name in outputs if wanted[name] == at)
-    whole = [name for name in outputs if wanted[name] is None]
-    if whole:
-        turn = model.positions[:: max(1, (model.positions.size - 1) // _TURN)]
+    turn = model.positions[:: max(1, (model.positions.size - 1) // _TURN)]
+    for name, output in outputs.items():
+        at = wanted[name]
+        if at is not None:
+            yield name, model.errors(name, deviations, np.array(at))
+            continue
+        if output.figure == "steady":
+            at = float(turn[0])
+            yield name, model.nominal(name, np.array(at)) + model.errors(name, deviations, np.array(at))
+            continue
         blocks = [
-            _figures(model, outputs, whole, [one[:, start : start + _BLOCK] for one in deviations], turn)
+            _figure(model, output, [one[:, start : start + _BLOCK] for one in deviations], turn)
             for start in range(0, deviations[0].shape[1], _BLOCK)
         ]
-        yield from ((name, np.concatenate([block[name] for block in blocks])[None]) for name in whole)
+        yield name, np.concatenate(blocks)[None]
 
 
-def _figures(
-    model: ToleranceModel,
-    outputs: dict[str, Output],
-    names: list[str],
-    deviations: list[Array],
-    turn: Array,
-) -> dict[str, Array]:
-    """Figures (k,) of the whole turn, by output."""
-    errors, nominal = model.errors([one[..., None] for one in deviations], turn), model.nominal(turn)
-    found = {}
-    for name in names:
-        values = nominal[name][0] + errors[name][0]
-        least = values.min(axis=-1)
-        found[name] = least if outputs[name].figure == "least" else values.max(axis=-1) - least
-    return found
+def _figure(model: ToleranceModel, output: Output, deviations: list[Array], turn: Array) -> Array:
+    """The figure (k,) of the whole turn."""
+    errors = model.errors(output.name, [one[..., None] for one in deviations], turn)[0]
+    values = model.nominal(output.name, turn)[0] + errors
+    least: Array = values.min(axis=-1)
+    return least if output.figure == "least" else values.max(axis=-1) - least
 
 
 def _trial(output: Output, values: Array, at: float | None, limit: float | None) -> Trial:
     count = values.shape[1]
     values = values[:, np.isfinite(values).all(axis=0)]
     apart = count - values.shape[1]
-    least = output.figure == "least"
+    least = output.stays_above
     limit = 0.0 if least else limit
     if not values.size:
         none = (float("nan"),) * 6
