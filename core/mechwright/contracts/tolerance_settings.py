@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from mechwright.contracts.general_tolerances import Grade, general_angle, general_eccentricity, general_length
 from mechwright.contracts.pairs import Pair, grade, pair_of
@@ -19,6 +19,15 @@ Plus = Annotated[float, Field(ge=0, le=10), Unit("mm")]
 Angle = Annotated[float, Field(ge=0, le=10), Unit("deg")]
 Position = Annotated[float, Field(ge=-720, le=720), Unit("deg")]
 Bound = Annotated[float, Field(gt=0, le=1000), Unit("mm")]
+
+
+def _fit(text: str) -> str:
+    """Refuse what is no fit, whatever the size."""
+    pair_of(1.0, text)
+    return text
+
+
+FitName = Annotated[str, Field(max_length=20), AfterValidator(_fit)]
 Quantity = float | str
 """A number in the contributor's own unit, mm or degrees, or a text with a unit."""
 
@@ -53,8 +62,8 @@ class ToleranceSettings(Parameters):
         TOLERANCES.leftover, description="Thickest stock left on a wall: what the proof lets pass."
     )
     input: Degrees = Field(0.0, ge=0, le=10, description="Of the input angle, plus and minus.")
-    fit: str | None = Field(
-        None, max_length=20, description='ISO 286 fit of all pins, such as "H7/g6"; left out, the design\'s.'
+    fit: FitName | None = Field(
+        None, description='ISO 286 fit of all pins, such as "H7/g6"; left out, the design\'s.'
     )
     clearance: Annotated[float, Field(ge=0, le=5), Unit("mm")] | None = Field(
         None, description="Clearance of all pins, on the diameter, the same in each; in the place of a fit."
@@ -85,7 +94,7 @@ class OwnTolerance(Parameters):
 
     lower: Quantity | None = Field(None, description="Least deviation, or least clearance of a pin.")
     upper: Quantity | None = Field(None, description="Greatest deviation, or greatest clearance of a pin.")
-    fit: str | None = Field(None, max_length=20, description="ISO 286 fit of a pin.")
+    fit: FitName | None = Field(None, description="ISO 286 fit of a pin.")
     distribution: Distribution | None = Field(None, description="Within these limits.")
 
 

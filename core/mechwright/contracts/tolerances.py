@@ -164,7 +164,8 @@ class Output:
         Numbers that make it up: 1, or 2 or 3 for the error of a point, whose length is judged.
     figure
         ``"at"``: the error in one position. ``"least"``: the least value of a turn, which has to stay above
-        0, as a play has; ``"steady"``: the same of a value that does not change over the turn. ``"spread"``: greatest less least value of a turn, as a transmission error is.
+        0, as a play has; ``"steady"``: the same of a value that does not change over the turn. ``"spread"``:
+        greatest less least value of a turn, as a transmission error is.
     """
 
     name: str

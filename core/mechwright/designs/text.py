@@ -41,7 +41,7 @@ def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
         f"name = {toml(name)}",
     ]
     for table in tables:
-        lines += ["", *table]
+        lines += ["", *table] if table else []
     return "\n".join(lines) + "\n"
 
 
