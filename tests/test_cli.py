@@ -161,6 +161,7 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
         [
             "motion.csv",
             "motion.html",
+            "tolerances.html",
             "summary.json",
             "gear.step",
             "assembly.step",

@@ -23,7 +23,10 @@ Bound = Annotated[float, Field(gt=0, le=1000), Unit("mm")]
 
 def _fit(text: str) -> str:
     """Refuse what is no fit, whatever the size."""
-    pair_of(1.0, text)
+    try:
+        pair_of(1.0, text)
+    except DesignError as error:
+        raise ValueError(str(error).removeprefix(f"{text!r} ")) from error
     return text
 
 

@@ -52,8 +52,8 @@ def plot(analysis: Analysis, result: Result) -> Plot | None:
     scale = 1e3
     low, high = scale * band.low, scale * band.high
     middle = scale * band.nominal
-    sigma_low = np.maximum(low, middle - scale * _SIGMAS * band.sigma)
-    sigma_high = np.minimum(high, middle + scale * _SIGMAS * band.sigma)
+    mean, spread = scale * band.mean, scale * _SIGMAS * band.sigma
+    sigma_low, sigma_high = np.maximum(low, mean - spread), np.minimum(high, mean + spread)
     if result.output.components > 1:
         sigma_low = np.zeros_like(low)
     top, bottom = float(high[good].max()), float(min(low[good].min(), 0.0))

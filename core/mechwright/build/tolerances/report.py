@@ -95,9 +95,9 @@ def order(result: Result, place: Place) -> str:
 def outcome(analysis: Analysis, output: Output, trial: Trial) -> list[str]:
     """What the mechanisms did, a line each."""
     unit, count = output.unit, f"{trial.samples:,}".replace(",", " ")
-    place = (
-        "over the turn" if trial.at is None else f"at {analysis.model.input_name} = {degrees(trial.at)} deg"
-    )
+    place = "in every position" if output.figure == "steady" else "over the turn"
+    if trial.at is not None:
+        place = f"at {analysis.model.input_name} = {degrees(trial.at)} deg"
     ends = f"{shown(trial.least, unit)} to {shown(trial.greatest, unit)}"
     said = [f"{count} mechanisms {place}: sigma {shown(trial.sigma, unit)}, {ends} {shown_unit(unit)}"]
     half = (shown(trial.half_95, unit), shown(trial.half_9973, unit))

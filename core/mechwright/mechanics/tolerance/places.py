@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.tolerances import Output, ToleranceModel
+from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel
 from mechwright.mechanics.tolerance.first_order import Row, farthest, limits, mean, variances
 
 _ZOOMS, _ZOOMED = 3, 41
@@ -23,6 +23,8 @@ class Band:
         (n,), of one component; 0 for an error.
     low, high
         Least and greatest value (n,); of a point 0 and the greatest distance.
+    mean
+        (n,): not the nominal one where zones do not lie evenly; of a point 0.
     sigma
         Standard deviation (n,) to first order; of a point the root of the mean square distance.
     """
@@ -30,6 +32,7 @@ class Band:
     nominal: Array
     low: Array
     high: Array
+    mean: Array
     sigma: Array
 
 
@@ -51,7 +54,7 @@ class Place:
         Standard deviation; of a point the root of the mean square distance from its mean.
     sensitivities
         By contributor, in units of the output per unit of the contributor: signed where both are numbers,
-        else the greatest of any direction.
+        else the size of the greatest of any direction.
     shares
         Of sigma², by contributor; they sum to 1.
     """
@@ -72,9 +75,11 @@ def band(model: ToleranceModel, output: Output, at: Array) -> Band:
     nominal = np.zeros(at.shape) if output.figure == "at" else model.nominal(output.name, at)[0]
     sigma = np.sqrt(variances(model.contributors, row).sum(axis=0))
     if output.components > 1:
-        return Band(nominal, np.zeros(at.shape), farthest(model.contributors, row), sigma)
+        none = np.zeros(at.shape)
+        return Band(nominal, none, farthest(model.contributors, row), none, sigma)
     low, high = limits(model.contributors, row)
-    return Band(nominal, nominal + low, nominal + high, sigma)
+    middle = nominal + mean(model.contributors, row)[0]
+    return Band(nominal, nominal + low, nominal + high, middle, sigma)
 
 
 def place_at(model: ToleranceModel, output: Output, at: float) -> Place:
@@ -142,13 +147,13 @@ def _place(model: ToleranceModel, output: Output, row: Row, nominal: float, at: 
         high,
         off,
         total**0.5,
-        tuple(_sensitivity(part) for part in row),
+        tuple(_sensitivity(one, part) for one, part in zip(contributors, row, strict=True)),
         tuple(float(part) / total if total > 0 else 0.0 for part in parts),
     )
 
 
-def _sensitivity(part: Array) -> float:
-    if part.shape[:2] == (1, 1):
+def _sensitivity(one: Contributor, part: Array) -> float:
+    if part.shape[:2] == (1, 1) and not one.directions:
         return float(part[0, 0])
     return float(np.linalg.norm(part, 2)) if np.isfinite(part).all() else float("nan")
 
