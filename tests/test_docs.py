@@ -36,6 +36,7 @@ CONTRACTS = (
     "mechwright.contracts.plugin",
     "mechwright.contracts.synthesis",
     "mechwright.contracts.table",
+    "mechwright.contracts.tolerances",
     "mechwright.errors",
     "mechwright.geometry",
     "mechwright.testing",

@@ -31,7 +31,6 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import HOOK_API
-from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
@@ -39,7 +38,7 @@ from mechwright.testing.compare import assert_derivative, assert_monotone, asser
 from mechwright.testing.imports import heavy_imports
 from mechwright.testing.results import difference
 from mechwright.testing.strategies import tables
-from mechwright.testing.tolerances import tolerance_faults
+from mechwright.testing.tolerances import ToleranceTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
 
@@ -47,7 +46,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract:
+class FamilyContract(ToleranceTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
@@ -246,14 +245,6 @@ class FamilyContract:
     def test_deterministic(self, design: Mapping[str, Any]) -> None:
         """The same parameters give the same result, whoever computed what before."""
         assert difference(self.family(), self.params(design), self.family(), self.params(design)) == ""
-
-    def test_tolerances(self, design: Mapping[str, Any]) -> None:
-        """Sensitivities, where there is a model of tolerances, are the derivatives of its exact errors."""
-        params = self.params(design)
-        model = self.family().tolerances(params, Tolerances())
-        if model is None:
-            pytest.skip("the family has no tolerance analysis")
-        _none(tolerance_faults(model))
 
     # Synthesis
 

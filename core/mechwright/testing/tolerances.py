@@ -1,8 +1,14 @@
-"""The rules behind the test of a family's model of tolerances."""
+"""What the family contract asks of a model of tolerances."""
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
 import numpy as np
+import pytest
 
 from mechwright.arrays import Array
+from mechwright.contracts.family import Family
+from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.contracts.tolerances import Output, ToleranceModel
 
 _STEP = 1e-5
@@ -13,6 +19,22 @@ _WITHIN = 1e-4
 
 _PLACES = 25
 """Positions that are tried."""
+
+
+class ToleranceTests:
+    """The part of :class:`mechwright.testing.FamilyContract` that is about tolerances."""
+
+    family: ClassVar[type[Family[Any]]]
+    """The class under test."""
+
+    def test_tolerances(self, design: Mapping[str, Any]) -> None:
+        """Sensitivities, where there is a model of tolerances, are the derivatives of its exact errors."""
+        params = self.family.Params.model_validate(dict(design))
+        model = self.family().tolerances(params, Tolerances())
+        if model is None:
+            pytest.skip("the family has no tolerance analysis")
+        faults = tolerance_faults(model)
+        assert not faults, "; ".join(faults)
 
 
 def tolerance_faults(model: ToleranceModel) -> list[str]:
