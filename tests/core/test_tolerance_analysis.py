@@ -238,3 +238,27 @@ def test_limits_and_variances_of_many_positions_are_those_of_each():
             pytest.approx(high[i]),
         )
         assert variances(model.contributors, one) == pytest.approx(parts[:, i])
+
+
+@pytest.mark.parametrize(
+    ("nominal", "grade", "plus"),
+    [(3, "fine", 0.05), (3.01, "medium", 0.1), (30, "fine", 0.1), (30.1, "fine", 0.15), (120, "medium", 0.3),
+     (500, "coarse", 2.0), (2000, "fine", 0.5), (3000, "medium", 2.0), (4000, "coarse", 4.0)],
+)  # fmt: skip
+def test_lengths_without_a_tolerance_have_that_of_iso_2768(nominal, grade, plus):
+    found = Tolerances(ToleranceSettings(general=grade)).length("a", nominal)
+    assert (found.lower, found.upper) == (-plus, plus)
+
+
+def test_angles_and_run_out_without_a_tolerance_have_that_of_iso_2768():
+    found = Tolerances(ToleranceSettings(general="coarse"))
+    assert math.degrees(found.angle("a", 1.0, 50.0).upper) == pytest.approx(1.0)
+    assert math.degrees(found.angle("a", 1.0, 50.1).upper) == pytest.approx(0.5)
+    assert found.eccentricity("a").reach == 0.25
+
+
+def test_where_iso_2768_ends_a_tolerance_is_asked_for():
+    with pytest.raises(
+        DesignError, match=r"fine ends at 2000 mm, and a length is 2500 mm; give tolerances.length"
+    ):
+        Tolerances(ToleranceSettings(general="fine")).length("a", 2500)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from tolerance_models import assert_exact, deviations
 
 from mechwright import Tolerances
+from mechwright.build.tolerances.report import remarks
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.mechanics.tolerance import analyse
 from mechwright_elliptic_gears.family import EllipticGears
@@ -186,6 +187,15 @@ def test_a_singular_position_is_told_and_not_divided_by():
     assert np.isfinite(model.nominal("play in the slot", middle)).all()
     result = analyse(model, Tolerances(ToleranceSettings(samples=1000))).results[0]
     assert abs(result.worst.at[0] - model.m.crank_half) > math.radians(2)
+
+
+def test_nothing_is_tried_in_a_singular_position():
+    asked = Tolerances(ToleranceSettings(samples=500, at=(50.0, 20.0)))
+    analysis = analyse(Geneva().tolerances(GenevaParams(), asked), asked)
+    wheel = analysis.results[0]
+    assert [math.isfinite(place.sigma) for place in wheel.places] == [False, True]
+    assert [(round(math.degrees(one.at)), one.apart) for one in wheel.trials] == [(20, 0)]
+    assert "wheel angle: no first order at 50 deg, so no mechanisms are tried there" in remarks(analysis)
 
 
 def test_pins_pressed_along_a_link_count_twice_as_much():

@@ -11,7 +11,7 @@ from mechwright.build.tolerances.units import degrees, shown_unit
 from mechwright.mechanics.tolerance import Analysis, Result
 
 WIDTH, HEIGHT = 640, 250
-LEFT, RIGHT, TOP, BOTTOM = 74, 12, 12, 40
+LEFT, RIGHT, TOP, BOTTOM = 74, 22, 12, 40
 _SIGMAS = 3.0
 _STEEP = 4.0
 """How much higher than the median of the band a plot goes: near a singular position it grows without end."""

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
 from mechwright.build.tolerances.units import degrees, limits, nominal, percent, shown, shown_unit
 from mechwright.contracts.tolerances import Contributor, Output
 from mechwright.mechanics.tolerance import Analysis, Place, Result, Trial
@@ -124,6 +126,12 @@ def remarks(analysis: Analysis) -> Iterator[str]:
         if result.worst is None:
             yield f"{name}: there is no position with a first order"
             continue
+        blind = [degrees(place.at[0]) for place in result.places if not math.isfinite(place.sigma)]
+        if blind:
+            yield f"{name}: no first order at {', '.join(blind)} deg, so no mechanisms are tried there"
+        gone = int(np.isnan(result.band.sigma).sum())
+        if gone and not analysis.model.told:
+            yield f"{name}: {gone} of {result.band.sigma.size} positions have no first order: a dead centre"
         places.setdefault(result.worst.at[0], result.worst)
         for trial in result.trials:
             place = places.get(trial.at) if trial.at is not None else None

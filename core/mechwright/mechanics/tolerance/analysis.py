@@ -1,7 +1,7 @@
 """The whole analysis of one design."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.tolerance_settings import Tolerances
@@ -63,7 +63,7 @@ def analyse(model: ToleranceModel, tolerances: Tolerances) -> Analysis:
         for one in model.outputs
     }
     runs: dict[str, list[Trial]] = {one.name: [] for one in model.outputs}
-    for wanted in _rounds(model, asked, worst):
+    for wanted in _rounds(model, places, worst):
         limits = {name: _limit(tolerances, model, name) for name in wanted}
         for name, trial in trials(model, wanted, limits, settings.samples, settings.seed).items():
             runs[name].append(trial)
@@ -120,21 +120,25 @@ def _position(model: ToleranceModel, at: float) -> float:
 
 
 def _rounds(
-    model: ToleranceModel, asked: list[float], worst: dict[str, Place | None]
+    model: ToleranceModel, asked: Mapping[str, Sequence[Place]], worst: Mapping[str, Place | None]
 ) -> Iterator[dict[str, float | None]]:
-    """Which outputs are tried where; each round makes the mechanisms once."""
-    first: dict[str, float | None] = {}
+    """Which outputs are tried where; each round makes the mechanisms once.
+
+    Nothing is tried where there is no first order: close to a singular position a mechanism has no one
+    solution that follows from the nominal one.
+    """
+    first: dict[str, float | None] = {one.name: None for one in model.outputs if one.figure != "at"}
+    turns: list[list[float]] = []
     for one in model.outputs:
-        place = worst[one.name]
-        if one.figure != "at":
-            first[one.name] = None
-        elif asked:
-            first[one.name] = asked[0]
-        elif place is not None and finite((place.sigma,)):
-            first[one.name] = place.at[0]
-    yield first
-    for at in asked[1:]:
-        yield {one.name: at for one in model.outputs if one.figure == "at"}
+        if one.figure == "at":
+            wanted = asked[one.name] or (worst[one.name],)
+            turns.append([place.at[0] for place in wanted if place is not None and finite((place.sigma,))])
+    names = [one.name for one in model.outputs if one.figure == "at"]
+    for number in range(max([1, *map(len, turns)])):
+        more = {
+            name: places[number] for name, places in zip(names, turns, strict=True) if number < len(places)
+        }
+        yield {**first, **more} if number == 0 else {**more}
 
 
 def _limit(tolerances: Tolerances, model: ToleranceModel, name: str) -> float | None:
