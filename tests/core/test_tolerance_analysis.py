@@ -1,6 +1,7 @@
 """The engine: zones, drawing, first order, worst case, yield; on a model whose errors are known."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright import Contributor, DesignError, Output, ToleranceModel, Tolerances, Zone
+from mechwright.build.tolerances.report import remarks
 from mechwright.contracts.pairs import pair_of
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.contracts.tolerances import DISTRIBUTIONS
@@ -172,6 +174,14 @@ def test_the_interval_of_a_share_holds_it_and_lies_within_0_and_1(total, data):
     assert -1e-12 <= share.lower <= share.value <= share.upper <= max(1, 3 / total) + 1e-12
 
 
+@given(st.integers(2, 500), st.data())
+def test_a_limit_of_the_interval_is_a_share_that_is_just_not_refuted(total, data):
+    """It solves (y - p)² = z² p (1 - p)/N, which is what Wilson's interval is."""
+    share = share_of(data.draw(st.integers(1, total - 1)), total)
+    for p in (share.lower, share.upper):
+        assert (share.value - p) ** 2 == pytest.approx(1.959963984540054**2 * p * (1 - p) / total, rel=1e-6)
+
+
 def test_intervals_are_wilsons_and_the_rule_of_three():
     share = share_of(868961, 10**6)
     assert (round(share.lower, 5), round(share.upper, 5)) == (0.86830, 0.86962)
@@ -224,6 +234,19 @@ def test_where_there_is_no_first_order_there_is_no_worst_place():
     with np.errstate(invalid="ignore"):
         assert worst_place(Dead(), Dead.outputs[0]) is None
         assert worst_place(Dead(), Dead.outputs[2]) is None
+
+
+def test_it_is_told_where_the_first_order_misses_the_mechanisms():
+    class Bent(Line):
+        def errors(self, output, deviations, at):
+            return super().errors(output, deviations, at) + 40 * deviations[0][:1] ** 2
+
+    settings = Tolerances(ToleranceSettings(samples=2000))
+    assert list(remarks(analyse(Line(), settings))) == []
+    (told,) = remarks(analyse(Bent(), settings))
+    assert re.match(
+        r"error: at 90 deg the first order misses the sigma of the mechanisms by -?[\d.]+ %", told
+    )
 
 
 def test_limits_and_variances_of_many_positions_are_those_of_each():

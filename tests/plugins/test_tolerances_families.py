@@ -13,6 +13,7 @@ from mechwright.build.tolerances.report import remarks
 from mechwright.contracts.tolerance_settings import OwnTolerance, ToleranceSettings
 from mechwright.mechanics.tolerance import analyse
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.kinematics import Turning, driven, train
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
@@ -144,6 +145,18 @@ def test_the_backlash_left_open_leaves_play_in_the_worst_case(stages):
             if result.output.stays_above:
                 assert result.worst.low > 0
                 assert result.trials[0].least > result.worst.low
+
+
+def test_a_train_carries_the_lag_of_gear_3_on_to_gear_5():
+    sizes = {"eccentricity": 0.4, "backlash": 0.1}
+    train_model = EllipticGears().tolerances(EllipticGearParams(stages=2, phase=60, **sizes), Tolerances())
+    pair = EllipticGears().tolerances(EllipticGearParams(**sizes), Tolerances())
+    lag = pair.nominal("transmission error", TURN)[0]
+    _, four, _ = train(Turning.of(TURN), 0.4, math.radians(60))
+    turned = [driven(Turning.of(four.theta + part * lag), 0.4).theta for part in (-0.5, 0.5)]
+    carried = np.abs(turned[1] - turned[0])
+    own = train_model.nominal("play of gear 5 ahead", TURN)[0]
+    assert train_model.nominal("transmission error", TURN)[0] == pytest.approx(own + carried, rel=1e-5)
 
 
 @pytest.mark.parametrize(
