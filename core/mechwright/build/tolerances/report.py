@@ -82,6 +82,8 @@ def where(analysis: Analysis, place: Place, output: Output) -> str:
 def order(result: Result, place: Place) -> str:
     """Worst case and sigma of the first order, in words."""
     unit = result.output.unit
+    if not math.isfinite(place.sigma):
+        return "none, the position is singular"
     if result.output.figure != "at":
         low = f"{shown(place.low, unit)} to " if result.output.stays_above else ""
         worst = f"nominal {shown(place.nominal, unit)}, worst case {low}{shown(place.high, unit)}"
@@ -156,7 +158,7 @@ def as_text(analysis: Analysis) -> list[str]:
         for number, place in enumerate(places):
             title = "worst case " if number == 0 and result.worst is not None else ""
             said.append(f"  first order {title}{where(analysis, place, output)}: {order(result, place)}")
-            if number == len(places) - 1 or number == 0:
+            if math.isfinite(place.sigma):
                 said += _table(analysis, result, place)
         for trial in result.trials:
             said += [f"  {line}" for line in outcome(analysis, output, trial)]
