@@ -15,10 +15,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mechwright import Array, Contributor, Output, ToleranceModel, Tolerances
+from mechwright import Array, Contributor, GeometryError, Output, ToleranceModel, Tolerances
 from mechwright_geneva.kinematics import Points, Stroke
 from mechwright_geneva.locking import cover
-from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.tube import Tube, bend, levers, normals, way
 
@@ -63,8 +63,7 @@ class GenevaTolerances(ToleranceModel):
             tolerances.eccentricity("driver-eccentricity"),
             *tolerances.input("input"),
         )
-        middle = m.pitch / 2 - m.crank_half
-        self.locks = middle > 0 and middle >= cover(m)
+        self.locks = _locks(m)
         self.outputs = (WHEEL, PLAY, *((LOCK, FREE) if self.locks else ()))
         shift = sum(abs(one.mean) + one.reach for one in self.contributors[:5])
         self.least_lever = 0.0 if m.straight else math.sqrt(_CURVED * shift * bend(m))
@@ -184,7 +183,8 @@ class GenevaTolerances(ToleranceModel):
     def _polar(self, axes: Array | float, radius: Array | float) -> Array:
         """Polar angle (...), rad, at which a circle about the crank's axis cuts the wheel's rim."""
         rim = self.m.rim
-        return np.arccos((axes**2 + rim**2 - radius**2) / (2 * axes * rim))
+        with np.errstate(invalid="ignore"):
+            return np.asarray(np.arccos((axes**2 + rim**2 - radius**2) / (2 * axes * rim)))
 
     def _lock_rates(self) -> tuple[float, float, float]:
         """Derivatives of the play of the lock by the wall of the wheel, that of the disc, and the axes."""
@@ -194,10 +194,21 @@ class GenevaTolerances(ToleranceModel):
         return -m.arc / horn, -lock / stop, (a * a - rim * rim + lock * lock) / (2 * a * stop)
 
 
+def _locks(m: Mechanism) -> bool:
+    """Whether the disc covers both horns of an arc in the middle of a dwell."""
+    middle = m.pitch / 2 - m.crank_half
+    if middle <= 0 or not m.axes - m.rim < m.lock < m.axes + m.rim:
+        return False
+    try:
+        return middle >= cover(m)
+    except GeometryError:  # the disc meets no horn, as the check of its parts says
+        return False
+
+
 _TINY = 1e-9
 """mm: a lever of this length is none."""
 
 _MISSED = 1e-7
 """mm by which the slot's point may miss the roller: Newton's method ends far below, or not at all."""
 
-_NO_LOCK = "the disc never covers both horns of the wheel at once, so there is no play of the lock by itself"
+_NO_LOCK = "the disc does not cover both horns of the wheel at once, so there is no play of the lock to judge"

@@ -75,6 +75,12 @@ def test_fits_are_those_of_the_handbook(over):
                 assert [round(1000 * x) for x in (*pair.hole, *pair.shaft)] == [*found[hole], *found[shaft]]
 
 
+def test_fits_go_up_to_400_mm():
+    assert pair_of(400, "H7/g6").greatest == pytest.approx(0.111)
+    with pytest.raises(DesignError, match=r"diameter of 400.1 mm; the table goes up to 400 mm"):
+        pair_of(400.1, "H7/g6")
+
+
 @pytest.mark.parametrize("text", ["H7", "g6/H7", "H7/z6", "H77/g6", "H7/k8", "Z7/g6", "", "H4/h6"])
 def test_what_is_no_fit_is_refused(text):
     with pytest.raises(DesignError, match="is no fit"):

@@ -202,6 +202,23 @@ def test_a_singular_position_is_told_and_not_divided_by():
     assert abs(result.worst.at[0] - model.m.crank_half) > math.radians(2)
 
 
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"law": "straight", "slots": 3, "lock_radius": 5.0},
+        {"lock_radius": 15.0},
+        {"lock_radius": 500.0},
+        {"rollers": 3, "slots": 3},
+    ],
+)
+def test_a_disc_that_does_not_lock_is_told(table):
+    asked = Tolerances(ToleranceSettings(samples=200))
+    model = Geneva().tolerances(GenevaParams(**table), asked)
+    assert [one.name for one in model.outputs] == ["wheel angle", "play in the slot"]
+    assert "does not cover both horns" in model.told[-1]
+    assert len(analyse(model, asked).results) == 2
+
+
 def test_nothing_is_tried_in_a_singular_position():
     asked = Tolerances(ToleranceSettings(samples=500, at=(50.0, 20.0)))
     analysis = analyse(Geneva().tolerances(GenevaParams(), asked), asked)

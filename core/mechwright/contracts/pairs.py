@@ -10,31 +10,31 @@ from dataclasses import dataclass
 
 from mechwright.errors import DesignError
 
-_STEPS = (3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0)
+_STEPS = (3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0, 315.0, 400.0)
 """Ranges of basic sizes, over the one and up to and including the next, mm (ISO 286-1)."""
 
 _GRADES = {
-    5: (4, 5, 6, 8, 9, 11, 13, 15, 18),
-    6: (6, 8, 9, 11, 13, 16, 19, 22, 25),
-    7: (10, 12, 15, 18, 21, 25, 30, 35, 40),
-    8: (14, 18, 22, 27, 33, 39, 46, 54, 63),
-    9: (25, 30, 36, 43, 52, 62, 74, 87, 100),
+    5: (4, 5, 6, 8, 9, 11, 13, 15, 18, 20, 23, 25),
+    6: (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36),
+    7: (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57),
+    8: (14, 18, 22, 27, 33, 39, 46, 54, 63, 72, 81, 89),
+    9: (25, 30, 36, 43, 52, 62, 74, 87, 100, 115, 130, 140),
 }
 """Standard tolerances IT of each range, micrometres (ISO 286-1)."""
 
 _BELOW = {
-    "e": (14, 20, 25, 32, 40, 50, 60, 72, 85),
-    "f": (6, 10, 13, 16, 20, 25, 30, 36, 43),
-    "g": (2, 4, 5, 6, 7, 9, 10, 12, 14),
-    "h": (0, 0, 0, 0, 0, 0, 0, 0, 0),
+    "e": (14, 20, 25, 32, 40, 50, 60, 72, 85, 100, 110, 125),
+    "f": (6, 10, 13, 16, 20, 25, 30, 36, 43, 50, 56, 62),
+    "g": (2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18),
+    "h": (0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0),
 }
 """By how much a shaft's upper limit is below the basic size, and a hole's lower one above it, micrometres."""
 
 _ABOVE = {
-    "k": (0, 1, 1, 1, 2, 2, 2, 3, 3),
-    "m": (2, 4, 6, 7, 8, 9, 11, 13, 15),
-    "n": (4, 8, 10, 12, 15, 17, 20, 23, 27),
-    "p": (6, 12, 15, 18, 22, 26, 32, 37, 43),
+    "k": (0, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4, 4),
+    "m": (2, 4, 6, 7, 8, 9, 11, 13, 15, 17, 20, 21),
+    "n": (4, 8, 10, 12, 15, 17, 20, 23, 27, 31, 34, 37),
+    "p": (6, 12, 15, 18, 22, 26, 32, 37, 43, 50, 56, 62),
 }
 """By how much a shaft's lower limit is above the basic size, micrometres; grades 5 to 7."""
 
@@ -67,7 +67,7 @@ class Pair:
 
 
 def grade(size: float, number: int) -> float:
-    """Standard tolerance of a basic size, mm; raises DesignError above 180 mm, where this table ends.
+    """Standard tolerance of a basic size, mm; raises DesignError above 400 mm, where this table ends.
 
     >>> grade(8, 6)
     0.009
@@ -81,7 +81,7 @@ def pair_of(size: float, text: str) -> Pair:
     Raises
     ------
     DesignError
-        The text is no fit, or the size is above 180 mm.
+        The text is no fit, or the size is above 400 mm.
 
     >>> round(pair_of(8, "F8/h6").least, 6)
     0.013
