@@ -20,7 +20,6 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
-from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from mechwright.contracts.exporter import Exporter
@@ -37,7 +36,6 @@ from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
 from mechwright.testing.imports import heavy_imports
 from mechwright.testing.results import difference
-from mechwright.testing.strategies import tables
 from mechwright.testing.tolerances import ToleranceTests
 from mechwright.testing.variations import variations
 from mechwright.tolerances import TOLERANCES
@@ -87,10 +85,6 @@ class FamilyContract(ToleranceTests):
         if "design" in metafunc.fixturenames:
             titles = [json.dumps(dict(table), default=str)[1:-1][:60] for table in self.examples]
             metafunc.parametrize("design", self.examples, ids=[title or "defaults" for title in titles])
-
-    def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
-        """Random tables; by default every field anywhere inside its bounds."""
-        return tables(self.family.Params)
 
     def params(self, table: Mapping[str, Any]) -> Parameters:
         """The parameters of a table."""

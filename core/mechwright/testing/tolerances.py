@@ -5,11 +5,17 @@ from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from mechwright.arrays import Array
 from mechwright.contracts.family import Family
-from mechwright.contracts.tolerance_settings import Tolerances
+from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.tolerance_settings import Tolerances, ToleranceSettings
 from mechwright.contracts.tolerances import Output, ToleranceModel
+from mechwright.mechanics.tolerance import analyse
+from mechwright.testing.strategies import tables
 
 _STEP = 1e-5
 """mm or rad: its square, times a second derivative of order 1, is far below what is asked of the slope."""
@@ -19,6 +25,9 @@ _WITHIN = 1e-4
 
 _PLACES = 25
 """Positions that are tried."""
+
+_RANDOM = 20
+"""Random designs that are tried."""
 
 
 class ToleranceTests:
@@ -35,6 +44,30 @@ class ToleranceTests:
             pytest.skip("the family has no tolerance analysis")
         faults = tolerance_faults(model)
         assert not faults, "; ".join(faults)
+
+    def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
+        """Random tables; by default every field anywhere inside its bounds."""
+        return tables(self.family.Params)
+
+    def test_tolerances_of_random_designs(self) -> None:
+        """Any design that moves has an analysis of its tolerances, or the family has none."""
+
+        # Inside the method: hypothesis wants one test function for each class that inherits this one.
+        @settings(max_examples=_RANDOM, deadline=None, suppress_health_check=list(HealthCheck))
+        @given(self.strategy())
+        def has_an_analysis(table: Mapping[str, Any]) -> None:
+            try:
+                params = self.family.Params.model_validate(dict(table))
+            except ValidationError:
+                return
+            if errors(self.family().check(params), Stage.MOTION):
+                return
+            asked = Tolerances(ToleranceSettings(samples=100))
+            model = self.family().tolerances(params, asked)
+            if model is not None:
+                assert len(analyse(model, asked).results) == len(model.outputs) > 0
+
+        has_an_analysis()
 
 
 def tolerance_faults(model: ToleranceModel) -> list[str]:
