@@ -9,25 +9,18 @@ class Corners:
 
     A control that follows the path within a setting of the machine counts as exact here: no word of a program
     can change that. Where a word lets it go further, that word counts.
-
-    Parameters
-    ----------
-    unsaid
-        How far the control may leave the path while the program has chosen neither G61 nor G64, mm; inf
-        without a bound.
-    after_g64
-        The same after a G64 that gives no tolerance.
-    tolerance
-        Whether G64 takes a tolerance, P (and Q).
-    looser
-        Words that let the control go further than its setting: code in tenths, letter, the values of it that
-        do not, what to do instead.
     """
 
     unsaid: float = 0.0
+    """How far the control may leave the path while the program has chosen neither G61 nor G64, mm; inf
+    without a bound."""
     after_g64: float = 0.0
+    """The same after a G64 that gives no tolerance."""
     tolerance: bool = False
+    """Whether G64 takes a tolerance, P (and Q)."""
     looser: tuple[tuple[int, str, frozenset[float], str], ...] = ()
+    """Words that let the control go further than its setting: code in tenths, letter, the values of it that
+    do not, what to do instead."""
 
     def bound(self, blend: float | None, merge: float | None) -> float:
         """How far the control may leave the path after G64 with P ``blend`` and Q ``merge``, mm.

@@ -35,29 +35,22 @@ class DOffset:
 
 @dataclass(frozen=True, slots=True)
 class OffsetTables:
-    """What a control keeps of each tool.
-
-    Parameters
-    ----------
-    lengths
-        Whether it keeps lengths, for G43 H. Without, tools are touched off one by one.
-    length_word
-        The word that gives a tool its length in the program instead, such as ``"G43.1"``; empty if there is
-        none.
-    d
-        What a D offset holds; ``"setting"`` if a setting of the machine says which, and so ``d_value`` of the
-        design file; None without cutter compensation.
-    d_setting
-        Where the machine is told which.
-    wear
-        Whether D has columns of geometry and wear.
-    """
+    """What a control keeps of each tool."""
 
     lengths: bool = True
+    """Whether it keeps lengths, for G43 H. Without, tools are touched off one by one."""
     length_word: str = ""
+    """The word that gives a tool its length in the program instead, such as ``"G43.1"``; empty if there is
+    none.
+    """
     d: Literal["radius", "diameter", "setting"] | None = "diameter"
+    """What a D offset holds; ``"setting"`` if a setting of the machine says which, and so ``d_value`` of the
+    design file; None without cutter compensation.
+    """
     d_setting: str = ""
+    """Where the machine is told which."""
     wear: bool = False
+    """Whether D has columns of geometry and wear."""
 
     def of_program(self, program: Program) -> list[DOffset]:
         """The D offsets that a program uses."""

@@ -6,24 +6,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class WorkOffsets:
-    """A row of work offsets.
-
-    Parameters
-    ----------
-    name
-        The name that people see.
-    pattern
-        How its offsets are spelt, with the number as a group.
-    words
-        The words that set one, with ``{}`` for its place in the row.
-    before
-        The number before that of the first in the row.
-    """
+    """A row of work offsets."""
 
     name: str
+    """The name that people see."""
     pattern: str
+    """How its offsets are spelt, with the number as a group."""
     words: str
+    """The words that set one, with ``{}`` for its place in the row."""
     before: int = 0
+    """The number before that of the first in the row."""
 
     def has(self, offset: str) -> bool:
         """Whether the row has an offset.

@@ -61,40 +61,26 @@ Axes = tuple[Array, ...]
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """Polylines one after the other, ready to be searched.
-
-    Parameters
-    ----------
-    points
-        x and y of the vertices, (n,) each, mm.
-    most
-        (n,) the vertex that no run from here may pass: the next corner, or where an arc has turned enough.
-    bounds
-        (k + 1,) where each of the polylines begins, and their end.
-    """
+    """Polylines one after the other, ready to be searched."""
 
     points: Axes
+    """x and y of the vertices, (n,) each, mm."""
     most: Index
+    """(n,) the vertex that no run from here may pass: the next corner, or where an arc has turned enough."""
     bounds: Index
+    """(k + 1,) where each of the polylines begins, and their end."""
 
 
 @dataclass(frozen=True, eq=False)
 class Runs:
-    """Runs of lines and arcs along a course.
-
-    Parameters
-    ----------
-    nodes
-        (k + 1,) vertices at which they begin and end.
-    straight
-        (k,) whether a line will do.
-    height
-        (k,) of an arc's centre over the chord, to the left of it, mm.
-    """
+    """Runs of lines and arcs along a course."""
 
     nodes: Index
+    """(k + 1,) vertices at which they begin and end."""
     straight: Mask
+    """(k,) whether a line will do."""
     height: Array
+    """(k,) of an arc's centre over the chord, to the left of it, mm."""
 
 
 def course(polylines: Sequence[Array], tolerance: float) -> Course:

@@ -35,22 +35,15 @@ def run_out(diameter: Length) -> Length:
 
 @dataclass(frozen=True)
 class Band:
-    """A layer of the part.
-
-    Parameters
-    ----------
-    top, bottom
-        z in work coordinates, mm.
-    keep
-        The finished part's cross-section, tabs not counted.
-    section
-        Number of the cross-section: bands of one number have the same.
-    """
+    """A layer of the part."""
 
     top: float
     bottom: float
+    """Both z in work coordinates, mm."""
     keep: Shape
+    """The finished part's cross-section, tabs not counted."""
     section: int = 0
+    """Number of the cross-section: bands of one number have the same."""
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:

@@ -30,24 +30,16 @@ radius from a straight wall, and a cutter that has made both ends has made that 
 
 @dataclass(frozen=True)
 class Fillet:
-    """The fillet of one recess.
-
-    Parameters
-    ----------
-    feature
-        The recess, work coordinates.
-    floor
-        Its z, mm.
-    walls
-        Lines at which a wall stands on the floor.
-    inside
-        Plan view of the floor.
-    """
+    """The fillet of one recess."""
 
     feature: Pocket
+    """The recess, work coordinates."""
     floor: float
+    """Its z, mm."""
     walls: shapely.Geometry
+    """Lines at which a wall stands on the floor."""
     inside: Shape
+    """Plan view of the floor."""
 
     @property
     def radius(self) -> float:

@@ -36,22 +36,15 @@ Geometries = NDArray[Any]
 
 @dataclass(frozen=True)
 class Pieces:
-    """Pieces of moves.
-
-    Parameters
-    ----------
-    step
-        (m,) index into the run.
-    first, last
-        (m,) the part of the move, from 0 to 1.
-    low
-        (m,) lowest z of the piece, mm.
-    """
+    """Pieces of moves."""
 
     step: Ints
+    """(m,) index into the run."""
     first: Array
     last: Array
+    """(m,) the part of the move, from 0 to 1."""
     low: Array
+    """(m,) lowest z of the piece, mm."""
 
     def __len__(self) -> int:
         return int(self.step.size)

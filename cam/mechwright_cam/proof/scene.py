@@ -26,25 +26,17 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A program, the job that it should make, and all that follows from the two: each thing worked out once.
-
-    Parameters
-    ----------
-    text
-        The program as the control would get it, from this project's posts or from anywhere; several files,
-        name to text, if they are run one after the other.
-    job
-        The part, its stock, its holding and the tools on the machine.
-    control
-        The control that reads it.
-    block_delete
-        Whether the switch is on that skips lines which start with ``/``.
-    """
+    """A program, the job that it should make, and all that follows from both: each thing worked out once."""
 
     text: str | Mapping[str, str]
+    """The program as the control would get it, from this project's posts or from anywhere; several files,
+    name to text, if they are run one after the other."""
     job: Job
+    """The part, its stock, its holding and the tools on the machine."""
     control: Control
+    """The control that reads it."""
     block_delete: bool = False
+    """Whether the switch is on that skips lines which start with ``/``."""
 
     @cached_property
     def run(self) -> Run:

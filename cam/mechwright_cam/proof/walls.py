@@ -56,31 +56,23 @@ class Place:
 
 @dataclass(frozen=True)
 class Walls:
-    """What was found along the walls.
-
-    Parameters
-    ----------
-    points, outward
-        (n, 2) float, mm: places in work coordinates, in order along each wall, and unit vectors off the part.
-    z, off
-        (n,) float, mm.
-    corner
-        (n,) bool.
-    run
-        (n,) int: places of one number follow on each other along a wall.
-    left, cut, corners
-        The worst places: stock left within reach, cuts into the part, and corners.
-    """
+    """What was found along the walls."""
 
     points: Array
     outward: Array
+    """(n, 2) float, mm: places in work coordinates, in order along each wall, and unit vectors off the
+    part."""
     z: Array
     off: Array
+    """(n,) float, mm."""
     corner: NDArray[np.bool_]
+    """(n,) bool."""
     run: Ints
+    """(n,) int: places of one number follow on each other along a wall."""
     left: tuple[Place, ...]
     cut: tuple[Place, ...]
     corners: tuple[Place, ...]
+    """The worst places: stock left within reach, cuts into the part, and corners."""
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for ``proof.json``, mm to a tenth of a micrometre."""
