@@ -43,7 +43,7 @@ class Dialect:
     """How far above the last depth the next peck of G83 starts, and how far G73 draws back, mm."""
     arc_absolute: float = 0.0283
     arc_relative: float = 0.001
-    """The control refuses arcs whose two radii differ by more than both, in mm and as a part of the radius."""
+    """The control refuses an arc whose radii differ by more than both, in mm and as a part of the radius."""
     line_length: int = 255
     """Longest line, characters."""
     change_stops_spindle: bool = True
@@ -81,6 +81,11 @@ class Dialect:
     """How far the control leaves the path between two moves."""
     name: str = "the control"
     """Name for messages; a control gives its own title."""
+
+    def refuses(self, error: Any, radius: Any) -> Any:
+        """Whether arcs are refused whose radii differ so much, by their radius at the start, (n,) or one, mm."""
+        beyond = (error > self.arc_absolute) & (error > self.arc_relative * radius)
+        return beyond | (error > self.arc_most)
 
     def m(self, code: int) -> int:
         """The control's own M code for a usual one.

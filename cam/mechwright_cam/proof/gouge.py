@@ -3,7 +3,9 @@
 A cutter whose tip is at z is nowhere thinner above than below. Within a band of constant cross-section the
 depth of a cut is therefore its radius at the band's top less the plan-view distance from the path below it to
 the cross-section; there is no height map and no grid. Into a floor the depth is how far the cutter's end
-goes below it at that distance, so the smaller of the two counts.
+goes below it at that distance, so the smaller of the two counts. The upper side of a ramped tab is no level:
+along the moves near it the cutter is asked, place by place, how far the highest of the tab that its disc
+covers stands above its tip.
 """
 
 from dataclasses import dataclass
@@ -16,6 +18,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
+from mechwright_cam.setup.holding import Tab
 
 DEAR = 6
 """To grow a shape by one corner takes about a sixth of the time of one question about nearness."""
@@ -119,3 +122,28 @@ def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
     out = np.zeros(len(pieces))
     np.maximum.at(out, owner, deep)
     return out
+
+
+RAMP_SPACING = 0.005
+"""Distance of the places, mm: between two of them a slope of 45 degrees rises by no more than the gouge
+limit."""
+RAMP_MARGIN = 0.1
+"""A move is looked at if its cutter comes so near to a tab, mm: more than the chords of arcs are off."""
+
+
+def deepest_in_tab(paths: Paths, tab: Tab) -> Gouge | None:
+    """The deepest cut of any move into a ramped tab; None if nothing touches it."""
+    pieces = paths.below(tab.top - NEAR)
+    radius = paths.radius[pieces.step]
+    near = shapely.dwithin(tab.shape, paths.lines(pieces), radius + RAMP_MARGIN)
+    worst: Gouge | None = None
+    for step in np.unique(pieces.step[near]).tolist():
+        points, z, _ = paths.samples(np.array([step]), RAMP_SPACING)
+        depth = tab.least_z(points, float(paths.radius[step])) - z
+        # The tab's strips end where its shape does: beyond, and in openings, there is nothing to cut.
+        depth[~shapely.dwithin(tab.shape, shapely.points(points), float(paths.radius[step]))] = -np.inf
+        deep = int(np.argmax(depth))
+        if depth[deep] > (worst.depth if worst else 0.0):
+            x, y = points[deep].tolist()
+            worst = Gouge(float(depth[deep]), int(step), (x, y, float(z[deep])))
+    return worst

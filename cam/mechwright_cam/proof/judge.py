@@ -14,8 +14,7 @@ from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.holding import loose
 from mechwright_cam.proof.leftover import Remains
 from mechwright_cam.proof.report import Proof, Spot
-from mechwright_cam.proof.rule import Rule, ask
-from mechwright_cam.proof.rules import BUILT_IN
+from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import operations, step_times
 from mechwright_cam.setup.job import Job

@@ -13,10 +13,9 @@ from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.ramped import deepest_in_tab
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps

@@ -27,8 +27,7 @@ from mechwright_cam.proof.beyond import VISIBLE
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
-from mechwright_cam.proof.wall import Wall
-from mechwright_cam.proof.wall_stock import HINTED
+from mechwright_cam.proof.wall import HINTED, Wall
 from mechwright_cam.proof.wanted import TAB_SLACK, play
 from mechwright_cam.setup.job import Job
 

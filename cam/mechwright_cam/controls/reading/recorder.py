@@ -95,28 +95,29 @@ class Recorder:
         if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
             raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
         here = (self.x, self.y)
-        first = self._check_arc(line, here, (x, y), centre)
-        error = abs(first - math.dist((x, y), centre))
+        _, error = self._check_arc(line, here, (x, y), centre)
         sweep = sweep_of(here, (x, y), centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(*centre, sweep, error))
 
     def _check_arc(
         self, line: int, start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]
-    ) -> float:
-        """Give the radius of an arc at its start, mm; raises ProgramError if its end has another."""
+    ) -> tuple[float, float]:
+        """Give an arc's radius at its start, and by how much it differs at its end, mm.
+
+        Raises ProgramError if the control refuses the arc.
+        """
         first = math.dist(start, centre)
         error = abs(first - math.dist(end, centre))
         if first == 0:
             raise fail(line, "an arc of radius 0")
-        limits = self.dialect
-        if error > limits.arc_most or (error > limits.arc_absolute and error > limits.arc_relative * first):
+        if self.dialect.refuses(error, first):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
                 f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
             )
-        return first
+        return first, error
 
     def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
         """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""

@@ -85,7 +85,5 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
     if machine.absolute_centres:
         known &= ~missing.any(axis=1)
-    limits = machine.dialect
-    beyond = (error > limits.arc_absolute) & (error > limits.arc_relative * first)
-    refused: Bools = ~known | (first == 0) | (error > limits.arc_most) | beyond
+    refused: Bools = ~known | (first == 0) | machine.dialect.refuses(error, first)
     return refused

@@ -36,11 +36,6 @@ def number(value: float, decimals: int = DECIMALS, point: bool = False) -> str:
     return text + "." if point and "." not in text else text
 
 
-def rounded(value: float, decimals: int = DECIMALS) -> float:
-    """The value that the control will read."""
-    return round(value, decimals)
-
-
 def floored(value: float, decimals: int) -> float:
     """The next value at or below, of so many decimals: what is to be cut through is cut through.
 
