@@ -83,7 +83,7 @@ class Dialect:
     """Name for messages; a control gives its own title."""
 
     def refuses(self, error: Any, radius: Any) -> Any:
-        """Whether arcs are refused whose radii differ so much, by their radius at the start, (n,) or one, mm."""
+        """Whether arcs are refused whose radii differ so much, by that at the start; (n,) or one, mm."""
         beyond = (error > self.arc_absolute) & (error > self.arc_relative * radius)
         return beyond | (error > self.arc_most)
 

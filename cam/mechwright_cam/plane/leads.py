@@ -91,8 +91,7 @@ def best_start(
 def _arcs(rho: float, sweep: float, along: Array, away: Array) -> Array:
     """A lead in and a lead out (k, 2), mm, from the place on the wall at which both meet."""
     a = np.linspace(-sweep, sweep, 2 * FINE_STEPS + 1)[:, None]
-    points: Array = rho * (np.sin(a) * along + (1 - np.cos(a)) * away)
-    return points
+    return rho * (np.sin(a) * along + (1 - np.cos(a)) * away)
 
 
 def middle_of_longest(flags: NDArray[np.bool_]) -> int:

@@ -254,8 +254,7 @@ def _holds(way: Course, first: Index, last: Index, tolerance: float, lines: bool
         at = (first + 0.5 + (last - first) * FRACTIONS).astype(np.intp)
         inner = tuple(axis.take(at) for axis in way.points)
     straight, curved, _ = shapes(way, first, last, inner, tolerance, lines=lines)
-    good: Mask = straight | curved
-    return good
+    return straight | curved
 
 
 def shapes(

@@ -99,8 +99,7 @@ def _run_outs(job: Job, frame: Frame, features: tuple[Feature, ...]) -> Shape:
     within = prepared(grow(frame.body, -SKIN))
     drawn = [shape for shape in map(inside_of, features) if not shapely.contains_properly(within, shape)]
     floors = shapely.intersection(shapely.union_all(drawn), frame.body)
-    beyond: Shape = shapely.difference(grow(floors, run_out(widest)), frame.body)
-    return beyond
+    return shapely.difference(grow(floors, run_out(widest)), frame.body)
 
 
 def asked(job: Job) -> Shape | None:
@@ -111,8 +110,7 @@ def asked(job: Job) -> Shape | None:
     if job.frame is None:
         return None
     limit, drawn = TOLERANCES.leftover, shapely.union_all(list(map(inside_of, job.features)))
-    found: Shape = shapely.intersection(grow(drawn, limit), grow(job.frame.body, -limit))
-    return found
+    return shapely.intersection(grow(drawn, limit), grow(job.frame.body, -limit))
 
 
 def stock_shape(job: Job) -> shapely.Polygon:

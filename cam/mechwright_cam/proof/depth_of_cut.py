@@ -44,8 +44,7 @@ class _Cuts:
 
     def asked(self, limit: float) -> Array:
         """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
-        height: Array = np.maximum(self.paths.low, self.top - limit)
-        return height
+        return np.maximum(self.paths.low, self.top - limit)
 
     @cached_property
     def _repeats(self) -> tuple[Ints, Array]:

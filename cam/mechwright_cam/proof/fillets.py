@@ -61,20 +61,17 @@ class Fillet:
         if not self.floor - NEAR <= z < self.floor + self.radius:
             return shapely.Polygon()
         strip = shapely.intersection(self.inside, grow(self.walls, self.feature.inset(z - self.floor)))
-        whole: Shape = shapely.union_all(polygons(strip))  # without the edges at which the two only touch
-        return whole
+        return shapely.union_all(polygons(strip))  # without the edges at which the two only touch
 
     @cached_property
     def foot(self) -> Shape:
         """Plan view of the fillet."""
-        strip: Shape = shapely.intersection(self.inside, grow(self.walls, self.radius))
-        return strip
+        return shapely.intersection(self.inside, grow(self.walls, self.radius))
 
     def rise(self, away: Array) -> Array:
         """Height of the fillet above the floor at distances (n,) from the wall, mm."""
         short = np.maximum(self.radius - away, 0.0)
-        out: Array = self.radius - np.sqrt(self.radius**2 - short**2)
-        return out
+        return self.radius - np.sqrt(self.radius**2 - short**2)
 
     def deepest(self, paths: Paths) -> Gouge | None:
         """The deepest cut into the fillet."""

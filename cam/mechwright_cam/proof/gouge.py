@@ -109,8 +109,7 @@ def _first_of_each(rows: Ints) -> Ints:
     _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
     if (rows[index][kind] != rows).any():  # different rows with one key
         _, index = np.unique(rows, axis=0, return_index=True)
-    first: Ints = index
-    return first
+    return index
 
 
 def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:

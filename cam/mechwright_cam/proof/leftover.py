@@ -78,8 +78,7 @@ def _both(one: Shape | None, two: Shape | None) -> Shape | None:
     """Where two regions are both; None is everywhere."""
     if one is None or two is None:
         return two if one is None else one
-    both: Shape = shapely.intersection(one, two)
-    return both
+    return shapely.intersection(one, two)
 
 
 def _on_floors(

@@ -107,8 +107,7 @@ def _blind(scene: Scene) -> NDArray[np.bool_]:
     start, end = np.isfinite(run.start[:, :2]), np.isfinite(run.end[:, :2])
     found = (end & ~start).any(axis=1)
     low = ~(run.end[:, 2] >= least) | (found & ~(run.start[:, 2] >= least))
-    blind: NDArray[np.bool_] = low & ~(start & end).all(axis=1)
-    return blind
+    return low & ~(start & end).all(axis=1)
 
 
 def machine_moves(scene: Scene) -> Check:

@@ -134,8 +134,7 @@ class _Grid:
     def _filled(self, x0: Ints, y0: Ints, x1: Ints, y1: Ints) -> Ints:
         """Indices of the rectangles of cells that have any place in them."""
         below = self.lower_left
-        filled: Ints = np.flatnonzero(below[y1, x1] - below[y1, x0] - below[y0, x1] + below[y0, x0])
-        return filled
+        return np.flatnonzero(below[y1, x1] - below[y1, x0] - below[y0, x1] + below[y0, x0])
 
 
 def _divided(first: Array, last: Array, longest: float) -> tuple[Ints, Array, Array]:
@@ -154,5 +153,4 @@ def _divided(first: Array, last: Array, longest: float) -> tuple[Ints, Array, Ar
 def _counted(lengths: Ints) -> Ints:
     """0, 1, ... for each of several lengths, one after the other."""
     ends = np.cumsum(lengths)
-    counted: Ints = np.arange(int(ends[-1]) if ends.size else 0) - np.repeat(ends - lengths, lengths)
-    return counted
+    return np.arange(int(ends[-1]) if ends.size else 0) - np.repeat(ends - lengths, lengths)

@@ -77,8 +77,7 @@ class Paths:
     @property
     def cuts(self) -> Ints:
         """Those of the steps that are feed moves."""
-        cuts: Ints = self.steps[self.run.cutting[self.steps]]
-        return cuts
+        return self.steps[self.run.cutting[self.steps]]
 
     @property
     def rapids(self) -> Ints:

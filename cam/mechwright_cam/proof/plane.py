@@ -17,8 +17,7 @@ from mechwright_cam.setup.views import ROUND, Shape, quarter
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
     """The shape and all within ``distance`` of it; shrunk if that is negative."""
-    grown: Shape = buffered(shape, distance, quarter(distance, error))
-    return grown
+    return buffered(shape, distance, quarter(distance, error))
 
 
 def closing(keep: Shape, radius: float) -> Shape:
@@ -48,8 +47,7 @@ def _turns_back(points: Array) -> Ints:
     step = np.diff(points, axis=0)
     length = np.hypot(*step.T)
     cosine = (step[:-1] * step[1:]).sum(axis=1)
-    found: Ints = np.flatnonzero(cosine < BACK * length[:-1] * length[1:]) + 1
-    return found
+    return np.flatnonzero(cosine < BACK * length[:-1] * length[1:]) + 1
 
 
 def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
@@ -67,8 +65,7 @@ def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
                 shapely.LineString(stretch[i : i + CHUNK]) for i in range(0, len(stretch) - 1, CHUNK - 1)
             ]
     discs = shapely.buffer(np.array(pieces, dtype=object), radius, quad_segs=quarter(radius, error))
-    area: Shape = shapely.union_all(discs)
-    return area
+    return shapely.union_all(discs)
 
 
 class Boundary:

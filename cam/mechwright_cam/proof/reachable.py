@@ -191,8 +191,7 @@ class Reach:
                 continue  # above it, layers say where the walls are
             off = stay(tool.nose, fillet.radius, tip - fillet.floor)
             shapes.append(grow(fillet.walls, tool.radius + off + self.play))
-        whole: Shape = shapely.union_all(shapes)
-        return whole
+        return shapely.union_all(shapes)
 
 
 def _is_ball(tool: Tool) -> bool:

@@ -163,8 +163,7 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     """Height of the tool's end above its tip, cell by cell; far up where the tool is not."""
     half = math.ceil(tool.radius / cell)
     at = np.arange(-half, half + 1) * cell
-    disc: NDArray[np.float32] = cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
-    return disc
+    return cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
 
 
 def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Work | None:

@@ -102,5 +102,4 @@ class Stock:
         shapes = [
             grow(line, r, ACCURACY) for line, r in zip(paths.lines(pieces), radius, strict=True) if r > 0
         ]
-        gone: Shape = shapely.union_all(shapes)
-        return gone
+        return shapely.union_all(shapes)

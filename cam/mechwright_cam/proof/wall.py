@@ -49,8 +49,7 @@ class Wall:
     def stations(self, spacing: float) -> Array:
         """Evenly spread stations, at most ``spacing`` apart."""
         count = max(int(np.ceil(self.length / spacing)), 1)
-        middles: Array = (np.arange(count, dtype=np.float64) + 0.5) * (self.length / count)
-        return middles
+        return (np.arange(count, dtype=np.float64) + 0.5) * (self.length / count)
 
     def at(self, stations: Any) -> tuple[Array, Array]:
         """Points (k, 2) on the wall, mm, and unit vectors (k, 2) out of the material."""

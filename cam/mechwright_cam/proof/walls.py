@@ -187,5 +187,4 @@ def _runs(points: Array, z: Array) -> Ints:
     """Numbers of the stretches between which a wall is interrupted, or another begins."""
     step = np.hypot(*np.diff(points, axis=0).T)
     usual = float(np.median(step)) if step.size else 0.0
-    new: Ints = np.concatenate(([0], np.cumsum((step > 3 * usual) | (np.diff(z) != 0)))).astype(np.int64)
-    return new
+    return np.concatenate(([0], np.cumsum((step > 3 * usual) | (np.diff(z) != 0)))).astype(np.int64)

@@ -148,8 +148,7 @@ class Run:
     @cached_property
     def radius(self) -> Array:
         """(n,) radius of arcs at their start, mm; NaN elsewhere."""
-        radius: Array = np.hypot(self.start[:, 0] - self.centre[:, 0], self.start[:, 1] - self.centre[:, 1])
-        return radius
+        return np.hypot(self.start[:, 0] - self.centre[:, 0], self.start[:, 1] - self.centre[:, 1])
 
     @cached_property
     def cutting(self) -> NDArray[np.bool_]:
@@ -174,8 +173,7 @@ class Run:
         with np.errstate(invalid="ignore"):
             move = self.end - self.start
         flat = np.where(self.kind == Kind.ARC, np.abs(self.sweep) * self.radius, np.hypot(*move[:, :2].T))
-        length: Array = np.hypot(flat, move[:, 2])
-        return length
+        return np.hypot(flat, move[:, 2])
 
 
 def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
