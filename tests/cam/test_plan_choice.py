@@ -11,7 +11,7 @@ from planning_simulation import check_rules, gouge, leftover
 from mechwright.contracts.finding import Severity
 from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.geometry import Loop
-from mechwright_cam.plane.reach import closing, remainder, unreachable
+from mechwright_cam.plane.reach import closing, remainder
 from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
@@ -29,9 +29,6 @@ def test_closing_of_a_square_corner():
             (1 - math.pi / 4) * radius**2, rel=1e-3, abs=1e-3
         )
         assert remainder(corner, radius) == pytest.approx((math.sqrt(2) - 1) * radius, abs=3e-4)
-    spots = unreachable(corner, 3.0, 0.01)
-    assert len(spots) == 1
-    assert spots[0].place == (5, 5)
 
 
 def test_remainder_in_a_round_fillet():

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.segments import Point
 
 CORNER = 0.5
 """A turn of more than this at one vertex, rad, is a corner of the path; offset arcs turn by less."""
@@ -171,6 +172,13 @@ def runs_of(way: Course, tolerance: float, lines_per_arc: int = 1) -> Runs:
         nodes = np.insert(found.nodes, bad + 1, middle)
         found, bad = _tested(way, nodes, tolerance, np.zeros(len(nodes) - 1, dtype=np.bool_))
     return found
+
+
+def over_chord(a: Point, b: Point, height: float) -> Point:
+    """The centre of an arc so high over the chord from a to b, to the left of it, mm."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    chord = math.hypot(dx, dy)
+    return (a[0] + b[0]) / 2 - height * dy / chord, (a[1] + b[1]) / 2 + height * dx / chord
 
 
 def _chain(by_line: Index, by_arc: Index, lines_per_arc: int) -> tuple[Index, Mask]:

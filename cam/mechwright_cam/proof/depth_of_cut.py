@@ -70,7 +70,7 @@ class _Cuts:
 
     @cached_property
     def _points(self) -> tuple[Array, Ints]:
-        return self.paths.points(self.paths.below(np.inf, steps=self.steps), PIECE_CHORD)
+        return self.paths.points(self.paths.whole(self.steps), PIECE_CHORD)
 
     @cached_property
     def pieces(self) -> tuple[Array, Array, Ints]:

@@ -66,7 +66,7 @@ def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[
         gentle = (drop > 0) & (drop <= flat * tab.slope + TAB_RISE) & (drop <= tab.top - job.floor + TAB_RISE)
         index = np.flatnonzero(gentle & (paths.start[steps, 2] <= tab.top + TAB_RISE) & ~found)
         if index.size:
-            lines = paths.lines(paths.below(np.inf, steps=steps[index]))
+            lines = paths.lines(paths.whole(steps[index]))
             reach = paths.radius[steps[index]] + (job.settings.breakthrough + TAB_RISE) / tab.slope
             found[index] = shapely.dwithin(tab.shape, lines, reach)
     return found
@@ -83,7 +83,7 @@ def rapid_height(scene: Scene) -> Check:
     sideways = np.hypot(*(paths.end - paths.start)[rapid, :2].T) > NEAR
     low = rapid[sideways & (paths.low[rapid] < limit - NEAR)]
     if low.size:
-        lines = paths.lines(paths.below(np.inf, steps=low))
+        lines = paths.lines(paths.whole(low))
         over = low[shapely.dwithin(lines, stock_shape(scene.job), paths.radius[low])]
         if over.size:
             step = int(over[0])

@@ -68,6 +68,23 @@ class State:
     """How far the control may leave the programmed path between two moves, mm; inf without a bound."""
 
 
+COLUMNS: dict[str, int | slice] = {
+    "kind": 0,
+    "line": 1,
+    "start": slice(2, 5),
+    "end": slice(5, 8),
+    "centre": slice(8, 10),
+    "sweep": 10,
+    "arc_error": 11,
+    "feed": 12,
+    "seconds": 13,
+    "state": 14,
+}
+"""What a step of a run is recorded by: where it stands in a row."""
+WIDTH = 15
+"""Numbers in such a row."""
+
+
 @dataclass(frozen=True, slots=True)
 class Remark:
     """A comment: its line, its text, and the number of steps before it."""
@@ -190,11 +207,11 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         writes += [replace(write, step=write.step + step) for write in run.writes]
         step += len(run)
 
-    def column(name: str) -> Any:
-        return np.concatenate([getattr(run, name) for run in runs])
-
     return Run(
-        **{name: column(name) for name in _COLUMNS},
+        **{
+            name: np.concatenate([getattr(run, name) for run in runs])
+            for name in (COLUMNS.keys() - {"state"}) | {"piece", "machine_xy"}
+        },
         state=np.concatenate([run.state + at for run, at in zip(runs, first, strict=True)]),
         states=tuple(states),
         remarks=tuple(remarks),
@@ -205,9 +222,3 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
     )
-
-
-_COLUMNS = (
-    *("kind", "line", "start", "end", "centre", "sweep"),
-    *("feed", "seconds", "arc_error", "piece", "machine_xy"),
-)
