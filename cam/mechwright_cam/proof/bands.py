@@ -116,6 +116,3 @@ def asked(job: Job) -> Shape | None:
 def stock_shape(job: Job) -> shapely.Polygon:
     """The plate seen from above."""
     return shapely.box(*job.stock)
-
-
-__all__ = ["Band", "asked", "bands", "floor_of", "grow", "inside_of", "run_out", "stock_shape"]

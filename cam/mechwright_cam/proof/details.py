@@ -72,7 +72,7 @@ def deepest_in_fillet(paths: Paths, job: Job, fillet: Fillet) -> list[Gouge | No
 
 
 def _by_tool(paths: Paths, job: Job) -> tuple[Paths, list[tuple[Paths, list[Detail]]]]:
-    """The moves of tools that may cut no detail; those of each other kind, with the details that it may cut."""
+    """The moves of tools that may cut no detail; those of each other kind, with the details for it."""
     if not job.details:
         return paths, []
     own: dict[ToolKind, list[Detail]] = {}

@@ -6,7 +6,7 @@ Nothing heavy is imported before one is asked.
 from abc import abstractmethod
 from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import PluginError
@@ -71,17 +71,10 @@ _HOMES = (
 """Module of this folder to the functions in it that judge a scene; a rule is called as its function is."""
 
 
-class BuiltIn(Rule):
-    """A rule of ours."""
-
-    home: ClassVar[str]
-    """Module of this folder that has its function."""
-
-
-def _rule(module: str, function: str) -> type[BuiltIn]:
+def _rule(module: str, function: str) -> type[Rule]:
     """A rule made of a function from scene to check."""
 
-    class Built(BuiltIn):
+    class Built(Rule):
         name = function.replace("_", "-")
         home = module
 

@@ -97,16 +97,6 @@ class Scene:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
 
-    def line(self, step: int) -> int:
-        """Line of a step, in its file."""
-        return int(self.run.line[step])
-
-    def spot(self, step: int) -> str:
-        """File and line of a step, in words; there is no file's name where there is one file."""
-        names = self.run.files
-        name = f"{names[int(self.run.file[step])]}: " if len(names) > 1 else ""
-        return f"{name}line {self.line(step)}"
-
     def state(self, step: int) -> State:
         """Machine state in a step."""
         return self.run.states[int(self.run.state[step])]
@@ -124,8 +114,10 @@ class Scene:
         x, y, z = self.run.end[step].tolist() if at is None else at
         at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
-        text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
-        return Check(False, text, self.line(step), value, limit, unit, at)
+        names, line = self.run.files, int(self.run.line[step])
+        spot = f"{names[int(self.run.file[step])]}: line {line}" if len(names) > 1 else f"line {line}"
+        text = f"{spot}: {message}" + (f", at {place}" if place else "")
+        return Check(False, text, line, value, limit, unit, at)
 
 
 def planned_offsets(job: Job) -> dict[int, float]:

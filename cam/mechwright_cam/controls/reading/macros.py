@@ -74,14 +74,8 @@ class _Frame:
 class Macros(Lines):
     """The same, of a program that works out its values and its way.
 
-    Parameters
-    ----------
-    lines
-        All its lines.
-    system
-        Gives the value of a parameter that the machine keeps; raises ValueError if it keeps none such.
-    returned
-        Called when a subroutine ends: the machine looks anew where it stands.
+    ``system`` gives the value of a parameter that the machine keeps, and raises ValueError if it keeps none
+    such; ``returned`` is called when a subroutine ends: the machine looks anew where it stands.
     """
 
     def __init__(

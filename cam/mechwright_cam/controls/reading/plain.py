@@ -68,14 +68,7 @@ _DROPPED = bytes(set(range(256)) - set(_NAMES + _NAMES.lower() + b".\n"))
 
 
 class PlainLines:
-    r"""The plain lines of a text.
-
-    Parameters
-    ----------
-    text
-        The whole program, its lines ended by ``\n``.
-    dialect
-        The control that would read it.
+    r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
 
     Attributes
     ----------
