@@ -17,7 +17,7 @@ from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import heights
-from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.gouge import Gouge, deepest_cut, worst_of
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
@@ -100,4 +100,4 @@ def _gouge(paths: Paths, job: Job) -> Gouge | None:
     some.steps = paths.steps[on[paths.steps]]
     cuts = [deepest_cut(some, band.keep, band.top) for band in bands(job, heights(job))]
     cuts += [deepest_cut(some, tab.shape, tab.top) for tab in job.tabs]
-    return max((cut for cut in cuts if cut is not None), key=lambda cut: cut.depth, default=None)
+    return worst_of(cuts)

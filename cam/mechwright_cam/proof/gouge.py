@@ -8,6 +8,7 @@ along the moves near it the cutter is asked, place by place, how far the highest
 covers stands above its tip.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +34,11 @@ class Gouge:
     depth: float
     step: int
     at: tuple[float, float, float]
+
+
+def worst_of(cuts: Iterable[Gouge | None]) -> Gouge | None:
+    """The deepest of some cuts; None if there is none."""
+    return max((cut for cut in cuts if cut is not None), key=lambda cut: cut.depth, default=None)
 
 
 def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:

@@ -12,6 +12,7 @@ from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.plane.buffers import buffered
+from mechwright_cam.proof.near import Chords
 from mechwright_cam.setup.views import ROUND, Shape, quarter
 
 
@@ -75,26 +76,13 @@ class Boundary:
         self.shape = prepared(shape)
 
     @cached_property
-    def _edges(self) -> NDArray[Any]:
+    def _edges(self) -> Chords:
         rings = shapely.get_rings(shapely.get_parts(self.shape))
-        points, owner = shapely.get_coordinates(rings, return_index=True)
-        same = owner[:-1] == owner[1:]
-        edges: NDArray[Any] = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
-        return edges
-
-    @cached_property
-    def _tree(self) -> shapely.STRtree:
-        return shapely.STRtree(self._edges)
+        return Chords.along(*shapely.get_coordinates(rings, return_index=True))
 
     def distance(self, shapes: NDArray[Any], within: float | None = None) -> Array:
         """Distance (m,) of each shape to the edge, mm; inf where it is beyond ``within``."""
-        out = np.full(len(shapes), np.inf)
-        if len(shapes) and len(self._edges):
-            (index, _), distance = self._tree.query_nearest(
-                shapes, max_distance=within, return_distance=True, all_matches=False
-            )
-            out[index] = distance
-        return out
+        return self._edges.nearest(shapes, within)
 
     def inside(self, shapes: NDArray[Any]) -> Ints:
         """Indices of the shapes that touch the inside."""

@@ -1,6 +1,6 @@
 """What all rules look at."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +13,7 @@ from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab
+from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
@@ -74,7 +74,7 @@ class Scene:
     def gouge(self) -> Gouge | None:
         """The deepest cut into the finished part."""
         paths, job = self.paths, self.job
-        return _deepest(
+        return worst_of(
             [
                 *deepest(paths, job, bands(job, heights(job))),
                 *(cut for fillet in fillets(job) for cut in deepest_in_fillet(paths, job, fillet)),
@@ -90,7 +90,7 @@ class Scene:
             deepest_cut(self.paths, shapely.union_all([t.shape for t in upright if t.top == top]), top)
             for top in sorted({tab.top for tab in upright})
         ]
-        return _deepest([*cuts, *(deepest_in_tab(self.paths, tab) for tab in tabs if tab.ramped)])
+        return worst_of([*cuts, *(deepest_in_tab(self.paths, tab) for tab in tabs if tab.ramped)])
 
     @cached_property
     def remains(self) -> Remains:
@@ -126,11 +126,6 @@ def planned_offsets(job: Job) -> dict[int, float]:
     # Where a drill happens to have the number, the D is the mill's.
     tools = sorted(job.tools, key=lambda tool: tool.kind is ToolKind.END_MILL)
     return {tool.d_number: 0.0 if wear else tool.radius for tool in tools}
-
-
-def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
-    found = [cut for cut in cuts if cut is not None]
-    return max(found, key=lambda cut: cut.depth, default=None)
 
 
 def first(which: NDArray[np.bool_]) -> int | None:

@@ -93,18 +93,10 @@ def simulate(paths: Paths, job: Job) -> Simulation:
     heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
     length = np.nan_to_num(run.length)
     idle = steps[volume[steps] <= cell**2 * NEAR]
-    works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in _used(run, steps)]
-    return Simulation(
-        float(length[idle].sum()),
-        float(length[steps].sum()),
-        tuple(work for work in works if work is not None),
-        heights,
-        cell,
-    )
-
-
-def _used(run: Run, steps: Ints) -> list[int]:
-    return list(dict.fromkeys(run.tool[steps].tolist()))
+    used = dict.fromkeys(run.tool[steps].tolist())
+    works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in used]
+    did = tuple(work for work in works if work is not None)
+    return Simulation(float(length[idle].sum()), float(length[steps].sum()), did, heights, cell)
 
 
 def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
