@@ -69,22 +69,15 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     return grow(thinned(keep), radius + SAFE, ROUGH)
 
 
-@lru_cache(maxsize=32)
-def _walls(keep: shapely.Geometry) -> Array:
-    """Places (n, 2) on the edge of a shape: its corners, and some on long edges."""
-    points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
-    return points
-
-
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=64)
 def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
-    """Places (n, 2) on the edge of a shape, or those of them that stand on another shape."""
-    points = _walls(keep)
+    """Places (n, 2) on the edge of a shape, its corners and some on long edges; or those ``near`` a shape."""
     if near is None:
-        return points
-    near = prepared(near)
-    found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
-    return found
+        points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
+    else:
+        points, near = _points(keep, None), prepared(near)
+        points = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
+    return points
 
 
 def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
