@@ -42,9 +42,8 @@ def _smallest(params: EllipticGearParams) -> Iterator[Finding]:
     for name in ("bore", "keyway_width", "keyway_relief", "tracer_diameter"):
         value = getattr(params, name)
         if value is not None and 0 < value < LEAST_WIDTH:
-            yield Finding(
+            yield Finding.error(
                 "bore.size",
-                Severity.ERROR,
                 name,
                 f"{value:.3g} mm is too small to be milled",
                 value,
@@ -58,9 +57,8 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
     width, bore = params.keyway_width, params.bore
     standard, fitting = key_of_width(width), key_for_bore(bore)
     if width >= bore:
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-width",
-            Severity.ERROR,
             "keyway_width",
             f"a keyway {width:g} mm wide swallows the bore of {bore:g} mm",
             width,
@@ -72,9 +70,8 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
         return
     if params.keyway_depth is None and standard is None:
         widths = ", ".join(f"{key.width:g}" for key in KEYS)
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-depth",
-            Severity.ERROR,
             "keyway_depth",
             f"no standard key is {width:g} mm wide, so its depth is not known",
             width,
@@ -89,9 +86,8 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
         yield from _depth(opening, standard.hub_depth, standard.height - standard.shaft_depth)
     if fitting is None or fitting.width != width:
         series = f"{fitting.width:g} mm" if fitting else "none"
-        yield Finding(
+        yield Finding.warning(
             "bore.keyway-series",
-            Severity.WARNING,
             "keyway_width",
             f"DIN 6885-1 has another key for a bore of {bore:g} mm: {series}",
             width,
@@ -102,9 +98,8 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
     if opening.relief > 0:
         most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
         if opening.relief > most:
-            yield Finding(
+            yield Finding.error(
                 "bore.keyway-relief",
-                Severity.ERROR,
                 "keyway_relief",
                 f"reliefs of {opening.relief:g} mm leave nothing of the keyway's floor or sides",
                 opening.relief,

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Loop, Pocket, Severity, circle
+from mechwright import Finding, Loop, Pocket, circle
 from mechwright_geneva.fixings import hub_dowels, web_place
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.openings import reach, wheel_opening
@@ -70,4 +70,4 @@ def _error(
     key: str, said: str, value: float | None = None, limit: float | None = None, remedy: str = ""
 ) -> Finding:
     unit = "" if value is None else "mm"
-    return Finding("geneva.counterbore", Severity.ERROR, key, said, value, limit, unit, remedy)
+    return Finding.error("geneva.counterbore", key, said, value, limit, unit, remedy)

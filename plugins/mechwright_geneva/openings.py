@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Severity
+from mechwright import Finding
 from mechwright.geometry.keyway import (
     KEYS,
     LEAST_WIDTH,
@@ -63,9 +63,8 @@ def opening_findings(params: GenevaParams) -> Iterator[Finding]:
 
 
 def _too_small(name: str, value: float) -> Finding:
-    return Finding(
+    return Finding.error(
         "bore.size",
-        Severity.ERROR,
         name,
         f"{value:.3g} mm is too small to be milled",
         value,
@@ -86,9 +85,8 @@ def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Find
     fitting = key_for_bore(bore)
     advice = f"the standard is {fitting.width:g}" if fitting else "0 for none"
     if width >= bore:
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-width",
-            Severity.ERROR,
             width_name,
             f"a keyway {width:g} mm wide swallows the bore of {bore:g} mm",
             width,
@@ -100,9 +98,8 @@ def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Find
     key = key_of_width(width)
     if key is None:
         widths = ", ".join(f"{one.width:g}" for one in KEYS)
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-width",
-            Severity.ERROR,
             width_name,
             f"no standard key is {width:g} mm wide",
             width,
@@ -112,9 +109,8 @@ def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Find
         )
         return
     if fitting is None or fitting.width != width:
-        yield Finding(
+        yield Finding.warning(
             "bore.keyway-series",
-            Severity.WARNING,
             width_name,
             f"DIN 6885-1 has another key for a bore of {bore:g} mm",
             width,
@@ -125,9 +121,8 @@ def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Find
     opening = Opening(bore, key.width, key.hub_depth, params.keyway_relief)
     most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
     if params.keyway_relief > most:
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-relief",
-            Severity.ERROR,
             "keyway_relief",
             f"reliefs of {params.keyway_relief:g} mm leave nothing of the keyway's floor or sides",
             params.keyway_relief,

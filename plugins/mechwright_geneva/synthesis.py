@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
@@ -231,9 +231,8 @@ def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> G
 
 def _too_fast(wanted: IndexingRequirement, longest: float) -> Finding:
     least = LEAST_HALF / 180 * 60 / wanted.speed
-    return Finding(
+    return Finding.error(
         "geneva.requirement",
-        Severity.ERROR,
         "index_time",
         f"a movement within {wanted.index_time:g} s is over after {2 * longest:.3g} degrees of the crank",
         wanted.index_time,
@@ -249,9 +248,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
     able = [tried.take(np.flatnonzero(tried.sound)) for tried in near]
     count = sum(tried.half.size for tried in able)
     if count == 0:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "overall_length",
             f"none of {total} designs within {wanted.overall_length:g} mm has sound slots",
             wanted.overall_length,
@@ -262,9 +260,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
     most = wanted.acceleration_limit
     slowest = min(float(tried.acceleration.min()) for tried in able if tried.half.size)
     if most is not None and slowest > most:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "acceleration_limit",
             f"of {count} sound designs the slowest accelerates the wheel by {slowest:.4g} rad/s²",
             most,
@@ -277,9 +274,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
         float(tried.pressure[rows].min()) for tried, rows in zip(able, within, strict=True) if rows.any()
     )
     if least > limit:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "pressure_limit",
             f"of {count} sound designs the best has a Hertz pressure of {least:.4g} MPa",
             limit,
@@ -287,9 +283,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             "MPa",
             "allow more overall_length, a thicker wheel or a longer index_time, or take a stronger material",
         )
-    return Finding(
+    return Finding.error(
         "geneva.requirement",
-        Severity.ERROR,
         "driver_bore",
         f"{count} designs have sound slots, but none a driver that can be made",
         wanted.driver_bore,

@@ -77,9 +77,8 @@ def from_poses(wanted: AdjustablePathRequirement, progress: Progress) -> Synthes
 
 def _fault(code: str, parameter: str, error: MechwrightError) -> Finding:
     said, _, remedy = str(error).partition("; ")
-    return Finding(
+    return Finding.error(
         code,
-        Severity.ERROR,
         parameter,
         said,
         remedy=remedy or "start from a longer projection, or from other guesses",

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright_spherical import checks
 from mechwright_spherical.fit import assembled, fitted
@@ -90,9 +90,8 @@ _SLACK = 0.5
 
 
 def _fault(parameter: str, message: str) -> Finding:
-    return Finding(
+    return Finding.error(
         "spherical.synthesis",
-        Severity.ERROR,
         parameter,
         message.split(";")[0],
         remedy="ask for a larger atlas, more starts, fewer points, or a lower least_transmission",
