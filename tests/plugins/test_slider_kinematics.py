@@ -21,7 +21,6 @@ from mechwright.mechanics.planar import (
     inflection_circle,
     velocity_pole,
 )
-from mechwright_slider_crank import compiled
 from mechwright_slider_crank.figures import (
     crank_turns,
     least_transmission_angle,
@@ -259,35 +258,6 @@ def test_the_slider_pin_goes_straight():
     bodies = REFERENCE.bodies(np.linspace(0, 6, 40))
     bend = curvature_of_path(bodies.rod.point(150.0))
     assert np.abs(bend.signed).max() < 1e-9
-
-
-@settings(max_examples=20, deadline=None)
-@given(st.integers(0, 2**32 - 1))
-def test_compiled_and_plain_kernels_agree(seed):
-    linkage, phi = random_bodies(seed)[0]
-    angles = phi + np.linspace(-800, 800, 1001)
-    fast, plain = compiled.rates(linkage, angles), np.array(linkage.rates(angles))
-    scale = np.abs(plain).max(axis=1, keepdims=True)
-    assert (np.abs(fast - plain) <= 1e-11 * scale).all()
-
-
-def test_compiled_kernel_gives_up_where_numpy_does():
-    fast = compiled.rates(SliderCrank(50.0, 60.0, 20.0), np.linspace(0, math.tau, 100))
-    plain = np.array(SliderCrank(50.0, 60.0, 20.0).rates(np.linspace(0, math.tau, 100)))
-    assert (np.isnan(fast) == np.isnan(plain)).all()
-    assert np.isnan(fast).any()
-
-
-def test_compiled_sine_and_cosine():
-    for angle in (*np.random.default_rng(1).uniform(-1e5, 1e5, 300), *(math.pi / 4 * np.arange(-9, 10))):
-        cos, sin = compiled.cos_sin(float(angle))
-        assert abs(mpmath.cos(mpmath.mpf(float(angle))) - cos) < 2.3e-16
-        assert abs(mpmath.sin(mpmath.mpf(float(angle))) - sin) < 2.3e-16
-
-
-def test_angles_beyond_the_compiled_range_take_the_plain_way():
-    far = np.array([3e5, 1.0])
-    np.testing.assert_array_equal(compiled.rates(REFERENCE, far), np.array(REFERENCE.rates(far)))
 
 
 def test_reference_forces():
