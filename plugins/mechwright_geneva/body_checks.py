@@ -29,14 +29,14 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
 
 
 def _construction(m: Mechanism) -> Iterator[Finding]:
-    if not m.straight and m.construction == "through":
+    if not m.straight and m.params.slots_made == "through":
         yield Finding.error(
             "geneva.islands-loose",
             "construction",
             f"slots that are cut through set their islands free: {m.slots} pieces fall out of the wheel",
             remedy='use construction = "blind" for grooves with a floor, or "backed" for islands on a plate',
         )
-    if m.straight and m.construction == "backed":
+    if m.straight and m.params.slots_made == "backed":
         yield Finding.error(
             "geneva.islands-loose",
             "construction",
@@ -137,7 +137,7 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
                 "make hub_diameter at least "
                 f"{math.ceil((params.hub_diameter + 2 * (wanted - inside)) * 10) / 10:g}, or 0 for none",
             )
-    if m.construction == "backed" and params.fixing > 0:
+    if m.params.slots_made == "backed" and params.fixing > 0:
         yield from _dowels(m)
 
 

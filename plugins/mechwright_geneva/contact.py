@@ -105,7 +105,7 @@ def contact(mechanism: Mechanism, run: Stroke) -> Contact:
         params.load_inertia,
         params.load_torque,
         m.roller,
-        max(m.roller_length, _SHORTEST),
+        max(m.params.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
     )
     return _straight(run, drive) if m.straight else curved(run, drive)

@@ -7,7 +7,7 @@ from functools import lru_cache
 from mechwright import Finding, Stage, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
-from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
+from mechwright_geneva.mechanism import frame_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_LOCKED
 
@@ -133,9 +133,8 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _floor(params: GenevaParams) -> Iterator[Finding]:
-    construction = construction_of(params)
-    length = roller_length_of(params)
-    if construction != "through" and length < LEAST_FLOOR:
+    length = params.roller_length
+    if params.slots_made != "through" and length < LEAST_FLOOR:
         most = params.thickness - params.axial_gap - LEAST_FLOOR
         yield Finding.error(
             "geneva.floor",
