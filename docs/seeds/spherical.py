@@ -299,8 +299,8 @@ def fits() -> list[str]:
     rows = []
     for d in (1.0, 2.0, 3.0, 5.0, 8.0, 12.0):
         before = float(errors(mechanism(d), wanted(d)).max())
-        six = fit(d, Freedom.SIX).greatest
-        twelve = fit(d, Freedom.TWELVE).greatest if d >= 3 else math.nan
+        six = float(fit(d, Freedom.SIX).errors.max())
+        twelve = float(fit(d, Freedom.TWELVE).errors.max()) if d >= 3 else math.nan
         said = "" if math.isnan(twelve) else "below 1e-12" if twelve < EXACT else f"{twelve:.2e}"
         rows.append([f"{d:g}", f"{before:.3e}", f"{six:.3e}", f"{before / six:.0f}", said])
     best = fit(printed.LENGTH, Freedom.SIX)

@@ -33,8 +33,6 @@ from mechwright_spherical.refine import Fit, Freedom, Path, refine
 from mechwright_spherical.refine import errors as path_errors
 from mechwright_spherical.requirements import AdjustablePathRequirement
 
-_FREEDOMS = {"none": (), "six": ("SIX",), "eight": ("SIX", "EIGHT"), "twelve": ("SIX", "EIGHT", "TWELVE")}
-
 DIGITS = 12
 """Decimals of pins in design files: 1e-12 of the radius."""
 
@@ -149,10 +147,10 @@ def _fits(
 ) -> Iterator[Fit]:
     """The projected mechanism, then the best fit of each freedom that is asked for."""
     yield Fit(start, path_errors(start, path))
-    names = _FREEDOMS[wanted.unknowns]
-    for number, name in enumerate(names):
-        freedom = Freedom[name]
-        progress((number + 1) / (len(names) + 2), f"{freedom.unknowns} unknowns")
+    most = 0 if wanted.unknowns == "none" else Freedom[wanted.unknowns.upper()].value
+    freedoms = [freedom for freedom in Freedom if freedom.value <= most]
+    for number, freedom in enumerate(freedoms):
+        progress((number + 1) / (len(freedoms) + 2), f"{freedom.value} unknowns")
         fits = refine(
             start,
             path,

@@ -11,8 +11,8 @@ from functools import lru_cache
 import numpy as np
 
 from mechwright import Array, Finding, Severity, until_error
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.hardware_checks import hardware_findings
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams

@@ -13,10 +13,10 @@ import numpy as np
 
 from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical import checks
 from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.mobility import mobility
 from mechwright_spherical.params import FourBarTable, SphericalParams

@@ -7,9 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from mechwright import Array, DesignError, GeometryError
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
@@ -52,9 +52,9 @@ class Phase:
         """Input angles (samples,) over the whole travel, rad."""
         return np.linspace(self.start, self.start + self.travel, samples)
 
-    def state(self, samples: int, order: int = 0) -> State:
-        """The linkage over the whole travel, moved at 1 rad/s."""
-        return self.loop.at(Turning.of(self.sweep(samples)), order)
+    def state(self, samples: int) -> State:
+        """The linkage over the whole travel."""
+        return self.loop.at(Turning.of(self.sweep(samples)), 0)
 
     @property
     def at_reference(self) -> State:
