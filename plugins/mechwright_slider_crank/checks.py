@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, of_stage, until_error
+from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.figures import least_transmission_angle, limits
-from mechwright_slider_crank.forces import JointForces, balance, joint_forces
+from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
 from mechwright_slider_crank.sizes import sizes_of
@@ -171,7 +172,7 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
         )
 
 
-def _at_work(params: SliderCrankParams) -> JointForces:
+def _at_work(params: SliderCrankParams) -> Forces:
     bodies = params.linkage.bodies(np.linspace(0, math.tau, TURN_SAMPLES), params.omega)
     return joint_forces(params.linkage, bodies, masses_of(params), params.load)
 
@@ -179,7 +180,7 @@ def _at_work(params: SliderCrankParams) -> JointForces:
 @of_stage(Stage.PARTS)
 def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     sizes, carried = sizes_of(params), _at_work(params)
-    force = float(max(np.abs(carried.crank_pin).max(), np.abs(carried.wrist_pin).max()))
+    force = float(max(np.abs(carried.joints["crank-pin"]).max(), np.abs(carried.joints["wrist-pin"]).max()))
     pressure = force / (sizes.pin * params.thickness)
     if pressure > MAX_PRESSURE:
         yield Finding.warning(
@@ -223,13 +224,14 @@ def _figures(params: SliderCrankParams) -> Iterator[Finding]:
     )
     yield _layers(layout)
     masses = masses_of(params)
+    joints = {name: np.abs(carried.joints[name]).max() for name in ("crank-pin", "wrist-pin", "guide")}
     weights = balance(params.crank, params.rod, masses)
     yield Finding.note(
         "slider-crank.forces",
-        f"torque up to {np.abs(carried.torque).max() / 1e3:.4g} N m, crank pin "
-        f"{np.abs(carried.crank_pin).max():.4g} N, wrist pin {np.abs(carried.wrist_pin).max():.4g} N, guide "
-        f"{np.abs(carried.guide).max():.4g} N, shaking force {np.abs(carried.shaking).max():.4g} N",
-        float(np.abs(carried.torque).max()) / 1e3,
+        f"torque up to {np.abs(carried.drive).max() / 1e3:.4g} N m, "
+        + ", ".join(f"{name.replace('-', ' ')} {peak:.4g} N" for name, peak in joints.items())
+        + f", shaking force {np.abs(carried.shaking).max():.4g} N",
+        float(np.abs(carried.drive).max()) / 1e3,
         "N*m",
     )
     yield Finding.note(

@@ -263,10 +263,12 @@ def test_the_slider_pin_goes_straight():
 def test_reference_forces():
     masses = {"crank": Mass(0.0), "rod": Mass(1.2, 50 + 0j, 2500.0), "slider": Mass(2.0)}
     found = joint_forces(REFERENCE, REFERENCE.bodies(PHI, 10.0), masses, -300.0)
-    assert found.torque[0] == pytest.approx(number("input_torque") / 1e3, rel=1e-7)
-    assert found.wrist_pin[0] == pytest.approx(place("pin_force_coupler_on_slider") / 1e3, rel=1e-7)
-    assert found.crank_pin[0] == pytest.approx(place("pin_force_crank_on_coupler") / 1e3, rel=1e-7)
-    assert found.guide[0] == pytest.approx(1j * number("normal_force_of_guide_on_slider") / 1e3, rel=1e-7)
+    assert found.drive[0] == pytest.approx(number("input_torque") / 1e3, rel=1e-7)
+    assert found.joints["wrist-pin"][0] == pytest.approx(place("pin_force_coupler_on_slider") / 1e3, rel=1e-7)
+    assert found.joints["crank-pin"][0] == pytest.approx(place("pin_force_crank_on_coupler") / 1e3, rel=1e-7)
+    assert found.joints["guide"][0] == pytest.approx(
+        1j * number("normal_force_of_guide_on_slider") / 1e3, rel=1e-7
+    )
 
 
 def test_reference_balance():
