@@ -6,9 +6,8 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, GeometryError, Severity, Stage, material, of_stage, until_error
+from mechwright import Finding, GeometryError, Severity, Stage, kept, material, of_stage, until_error
 from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
@@ -39,11 +38,8 @@ SHAFT_PRESSURE_ANGLE = 50.0
 FLANK_ERROR = 0.002
 """Jump of a flank, mm, that no longer comes from fitting: contact is lost between two teeth."""
 
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the part can be built.
 

@@ -2,11 +2,10 @@
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout
@@ -19,9 +18,6 @@ COLOURS: dict[str, Colour] = {
     "gear-5": (0.66, 0.56, 0.72),
 }
 """Body of each gear to its colour."""
-
-_CACHED = 16
-"""Designs whose gears are kept."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +51,7 @@ class Gear:
     holes: tuple[Hole, ...] = ()
 
 
-@lru_cache(_CACHED)
+@kept
 def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     """The gear parts of a design.
 

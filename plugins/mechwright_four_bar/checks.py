@@ -6,10 +6,9 @@ sound, so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 from itertools import combinations
 
-from mechwright import Finding, GeometryError, Severity, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, speed_of
@@ -28,11 +27,8 @@ LEAST_TRANSMISSION = 1.0
 BEARING_PRESSURE = 10.0
 """N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
 
-_CACHED = 64
-"""Designs whose findings are kept: parts and motion ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(

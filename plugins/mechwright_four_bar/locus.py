@@ -16,7 +16,6 @@ links that line up) come out by themselves.
 
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import lru_cache
 from math import isqrt, lcm
 from typing import Any, Literal
 
@@ -24,7 +23,7 @@ import numpy as np
 from flint import fmpz, nmod_mat
 from numpy.typing import NDArray
 
-from mechwright import GeometryError
+from mechwright import GeometryError, kept
 from mechwright.mechanics.algebra import PlaneCurve
 
 Plane = Literal["fixed", "coupler"]
@@ -43,7 +42,7 @@ MOST_PRIMES = 1000
 """Primes after which the search ends: coefficients of 15,000 bits, from lengths of some 25 digits."""
 
 
-@lru_cache(16)
+@kept
 def locus(
     crank: Fraction, coupler: Fraction, follower: Fraction, ground: Fraction, plane: Plane
 ) -> PlaneCurve:

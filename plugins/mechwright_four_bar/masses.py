@@ -1,11 +1,10 @@
 """Masses of the links from their real parts, forces in the joints, and the balance of the shaking force."""
 
 import cmath
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array
+from mechwright import Array, kept
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
@@ -36,7 +35,7 @@ MICRO = 1e-6
 """Moments are computed in mN mm."""
 
 
-@lru_cache(16)
+@kept
 def masses_of(params: FourBarParams) -> dict[str, Mass]:
     """Mass of crank, coupler and follower with what is pressed into them, in their own frames."""
     outlines, layers = outlines_of(params), stack_of(params)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
@@ -26,13 +26,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")

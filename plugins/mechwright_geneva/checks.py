@@ -6,9 +6,8 @@ list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, Stage, of_stage, until_error
+from mechwright import Finding, Stage, kept, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
@@ -18,11 +17,8 @@ from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES, slot_findings
 
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(params, feasibility, _mechanism_findings)

@@ -2,9 +2,8 @@
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, Stage, of_stage
+from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright_geneva.mechanism import frame_of
@@ -22,7 +21,7 @@ FLATTEST = 1.0
 the crank has no length."""
 
 
-@lru_cache(64)
+@kept
 def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
     """Errors that leave nothing to compute."""
     found = list(_law(params))

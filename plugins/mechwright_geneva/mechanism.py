@@ -2,10 +2,11 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
+from mechwright import kept
 from mechwright.mechanics.laws import LAWS, Law, Polynomial
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
@@ -19,9 +20,6 @@ slots the crank then turns: both are those of the worked reference."""
 _COARSE, _ZOOMS = 65, 4
 """Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
 parabola about the bend is flat to rounding."""
-
-_CACHED = 64
-"""Mechanisms that are kept: motion, checks and parts ask for the same one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +157,7 @@ def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
     return 1 / best if best > 0 else math.inf
 
 
-@lru_cache(_CACHED)
+@kept
 def mechanism_of(params: GenevaParams) -> Mechanism:
     """The mechanism of a design that has no faulty law."""
     return Mechanism(params, law_of(params), frame_of(params))
@@ -178,7 +176,7 @@ def frame_of(params: GenevaParams) -> Frame:
     )
 
 
-@lru_cache(_CACHED)
+@kept
 def law_of(params: GenevaParams) -> Law:
     """The law; a table or polynomial has been found free of faults before."""
     match params.law:

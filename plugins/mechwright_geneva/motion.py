@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Poses, Scalar, Stage, refuse
+from mechwright import Array, Channel, Motion, Poses, Scalar, Stage, refuse
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.feasible import feasibility
@@ -46,12 +47,10 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     DesignError
         Fewer than two samples, or a mechanism that cannot move.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60
-    theta_d = np.linspace(0, math.tau, samples)
+    theta_d = travelled(math.tau, samples)
     turn = np.floor((theta_d + _END) / m.pitch)
     within = np.clip(theta_d - turn * m.pitch, 0, None)
     moving = within <= 2 * m.crank_half + _END

@@ -6,10 +6,22 @@ the rollers hang into the slots.
 """
 
 import math
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Pocket, Point, Profile, circle
+from mechwright import (
+    Bore,
+    Colour,
+    Feature,
+    Instance,
+    Loop,
+    Outline,
+    Part,
+    Pocket,
+    Point,
+    Profile,
+    circle,
+    kept,
+)
 from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.counterbore import counterbore
@@ -33,7 +45,7 @@ _RELIEVED = 0.1
 """Share of its depth from which on a relief takes tabs."""
 
 
-@lru_cache(32)
+@kept
 def parts_of(params: GenevaParams) -> tuple[Part, ...]:
     """All parts of a design without error findings."""
     m = mechanism_of(params)

@@ -19,12 +19,12 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment
+from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment, kept
 from mechwright.geometry.fit import fit_curves
 from mechwright_geneva.kinematics import LEFT, RIGHT, Points
 from mechwright_geneva.mechanism import Mechanism
@@ -189,7 +189,7 @@ class _Walls:
     deviation: float
 
 
-@lru_cache(64)
+@kept
 def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _Walls:
     """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps.
 

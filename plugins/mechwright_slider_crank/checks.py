@@ -2,11 +2,10 @@
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Finding, GeometryError, MechwrightError, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.figures import least_transmission_angle, limits
 from mechwright_slider_crank.forces import balance, joint_forces
@@ -34,10 +33,8 @@ MAX_BENDING = 250.0
 MOST_BEND = 0.5
 """Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""
 
-_CACHED = 16
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
     return until_error(params, _turns, _webs, _drawn, _carried, _figures)

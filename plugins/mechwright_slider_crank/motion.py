@@ -5,8 +5,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Scalar, Trace
+from mechwright import Array, Channel, Motion, Scalar, Trace
 from mechwright.contracts.finding import errors
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
@@ -28,17 +29,13 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         The crank cannot turn.
     """
     from mechwright_slider_crank.checks import findings
 
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     linkage, omega = params.linkage, params.omega
-    phi = np.linspace(0, math.copysign(math.tau, omega), samples)
+    phi = travelled(math.copysign(math.tau, omega), samples)
     bodies = linkage.bodies(phi, omega)
     masses = None if errors(findings(params)) else masses_of(params)
     channels = {

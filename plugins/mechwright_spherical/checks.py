@@ -6,11 +6,10 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, until_error
+from mechwright import Array, Finding, Severity, kept, until_error
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
@@ -27,11 +26,8 @@ SAMPLES = 1441
 """Input angles at which a travel is looked at before the lowest one is looked at closely: each half degree of
 two turns."""
 
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: SphericalParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that it can be built."""
     return until_error(

@@ -2,11 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, DesignError, GeometryError
+from mechwright import Array, DesignError, GeometryError, kept
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
@@ -14,9 +14,6 @@ from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
 from mechwright_spherical.vectors import arc, cross, dot, norm, vector
-
-_CACHED = 64
-"""Linkages that are kept: checks, motion and parts ask for the same one."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +47,7 @@ class Phase:
 
     def sweep(self, samples: int) -> Array:
         """Input angles (samples,) over the whole travel, rad."""
-        return np.linspace(self.start, self.start + self.travel, samples)
+        return travelled(self.travel, samples, self.start)
 
     def state(self, samples: int) -> State:
         """The linkage over the whole travel."""
@@ -87,7 +84,7 @@ class Linkage:
     four_bar: FourBar | None = None
 
 
-@lru_cache(_CACHED)
+@kept
 def linkage_of(params: SphericalParams) -> Linkage:
     """The linkage of a design, assembled or not.
 

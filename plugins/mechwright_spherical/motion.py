@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, DesignError, KinematicsError, Motion, Poses, Scalar, Trace
+from mechwright import Channel, KinematicsError, Motion, Poses, Scalar, Trace
 from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
@@ -28,13 +28,9 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         The linkage cannot be assembled all the way, or passes a dead centre.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
     linkage = linkage_of(params)
     phase = linkage.shown
     angles = phase.sweep(samples)
