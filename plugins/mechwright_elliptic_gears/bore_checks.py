@@ -41,9 +41,8 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
             "keyway_depth",
             f"no standard key is {params.keyway_width:g} mm wide, so its depth is not known",
             params.keyway_width,
-            None,
-            "mm",
-            f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
+            unit="mm",
+            remedy=f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
         )
         return
     opening = opening_of(params)

@@ -91,8 +91,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
                 f"of {params.teeth} teeth collide",
                 params.tooth_offset,
                 nearest,
-                "",
-                f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
+                remedy=f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
             )
     if params.tip_radius >= params.dedendum:
         yield Finding.error(
@@ -101,8 +100,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             "the tip arc of the rack is deeper than its tooth",
             params.tip_radius,
             params.dedendum,
-            "",
-            "make tip_radius smaller than dedendum",
+            remedy="make tip_radius smaller than dedendum",
         )
     clearance = params.dedendum - params.addendum
     if clearance < LEAST_CLEARANCE:
@@ -125,8 +123,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             "the ends of its major axis: its offset curve crosses itself",
             params.dedendum,
             tightest / rack.module,
-            "",
-            "use more teeth, a smaller eccentricity or a smaller dedendum",
+            remedy="use more teeth, a smaller eccentricity or a smaller dedendum",
         )
     if rack.half_land < 0:
         yield _land(params)
@@ -144,8 +141,7 @@ def _land(params: EllipticGearParams) -> Finding:
             "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
             params.tip_radius,
             most,
-            "",
-            f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
+            remedy=f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
         )
     deepest = rack.half_space * cos / sin / rack.module
     return Finding.error(
@@ -154,8 +150,7 @@ def _land(params: EllipticGearParams) -> Finding:
         "the flanks of a rack tooth meet before its tip: there is no root",
         params.dedendum,
         deepest,
-        "",
-        f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
+        remedy=f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
     )
 
 
@@ -168,9 +163,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
             "addendum",
             str(error),
             params.addendum,
-            None,
-            "",
-            "make addendum smaller",
+            remedy="make addendum smaller",
         )
         return
     if width >= LEAST_TIP:
@@ -184,8 +177,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
         f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
         width,
         LEAST_TIP,
-        "",
-        "make module or semi_major larger: as made, these teeth need all their backlash"
+        remedy="make module or semi_major larger: as made, these teeth need all their backlash"
         if blame == "backlash" and params.backlash is None
         else f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
     )

@@ -77,9 +77,8 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
             "cam.tools",
             f"no chosen cutter goes into the bore of {opening.bore:g} mm",
             opening.bore,
-            None,
-            "mm",
-            "add a smaller end mill",
+            unit="mm",
+            remedy="add a smaller end mill",
         )
         return
     if gear.key is None:

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Array, Finding
+from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
-from mechwright_elliptic_gears.gear_parts import Gear, Hole, gear_opening, gears_of
+from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -109,8 +109,7 @@ def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
             f"the hole at Q runs into the joint {'J' if nearest == margin else 'K'}",
             params.point_along,
             nearest,
-            "",
-            f"the nearest value with a wall is {nearest:g}; or set tracer_diameter = 0",
+            remedy=f"the nearest value with a wall is {nearest:g}; or set tracer_diameter = 0",
         )
 
 
@@ -130,8 +129,7 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
             f"the joint stands {layout.focus:.2f} mm from the shaft, and both holes need {wanted:.2f} mm",
             params.eccentricity,
             nearest,
-            "",
-            f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter smaller",
+            remedy=f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter smaller",
         )
     module = rack_of(params).module
     free = room(params, np.array([[layout.focus, 0.0]]))
@@ -167,8 +165,7 @@ def _sweep(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
         f"the tips of gear 3 come within {gap:.2f} mm of the spacer below gear 5",
         params.eccentricity,
         nearest,
-        "",
-        "make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
+        remedy="make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
     )
 
 
@@ -266,7 +263,7 @@ def _phase_fault(params: EllipticGearParams) -> str | None:
     return None
 
 
-def _wall(one: Hole, other: Hole) -> float:
+def _wall(one: Bore, other: Bore) -> float:
     return math.dist(one.centre, other.centre) - (one.diameter + other.diameter) / 2
 
 

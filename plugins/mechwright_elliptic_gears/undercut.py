@@ -39,8 +39,7 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
         f"{float(factor.min()):.3f} of that on the pitch curve",
         params.teeth,
         None if better is None else better.teeth,
-        "",
-        remedy,
+        remedy=remedy,
     )
 
 

@@ -158,9 +158,8 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
             "coupler_bend",
             str(error),
             params.coupler_bend,
-            None,
-            "mm",
-            "make coupler_bend or web_width smaller, or rim larger",
+            unit="mm",
+            remedy="make coupler_bend or web_width smaller, or rim larger",
         )
 
 
@@ -174,9 +173,8 @@ def _layers(params: FourBarParams) -> Iterator[Finding]:
             "clearance",
             str(error),
             params.clearance,
-            None,
-            "mm",
-            "make pins, rims, webs or clearance smaller, or bend the coupler",
+            unit="mm",
+            remedy="make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))

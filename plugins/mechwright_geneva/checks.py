@@ -11,11 +11,11 @@ from mechwright import Finding, Stage, kept, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
-from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES, slot_findings
+from mechwright_geneva.wheel import Wheel
 
 
 @kept
@@ -44,11 +44,13 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
         f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
         peaks.a,
     )
-    play = math.degrees(free_play(m))
+    wheel = Wheel(m)
+    play = math.degrees(wheel.free_play)
     yield Finding.note(
         "geneva.play",
         f"in the middle of the dwell the locked wheel can turn by {play:.4f} degrees either way; within "
-        f"{math.degrees(cover(m)):.1f} degrees of its ends the disc covers one horn only, and it is more",
+        f"{math.degrees(wheel.arc_half):.1f} degrees of its ends the disc covers one horn only, and it is "
+        "more",
         play,
         "deg",
     )

@@ -44,8 +44,7 @@ def _law(params: GenevaParams) -> Iterator[Finding]:
             fault.message,
             fault.value,
             fault.limit,
-            "",
-            fault.remedy,
+            remedy=fault.remedy,
         )
 
 

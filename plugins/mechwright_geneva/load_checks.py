@@ -28,8 +28,7 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
             own.a,
             straight.a,
-            "",
-            f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
+            remedy=f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
             "with a lower peak, or accept it for the sake of the jerk",
         )
     if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
@@ -39,8 +38,7 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             f"{m.law.name} starts or ends with a jump of the acceleration: an impact in every stroke",
             max(abs(jump) for jump in m.law.jumps),
             0.0,
-            "",
-            "choose a law whose acceleration is 0 at both ends",
+            remedy="choose a law whose acceleration is 0 at both ends",
         )
 
 

@@ -205,26 +205,17 @@ def _alike(one: GenevaParams, two: GenevaParams) -> bool:
 
 
 def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> GenevaParams:
+    """A design with all that the requirement says of it."""
     radius = float(tried.radius[row])
     return GenevaParams.model_validate(
         {
-            "slots": wanted.slots,
+            **wanted.model_dump(include=set(GenevaParams.model_fields)),
             "law": law,
             "crank_half_angle": float(tried.half[row]),
             "offset_angle": float(tried.offset[row]),
             "entry_radius": float(tried.rim[row]),
             "roller_radius": radius,
             "pin_diameter": max(0.5, round(radius * BORE_ROOM / 2, 1)),
-            "least_wall": wanted.least_wall,
-            "thickness": wanted.thickness,
-            "floor": wanted.floor,
-            "bore": wanted.bore,
-            "driver_bore": wanted.driver_bore,
-            "material": wanted.material,
-            "roller_material": wanted.roller_material,
-            "speed": wanted.speed,
-            "load_inertia": wanted.load_inertia,
-            "load_torque": wanted.load_torque,
         }
     )
 
@@ -253,9 +244,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             "overall_length",
             f"none of {total} designs within {wanted.overall_length:g} mm has sound slots",
             wanted.overall_length,
-            None,
-            "mm",
-            "allow more overall_length or index_time, or smaller bore and least_wall",
+            unit="mm",
+            remedy="allow more overall_length or index_time, or smaller bore and least_wall",
         )
     most = wanted.acceleration_limit
     slowest = min(float(tried.acceleration.min()) for tried in able if tried.half.size)
@@ -288,7 +278,6 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
         "driver_bore",
         f"{count} designs have sound slots, but none a driver that can be made",
         wanted.driver_bore,
-        None,
-        "mm",
-        "make driver_bore or bore smaller, or allow more overall_length",
+        unit="mm",
+        remedy="make driver_bore or bore smaller, or allow more overall_length",
     )

@@ -127,8 +127,7 @@ def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
             "lies between 1 and 3",
             wanted.time_ratio,
             low if wanted.time_ratio <= low else high,
-            "",
-            f"ask for a time ratio {near}"
+            remedy=f"ask for a time ratio {near}"
             + ("; a ratio of 1 has no offset" if near == "just above 1" else ""),
         )
         return

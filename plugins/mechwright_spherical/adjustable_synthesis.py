@@ -26,8 +26,7 @@ from mechwright_spherical import checks, structural
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FiveBarTable, SphericalParams
-from mechwright_spherical.planar import points
-from mechwright_spherical.planar_synthesis import CouplerPoses, PlanarSynthesis, synthesise
+from mechwright_spherical.planar_synthesis import CouplerPoses, PlanarSynthesis, points, synthesise
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Fit, Freedom, Path, refine
 from mechwright_spherical.refine import errors as path_errors

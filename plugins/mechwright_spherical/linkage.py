@@ -1,7 +1,7 @@
 """From a design table to the linkage in space: its loop, its input, the bodies and their pins."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -192,17 +192,8 @@ def _four_bar(table: FourBarTable) -> Linkage:
     )
     axes = _frame(table)
     own = four_bar.loop()
-    loop = Loop(
-        axes @ own.a0,
-        axes @ own.a1,
-        axes @ own.b0,
-        axes @ own.b1,
-        0.0,
-        own.ca,
-        own.cb,
-        own.side,
-        own.point,
-    )
+    turned = {name: axes @ getattr(own, name) for name in ("a0", "a1", "b0", "b1")}
+    loop = replace(own, **turned)
     start = math.radians(table.start)
     found = [_vector(pin, "four_bar.path") for pin in table.path]
     targets = np.array(found).T.reshape(3, len(found))

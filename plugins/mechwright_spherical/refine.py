@@ -15,7 +15,7 @@ import numpy as np
 from mechwright import Array, KinematicsError
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical.fit import assembled, fitted
-from mechwright_spherical.fivebar import AdjustableFiveBar, chord, mean
+from mechwright_spherical.fivebar import AdjustableFiveBar, mean
 from mechwright_spherical.vectors import column, cross, dot, norm, perpendicular
 
 _AXES = ("a0", "b0", "b1")
@@ -71,7 +71,7 @@ def errors(mechanism: AdjustableFiveBar, path: Path) -> Array:
     """Structural errors (..., n1 + n2) of a mechanism as it is."""
     targets = path.targets
     found = mechanism.path(path.angles, path.angles_n)
-    return chord(found, targets if found.ndim == 2 else targets[:, None])
+    return norm(found - (targets if found.ndim == 2 else targets[:, None]))
 
 
 def refine(

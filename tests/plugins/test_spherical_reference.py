@@ -18,8 +18,7 @@ from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.hardware_checks import clear_radius
 from mechwright_spherical.jets import turning_about
 from mechwright_spherical.mobility import mobility
-from mechwright_spherical.planar import pairs, points
-from mechwright_spherical.planar_synthesis import CouplerPoses, arm_pins, crank_dyad, rocker_dyad
+from mechwright_spherical.planar_synthesis import CouplerPoses, arm_pins, crank_dyad, points, rocker_dyad
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Fit, Freedom, Path, errors, refine
 from mechwright_spherical.structural import (
@@ -60,7 +59,7 @@ def poses():
     return CouplerPoses(path[:4], turns[:4], path[4:], turns[4:])
 
 
-EXACT = replace(PRINTED, targets=pairs(planar()[0]))
+EXACT = replace(PRINTED, targets=planar()[0].view(float).reshape(-1, 2))
 MECHANISM = projected(printed.PINS, printed.TABLE_2[0], printed.LENGTH, printed.RATIO)
 PATH = Path(ANGLES, ANGLES_N, project(TABLE_2, printed.LENGTH).T)
 
@@ -139,7 +138,7 @@ def planar_fact(name):
         case "theta1_deg" | "theta1n_deg":
             return crank_angle("a1" if kind == "theta1_deg" else "a1n")
         case "path":
-            return pairs(planar()[0])[int(rest[0][-1]) - 1]
+            return planar()[0].view(float).reshape(-1, 2)[int(rest[0][-1]) - 1]
         case "coupler_rotation_deg":
             return math.degrees(planar()[1][int(rest[0][-1]) - 1])
 
@@ -154,7 +153,7 @@ def synthesis_fact(name):
 
 def printed_fact(name):
     if "table2" in name:
-        return pairs(planar()[0])[int(name[-1]) - 1]
+        return planar()[0].view(float).reshape(-1, 2)[int(name[-1]) - 1]
     return synthesis_fact(name)
 
 

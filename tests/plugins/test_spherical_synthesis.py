@@ -18,8 +18,7 @@ from mechwright_spherical.family import Spherical
 from mechwright_spherical.fivebar import projected
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.planar import points
-from mechwright_spherical.planar_synthesis import CouplerPoses, crank_dyad, synthesise
+from mechwright_spherical.planar_synthesis import CouplerPoses, crank_dyad, points, synthesise
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Freedom, Path, refine
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
