@@ -129,7 +129,8 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
             f"the joint stands {layout.focus:.2f} mm from the shaft, and both holes need {wanted:.2f} mm",
             params.eccentricity,
             nearest,
-            remedy=f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter smaller",
+            remedy=f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter "
+            "smaller",
         )
     module = rack_of(params).module
     free = room(params, np.array([[layout.focus, 0.0]]))

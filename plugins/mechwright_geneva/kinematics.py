@@ -158,6 +158,11 @@ class Stroke:
             value: Array = cross / (self.speed * self.speed * self.speed)
         return value
 
+    def regularity(self, radius: ArrayLike, side: int) -> Array:
+        """1 - κ r on the left, 1 + κ r on the right: the wall turns back where this is below 0."""
+        value: Array = 1 - side * self.curvature * np.asarray(radius)
+        return value
+
 
 def stroke(frame: Frame, law: Law, u: ArrayLike) -> Stroke:
     """The stroke at u (k,) in [0, 1]."""

@@ -28,8 +28,8 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
             own.a,
             straight.a,
-            remedy=f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
-            "with a lower peak, or accept it for the sake of the jerk",
+            remedy=f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a "
+            "law with a lower peak, or accept it for the sake of the jerk",
         )
     if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
         yield Finding.warning(

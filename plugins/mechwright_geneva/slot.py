@@ -186,7 +186,7 @@ class Slot:
 def _fitted(
     mechanism: Mechanism, radius: float, first: float, last: float
 ) -> tuple[list[list[Segment]], float]:
-    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps.
+    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps; deviation.
 
     The way out of a symmetric law is the way in, mirrored about the slot's axis.
     """
