@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     )
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
-    from mechwright.contracts.parameters import Parameters
+    from mechwright.contracts.parameters import Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
@@ -59,7 +59,7 @@ _HOMES = {
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
-    "mechwright.contracts.parameters": "Parameters",
+    "mechwright.contracts.parameters": "Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
@@ -140,6 +140,7 @@ __all__ = [
     "circle",
     "hookimpl",
     "host",
+    "kept",
     "material",
     "of_stage",
     "refuse",

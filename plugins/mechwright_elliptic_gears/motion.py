@@ -5,7 +5,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Poses, Trace
+from mechwright import Array, Channel, Motion, Poses, Trace
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_elliptic_gears.figures import figures
@@ -28,17 +29,10 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
 
     The origin is the axis of the coupler's gear 2 (single pair) or 4 (train), the axis of its mate lies at
     2a on x; gear 2 of a train turns about (-2a, 0).
-
-    Raises
-    ------
-    DesignError
-        Fewer than two samples.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     a, e = ellipse_of(params).semi_major, params.eccentricity
     omega = params.speed * math.tau / 60
-    theta2 = np.linspace(0, math.tau, samples)
+    theta2 = travelled(math.tau, samples)
     gear2 = Turning.of(theta2, omega)
     phase = params.phase_angle
     turning: dict[str, Turning] = {"2": gear2}

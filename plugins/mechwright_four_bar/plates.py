@@ -7,11 +7,11 @@ ground plate. Shaft, coupler (twice) and follower turn in plain bushings, or in 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Colour, Instance, Outline, Part, Poses
+from mechwright import Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import (
     Boss,
     Plate,
@@ -45,8 +45,6 @@ SHAFT = 3.0
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
-_CACHED = 16
-"""Designs whose geometry is kept: check, motion and parts ask for the same one."""
 
 COLOURS: Mapping[str, Colour] = {
     "ground": (0.62, 0.64, 0.66),
@@ -129,7 +127,7 @@ def bosses_of(params: FourBarParams) -> dict[str, tuple[Boss, ...]]:
     }
 
 
-@lru_cache(_CACHED)
+@kept
 def outlines_of(params: FourBarParams) -> dict[str, Outline]:
     """The outline of every plate, in its body's frame: origin in its first joint, x to its second.
 
@@ -194,10 +192,10 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
 
 def crank_angles(params: FourBarParams, samples: int) -> Array:
     """Crank angles (samples,), rad, from X, over one turn in its sense."""
-    return np.linspace(0.0, math.tau if params.direction == "ccw" else -math.tau, samples)
+    return travelled(math.tau if params.direction == "ccw" else -math.tau, samples)
 
 
-@lru_cache(_CACHED)
+@kept
 def stack_of(params: FourBarParams) -> Stack:
     """The layers of plates and the heights of pins.
 

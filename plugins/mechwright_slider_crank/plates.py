@@ -6,11 +6,10 @@ dowels into rails and base. Rod and base carry bushings.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses
+from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses, kept
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
@@ -55,9 +54,6 @@ COLOURS: dict[str, Colour] = {
 
 TAIL_SHARE = 1.5
 """How far the shaft sticks out under the base, over its diameter: room for a coupling or a crank handle."""
-
-_CACHED = 16
-"""Designs whose layout is kept: check, parts, motion and forces ask for the same one."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +120,7 @@ def rod_outline(params: SliderCrankParams) -> Outline:
     return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
 
 
-@lru_cache(_CACHED)
+@kept
 def layout_of(params: SliderCrankParams) -> Layout:
     """Draw all plates and find their layers.
 

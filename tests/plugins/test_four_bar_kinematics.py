@@ -18,7 +18,6 @@ from mechwright.mechanics.planar import (
 )
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.loop import close
-from mechwright_four_bar.rates_kernel import COLUMNS, rates, rates_numpy
 
 BAR = FourBar(40, 120, 80, 100)
 PHI, OMEGA, POINT = math.radians(120), 10.0, 60 + 30j
@@ -179,28 +178,6 @@ def test_rates_are_differences_of_many_digits():
                     wanted = float(wanted)
                     worst = max(worst, abs(value - wanted) / (1 + abs(wanted)))
         assert worst < 1e-9
-
-
-def test_compiled_and_plain_sweeps_are_the_motion():
-    phi = np.linspace(-7, 7, 1001)
-    for branch in (1, -1):
-        bar = FourBar(40, 120, 80, 100, 0.4, branch)
-        loop = close(bar, phi)
-        for rows in (rates(bar, phi), rates_numpy(bar, phi)):
-            found = dict(zip(COLUMNS, rows, strict=True))
-            np.testing.assert_allclose(
-                found["cos_sigma"] + 1j * found["sin_sigma"], loop.coupler.direction, atol=1e-12
-            )
-            np.testing.assert_allclose(
-                found["cos_psi"] + 1j * found["sin_psi"], loop.follower.direction, atol=1e-12
-            )
-            for name, values in (
-                ("omega_c", loop.coupler.first),
-                ("omega_b", loop.follower.first),
-                ("alpha_c", loop.coupler.second),
-                ("alpha_b", loop.follower.second),
-            ):
-                np.testing.assert_allclose(found[name], values, rtol=1e-9, atol=1e-11)
 
 
 def test_a_design_axis_is_swept_in_one_call():

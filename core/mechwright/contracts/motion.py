@@ -6,7 +6,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.errors import KinematicsError
+from mechwright.errors import DesignError, KinematicsError
+
+
+def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
+    """Input angles (samples,), rad, from ``start`` over ``travel``, both ends included.
+
+    Raises
+    ------
+    DesignError
+        Fewer than two samples.
+    """
+    if samples < 2:
+        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
+    return np.linspace(start, start + travel, samples)
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,14 @@ class Turning:
         arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
         return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
 
+    def scaled(self, ratio: float) -> "Turning":
+        """The turning of a shaft that is geared to this one."""
+        return Turning(ratio * self.theta, ratio * self.omega, ratio * self.alpha, ratio * self.jerk)
+
+    def part(self, samples: slice) -> "Turning":
+        """Some of the samples."""
+        return Turning(self.theta[samples], self.omega[samples], self.alpha[samples], self.jerk[samples])
+
     @property
     def direction(self) -> Plane:
         """The unit vectors exp(i θ)."""
