@@ -9,7 +9,7 @@ import numpy as np
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright_cad.animation.figures import MICRON, poses_of, rounded, significant
-from mechwright_cad.interference.bodies import bodies_of, label_of
+from mechwright_cad.bodies import bodies_of, label_of
 from mechwright_cad.interference.path import flat
 
 PAGE_SAMPLES = 361
@@ -29,7 +29,7 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     motion
         With ``PAGE_SAMPLES`` samples, or any other number of them.
     solids
-        Whether to draw parts that are no plates, which takes the CAD kernel.
+        Whether to draw parts that are no plates, which takes the CAD kernel; else the page names them.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """The check itself: every pair of bodies, over the whole motion."""
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import combinations, product
 from typing import Any
 
@@ -13,8 +13,8 @@ from mechwright.contracts.finding import Finding
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
+from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
-from mechwright_cad.interference.bodies import Body, bodies_of
 from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
 from mechwright_cad.interference.report import Collision, Gap, Instant, Report
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
@@ -91,7 +91,8 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
                 continue
             found = plates.meetings(a, other, path)
             if found.hits.size:
-                time, depth, (x, y) = _deepest(a, other, path, found.hits)
+                depth_at = partial(plates.depth, a, other, path)
+                time, depth, (x, y) = deepest(depth_at, found.hits, path, _LOOKS_IN_PLAN)
                 z = max(a.bottom, other.bottom + height) + common / 2
                 hit = (time, min(depth, common), np.array((x, y, z)))
                 collisions.append(_collision(one, two, motion, *hit))
@@ -131,12 +132,7 @@ def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | 
     hits = meshes.meetings(first, second, path)
     if not hits.size:
         return None
-    return deepest(lambda time: meshes.depth(first, second, path, time), hits, path, _LOOKS_IN_SPACE)
-
-
-def _deepest(a: Slab, b: Slab, path: Path, hits: Array) -> tuple[float, float, Array]:
-    """Time, depth and place (2,) of the deepest overlap: on a grid over the hits, then refined."""
-    return deepest(lambda time: plates.depth(a, b, path, time), hits, path, _LOOKS_IN_PLAN)
+    return deepest(partial(meshes.depth, first, second, path), hits, path, _LOOKS_IN_SPACE)
 
 
 def deepest(
@@ -195,10 +191,9 @@ def _reach(parts: Sequence[Part]) -> float:
 
 
 def interference_findings(
-    family: Family[Any], params: Parameters, *, solids: bool, parts: Sequence[Part] | None = None
+    family: Family[Any], params: Parameters, parts: Sequence[Part], *, solids: bool
 ) -> list[Finding]:
-    """What the check says of a design whose own check found no error; ``parts`` if they are known already."""
-    parts = family.parts(params) if parts is None else parts
+    """What the check says of the parts of a design whose own check found no error."""
     if sum(len(part.instances) for part in parts) < 2:
         return []
     motion = faithful_motion(family, params, parts)

@@ -13,16 +13,16 @@ from functools import lru_cache
 import cadquery as cq
 import numpy as np
 from OCP.gp import gp_Trsf
-from OCP.Standard import Standard_Failure
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
-from mechwright.contracts.motion import Motion
-from mechwright.contracts.part import Feature, Part
+from mechwright.contracts.motion import Motion, Poses
+from mechwright.contracts.part import Part
 from mechwright.contracts.sections import blind
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
+from mechwright_cad.bodies import bodies_of
 from mechwright_cad.solids.detailed import detailed
-from mechwright_cad.solids.recess_tools import taken
+from mechwright_cad.solids.recess_tools import cut_out, taken
 from mechwright_cad.solids.solid_check import check_plate, check_recessed, check_solid
 from mechwright_cad.solids.wires import extruded
 
@@ -59,14 +59,16 @@ def part_solid(part: Part) -> cq.Solid:
         It cannot be made or is not right; the message names the part.
     """
     try:
-        if part.outline is not None and any(isinstance(detail, Chamfer) for detail in part.details):
-            made = detailed(part)
+        if part.outline is not None:
+            if any(isinstance(detail, Chamfer) for detail in part.details):
+                made = detailed(part)
+            else:
+                made = plate(part.outline, part.thickness)
+                if not blind(part):
+                    return made
+                made = cut_out(made, [taken(feature, part) for feature in blind(part)])
             check_recessed(made, part)
             return made
-        if part.outline is not None:
-            whole = plate(part.outline, part.thickness)
-            recesses = blind(part)
-            return recessed(whole, part, recesses) if recesses else whole
         assert part.build is not None  # noqa: S101 - Part has either an outline or this
         solid = part.build()
         check_solid(solid)
@@ -101,31 +103,8 @@ def marks(part: Part) -> list[tuple[str, cq.Shape]]:
     return found
 
 
-def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:
-    """A plate with the recesses of a part cut into it.
-
-    Raises
-    ------
-    GeometryError
-        The kernel cannot cut them, or what it made is not what the part's sections say.
-    """
-    cuts = [taken(feature, part) for feature in recesses]
-    try:
-        made = whole.cut(*cuts).clean()
-    except Standard_Failure as error:
-        names = ", ".join(feature.name for feature in recesses)
-        raise GeometryError(f"the CAD kernel cannot cut {names} into the plate ({error})") from error
-    pieces = made.Solids()
-    if len(pieces) != 1:
-        raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
-    check_recessed(pieces[0], part)
-    return pieces[0]
-
-
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
-    """All instances of the parts, named by their bodies, in their poses at one sample of the motion.
-
-    A body that several instances belong to gives them its name and the part's.
+    """All instances of the parts in their poses at one sample of the motion, see :func:`bodies_of`.
 
     Raises
     ------
@@ -134,32 +113,15 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     """
     if not 0 <= sample < motion.samples:
         raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
-    bodies = [instance.body for part in parts for instance in part.instances]
     whole = cq.Assembly(name=name)
-    for part in parts:
-        for instance in part.instances:
-            child = instance.body if bodies.count(instance.body) == 1 else f"{instance.body}-{part.name}"
-            if instance.body not in motion.poses:
-                raise GeometryError(
-                    f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
-                    f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
-                )
-            place = _location(motion, instance.body, sample, instance.z)
-            colour = cq.Color(*part.colour_of(instance))
-            whole.add(part_shape(part), name=_free(child, whole), loc=place, color=colour)
+    for body in bodies_of(parts, motion):
+        place = _location(body.poses, sample, body.instance.z)
+        colour = cq.Color(*body.part.colour_of(body.instance))
+        whole.add(part_shape(body.part), name=body.name, loc=place, color=colour)
     return whole
 
 
-def _free(name: str, whole: cq.Assembly) -> str:
-    """``name``, numbered if a child has it already: names of children are unique."""
-    free, number = name, 2
-    while free in whole.objects:
-        free, number = f"{name}-{number}", number + 1
-    return free
-
-
-def _location(motion: Motion, body: str, sample: int, z: float) -> cq.Location:
-    pose = motion.poses[body]
+def _location(pose: Poses, sample: int, z: float) -> cq.Location:
     turn = pose.rotation[sample]
     shift = pose.position[sample] + turn @ (0.0, 0.0, z)
     rows = np.column_stack((turn, shift)).tolist()

@@ -52,7 +52,7 @@ def bodies_of(parts: Sequence[Part], motion: Motion) -> list[Body]:
                 )
             name = instance.body if names.count(instance.body) == 1 else f"{instance.body}-{part.name}"
             taken[name] = taken.get(name, 0) + 1
-            if taken[name] > 1:
+            if taken[name] > 1:  # names of children of an assembly are unique
                 name = f"{name}-{taken[name]}"
             found.append(Body(name, part, instance, motion.poses[instance.body]))
     return found
