@@ -12,7 +12,7 @@ from mechwright_cam.pages import svg
 from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, origin_mark
 from mechwright_cam.pages.picture.frame import DETAIL, Frame, outline_data
 from mechwright_cam.pages.picture.paths import path_layers
-from mechwright_cam.pages.trace import Traced, trace
+from mechwright_cam.pages.trace import Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
@@ -28,32 +28,18 @@ JAW = 1.2
 def plan_view(
     job: Job,
     program: Program | None = None,
+    traced: Sequence[Traced] = (),
     spots: Sequence[Point] = (),
-    traced: Sequence[Traced] | None = None,
 ) -> str:
-    """A job seen from above.
+    """A job seen from above, as an ``<svg>`` element that scales to its container.
 
-    Parameters
-    ----------
-    job
-        Part, stock, holding.
-    program
-        The paths to draw; None for a picture of the job alone.
-    spots
-        Places to mark, work coordinates, mm.
-    traced
-        The program's strokes, if they are known already.
-
-    Returns
-    -------
-    svg
-        An ``<svg>`` element that scales to its container.
+    With a program its strokes are drawn; ``spots`` are places to mark, work coordinates, mm.
     """
     x0, y0, x1, y1 = job.stock
     frame = Frame(x0, y0, x1, y1)
     layers = [_stock(job), _part(job, frame)]
     if program is not None:
-        layers += path_layers(program, trace(program) if traced is None else traced, frame)
+        layers += path_layers(program, traced, frame)
     layers += [_holding(job, frame), dimensions(job, frame), origin_mark(frame), _spots(spots, frame)]
     layers.append(_names(job, frame))
     margin = 4.6 * frame.letters
