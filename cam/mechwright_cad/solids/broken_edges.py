@@ -44,7 +44,8 @@ from OCP.TopoDS import (
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Line, Loop, Segment
-from mechwright.geometry.parallel import DEGREE, Parallel, nodes
+from mechwright.geometry.fit import interpolation
+from mechwright.geometry.parallel import DEGREE, Parallel
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.solids.wires import DOWN, UP, closed_wire, face_of, knots_of, poles_of, wire_of
 
@@ -124,7 +125,7 @@ def _closed(faces: Sequence[TopoDS_Shape]) -> cq.Solid:
 def _chamfer(edge: Edge, rim: list[TopoDS_Edge], top: float) -> tuple[list[TopoDS_Shape], TopoDS_Wire]:
     """The faces of a chamfer above the edges of a wall, and the wire where they end."""
     parallel = Parallel(edge.loop, edge.side)
-    share = nodes()[0]
+    share = interpolation(DEGREE)[0]
     before, after = parallel.joints(edge.width * share)
     wire, ridge = wire_of(parallel.between(np.roll(after[:, -1], 1), before[:, -1], edge.width), top)
     if isinstance(edge.loop.segments[0], Arc) and edge.loop.is_circle:
@@ -174,7 +175,7 @@ def _last(edge: TopoDS_Edge) -> TopoDS_Vertex:
 
 def _seam(points: Array, low: TopoDS_Vertex, high: TopoDS_Vertex, width: float) -> TopoDS_Edge:
     """An edge through points (n, 3) at the Lobatto nodes, parameter the slant."""
-    share, inverse = nodes()
+    share, inverse = interpolation(DEGREE)
     straight = points[0] + share[:, None] * (points[-1] - points[0])
     if np.abs(points - straight).max() <= STRAIGHT:
         return BRepBuilderAPI_MakeEdge(low, high).Edge()
@@ -262,7 +263,7 @@ def _lay(builder: BRep_Builder, edge: TopoDS_Edge, places: Array, surface: Geom_
 
 
 def _curve(places: Array, first: float, last: float) -> Geom2d_BSplineCurve:
-    inverse = nodes()[1]
+    inverse = interpolation(DEGREE)[1]
     poles = places if len(places) == 2 else inverse @ places
     straight = poles[0] + np.linspace(0, 1, len(poles))[:, None] * (poles[-1] - poles[0])
     if np.abs(poles - straight).max() <= STRAIGHT:

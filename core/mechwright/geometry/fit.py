@@ -118,7 +118,7 @@ def _fit(
             f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers"
         )
     for degree in range(LOWEST_DEGREE, HIGHEST_DEGREE + 1):
-        nodes, inverse = _interpolation(degree)
+        nodes, inverse = interpolation(degree)
         points = part(nodes)
         net = inverse @ points
         net[:, 0], net[:, -1] = points[:, 0], points[:, -1]
@@ -150,7 +150,7 @@ def _distance(net: Array, degree: int, t: Array, exact: Array) -> float:
 
 
 @cache
-def _interpolation(degree: int) -> tuple[Array, Array]:
+def interpolation(degree: int) -> tuple[Array, Array]:
     """Lobatto nodes (degree + 1,) and the matrix that turns values there into control points."""
     nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
     inverse: Array = np.linalg.inv(bernstein(degree, nodes)).astype(np.float64)

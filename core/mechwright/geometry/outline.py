@@ -14,7 +14,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
-from mechwright.geometry.segments import Arc, Line, Point, Segment, circle
+from mechwright.geometry.segments import Arc, Line, Point, Segment
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
@@ -235,6 +235,3 @@ class Outline:
                 raise GeometryError(f"the outline cuts itself: {shapely.is_valid_reason(polygon)}")
             self._polygons[tolerance] = polygon
         return self._polygons[tolerance]
-
-
-__all__ = ["Loop", "Outline", "circle"]

@@ -11,21 +11,21 @@ joint
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
+from mechwright.geometry.fit import HIGHEST_DEGREE, interpolation
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment, bernstein
 from mechwright.tolerances import TOLERANCES
 
 FITTED = TOLERANCES.closure
 """Deviation of a spline's fitted parallel, mm: the CAD kernel sees none; its ends are exact."""
-DEGREE = 9
-"""Degree of fitted parallels: every CAD kernel and DXF reader takes it."""
+DEGREE = HIGHEST_DEGREE
+"""Degree of fitted parallels."""
 MOST_HALVINGS = 6
 """A span that 64 pieces do not fit is not smooth, or the distance is above its radius of curvature."""
 BETWEEN = np.linspace(0.02, 0.98, 2 * DEGREE + 5)
@@ -211,13 +211,6 @@ class Parallel:
             )
 
 
-@cache
-def nodes() -> tuple[Array, Array]:
-    """Lobatto nodes in [0, 1], and the matrix that makes control points of values there."""
-    at = np.asarray((1 - np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)) / 2, dtype=np.float64)
-    return at, np.asarray(np.linalg.inv(bernstein(DEGREE, at)), dtype=np.float64)
-
-
 def _spread(grid: Array, share: Array) -> Array:
     spread: Array = (grid[:-1, None] + np.diff(grid)[:, None] * share).ravel()
     return spread
@@ -225,7 +218,7 @@ def _spread(grid: Array, share: Array) -> Array:
 
 def interpolated(curve: Callable[[Array], Array], grid: Array) -> Array:
     """Control points (pieces, DEGREE + 1, d) of a curve between the places of a grid."""
-    at, inverse = nodes()
+    at, inverse = interpolation(DEGREE)
     values = curve(_spread(grid, at)).reshape(len(grid) - 1, DEGREE + 1, -1)
     poles: Array = np.einsum("ij,kjd->kid", inverse, values)
     # Ends exactly: neighbours share them.

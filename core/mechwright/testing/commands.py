@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mechwright.testing.rules import toml
+from mechwright.designs.text import toml
 
 _COLLISION = "interference.collision"
 """Code of the finding that two bodies collide."""
@@ -85,7 +85,7 @@ def _run(
     design: Mapping[str, Any], folder: Path, command: str, *options: str | Path
 ) -> subprocess.CompletedProcess[str]:
     file = folder / "design.toml"
-    file.write_text(toml(design), encoding="utf-8")
+    file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
     return subprocess.run(  # noqa: S603 - our own interpreter and our own words
         [sys.executable, "-m", "mechwright", command, file, *options],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
