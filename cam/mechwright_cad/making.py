@@ -53,12 +53,7 @@ class Work:
     def files(self) -> dict[str, bytes]:
         """Every part, and the assembly, in every format: file name to content.
 
-        Raises
-        ------
-        GeometryError
-            A part cannot be made or is not right.
-        OutputError
-            Two files would have one name.
+        Raises GeometryError for a part that cannot be made, OutputError where two files would have one name.
         """
         made = Output()
         placed = any(part.instances for part in self.parts)

@@ -59,10 +59,7 @@ TEXT_HEIGHT = 3.5
 def part(part: Part, curves: Curves = "spline") -> bytes:
     """The drawing of a plate part, in its own coordinates.
 
-    Raises
-    ------
-    GeometryError
-        The part has no outline, or a segment cannot be had in the wanted curves.
+    Raises GeometryError for a part without outline, or a segment that cannot be had in the wanted curves.
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")

@@ -47,22 +47,10 @@ _CLOSER = np.array((-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0))
 def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) -> Report:
     """Look for bodies that stand in each other at any instant of a motion.
 
+    The motion is sampled so finely that a cubic through the samples is the motion (:func:`faithful_motion`).
     Parts of one body are compared as well, at rest. Plates that stay parallel are compared exactly in the
-    plane; all other bodies as triangles in space.
-
-    Parameters
-    ----------
-    parts
-        With their instances.
-    motion
-        Sampled so finely that a cubic through the samples is the motion (see :func:`faithful_motion`).
-    solids
-        Whether to compare bodies that need triangles, which takes the CAD kernel where a part is a solid.
-
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have, or a part cannot be made.
+    plane; all other bodies as triangles in space if ``solids`` are asked for, which takes the CAD kernel
+    where a part is a solid. Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
     bodies = bodies_of(parts, motion)
     collisions: list[Collision] = []

@@ -174,10 +174,7 @@ def _circle_centre(points: Array) -> Array:
 def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
     """The layers of a plate in its body, from the top down, a slab for each piece; without fillets on floors.
 
-    Raises
-    ------
-    GeometryError
-        The part is no plate, or its outline cuts itself.
+    Raises GeometryError for a part that is no plate, and for an outline that cuts itself.
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate")

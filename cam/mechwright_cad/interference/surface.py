@@ -47,13 +47,7 @@ class Surface:
 
     @cached_property
     def manifold(self) -> manifold3d.Manifold:
-        """The mesh as the library for booleans has it.
-
-        Raises
-        ------
-        GeometryError
-            It is not closed.
-        """
+        """The mesh as the library for booleans has it; GeometryError if it is not closed."""
         made = manifold3d.Manifold(
             manifold3d.Mesh64(
                 np.array(self.points, order="C"), np.array(self.triangles, dtype=np.uint64, order="C")
@@ -100,13 +94,7 @@ class Surface:
 
 @lru_cache(maxsize=64)
 def surface_of(part: Part, instance: Instance) -> Surface:
-    """The surface of a copy of a part in the frame of its body.
-
-    Raises
-    ------
-    GeometryError
-        The part cannot be made.
-    """
+    """The surface of a copy of a part in the frame of its body; GeometryError if the part cannot be made."""
     if part.outline is not None:
         return Surface(*triangles_of(slabs_of(part, instance), FACET_CHORD - TOLERANCES.flatten))
     from mechwright_cad.solids.solid import part_solid

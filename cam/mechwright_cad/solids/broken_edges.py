@@ -74,10 +74,7 @@ class Edge:
 def body(edges: Sequence[Edge], bottom: float, top: float) -> cq.Solid:
     """The solid between two heights, mm, inside the loops; the outer one first.
 
-    Raises
-    ------
-    GeometryError
-        A chamfer is too wide for its loop, or for the body.
+    Raises GeometryError for a chamfer that is too wide for its loop, or for the body.
     """
     faces: list[TopoDS_Shape] = []
     lower, upper = [], []

@@ -37,10 +37,8 @@ ABOVE = 0.25
 def detailed(part: Part) -> cq.Solid:
     """The solid of a plate that has details, unchecked.
 
-    Raises
-    ------
-    GeometryError
-        A chamfer follows no edge of the top face, or is too wide; or the kernel cannot cut a recess.
+    Raises GeometryError for a chamfer that follows no edge of the top face, or is too wide, and for a recess
+    that the kernel cannot cut.
     """
     assert part.outline is not None  # noqa: S101 - asked for plates only
     chamfers = {detail.name: detail for detail in part.details if isinstance(detail, Chamfer)}

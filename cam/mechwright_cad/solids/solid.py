@@ -28,15 +28,8 @@ from mechwright_cad.solids.wires import extruded
 
 
 def plate(outline: Outline, thickness: float) -> cq.Solid:
-    """The outline extruded from z = 0 up to ``thickness``, mm.
+    """The outline extruded from z = 0 up to ``thickness``, mm; raises GeometryError as ``check_plate`` does.
 
-    Raises
-    ------
-    GeometryError
-        The kernel cannot make it, or what it made is not the outline (see ``check_plate``).
-
-    Examples
-    --------
     >>> from mechwright.geometry import Loop, Outline
     >>> square = Outline(Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)]))
     >>> round(plate(square, 2.0).Volume(), 9)
@@ -51,13 +44,7 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
 
 @lru_cache(maxsize=32)
 def part_solid(part: Part) -> cq.Solid:
-    """The checked solid of a part, recesses cut, made once per process.
-
-    Raises
-    ------
-    GeometryError
-        It cannot be made or is not right; the message names the part.
-    """
+    """The checked solid of a part, recesses cut, made once per process; a GeometryError names the part."""
     try:
         if part.outline is not None:
             if any(isinstance(detail, Chamfer) for detail in part.details):
@@ -106,10 +93,7 @@ def marks(part: Part) -> list[tuple[str, cq.Shape]]:
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
     """All instances of the parts in their poses at one sample of the motion, see :func:`bodies_of`.
 
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have, or the motion has no such sample.
+    Raises GeometryError as that does, or where the motion has no such sample.
     """
     if not 0 <= sample < motion.samples:
         raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")

@@ -42,13 +42,7 @@ TURN_STEPS = 8
 
 
 def check_solid(solid: cq.Solid) -> None:
-    """Refuse what is not one valid solid of positive volume.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong with it.
-    """
+    """Raise GeometryError for what is not one valid solid of positive volume."""
     if not isinstance(solid, cq.Solid):
         raise GeometryError(f"a solid is wanted, not {type(solid).__name__}")
     if not solid.isValid():
@@ -58,13 +52,7 @@ def check_solid(solid: cq.Solid) -> None:
 
 
 def check_plate(solid: cq.Solid, outline: Outline, thickness: float) -> None:
-    """Refuse a solid that is not the outline extruded from z = 0 up to ``thickness``, mm.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong, with the value and the limit.
-    """
+    """Raise GeometryError for a solid that is not the outline extruded from z = 0 up to ``thickness``, mm."""
     segments = [segment for loop in outline.loops for segment in loop.segments]
     _check_splines(segments)
     polygon = outline.polygon()  # refuses an outline that cuts itself, which the kernel lets pass
@@ -85,13 +73,7 @@ RECESSED = 1e-5
 
 
 def check_recessed(solid: cq.Solid, part: Part) -> None:
-    """Refuse a plate with recesses whose volume or height is not that of the part's sections.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong, with the value and the limit.
-    """
+    """Raise GeometryError for a plate with recesses whose volume is not that of the part's sections."""
     check_solid(solid)
     wanted = volume(part)
     properties = GProp_GProps()

@@ -82,10 +82,7 @@ def triangle_count(shape: cq.Shape) -> int:
 def mesh_of(solid: cq.Solid, *, ruled: bool, tolerance: float = LINEAR) -> Mesh:
     """Triangulate a solid within ``tolerance``, mm, and join the faces' triangles along the edges.
 
-    Raises
-    ------
-    GeometryError
-        The triangles leave a hole.
+    Raises GeometryError where the triangles leave a hole.
     """
     triangulate(solid.wrapped, tolerance, ruled=ruled)
     points: list[tuple[float, float, float]] = []

@@ -29,19 +29,8 @@ _LOWER: dict[HoleClass, tuple[int, ...]] = {
 
 @dataclass(frozen=True)
 class Fit:
-    """Limits of a hole.
+    """Limits of a hole: basic size, tolerance class, and limit deviations; mm.
 
-    Parameters
-    ----------
-    size
-        Basic size, mm.
-    name
-        Tolerance class.
-    lower, upper
-        Limit deviations, mm.
-
-    Examples
-    --------
     >>> fit = hole_fit(6, "H7")
     >>> fit.text, fit.middle
     ('6 H7 (0/+0.012)', 6.006)

@@ -29,13 +29,8 @@ PLAY = 0.25
 def metric(designation: str) -> tuple[float, float]:
     """Nominal diameter and pitch of a thread, mm; the coarse pitch if none is said.
 
-    Raises
-    ------
-    GeometryError
-        It is no such designation, has no coarse pitch, or its pitch is too coarse for it.
+    Raises GeometryError for what is no such designation, has no coarse pitch, or too coarse a one.
 
-    Examples
-    --------
     >>> metric("M6"), metric("M8x1")
     ((6.0, 1.0), (8.0, 1.0))
     """
@@ -63,10 +58,7 @@ def hole(part: Part, name: str) -> Bore:
 def fitted(part: Part, name: str, fit: HoleClass) -> Part:
     """The part with a hole made to the middle of a tolerance class of its own size.
 
-    Raises
-    ------
-    GeometryError
-        There is no such hole, or it is larger than the tables of fits.
+    Raises GeometryError where there is no such hole, or it is larger than the tables of fits.
     """
     bore = hole(part, name)
     limits = hole_fit(bore.diameter if bore.fit is None else bore.fit.size, fit)
@@ -76,20 +68,10 @@ def fitted(part: Part, name: str, fit: HoleClass) -> Part:
 def threaded(part: Part, name: str, designation: str, depth: float | None = None) -> Part:
     """The part with a hole threaded from the top face on; the hole gets the core diameter.
 
-    Parameters
-    ----------
-    part, name
-        The plate, and the name of a hole that starts at its top face.
-    designation
-        Such as ``"M6"`` or ``"M6x0.75"``.
-    depth
-        Of the last full turn, mm; left out, all through, or one pitch less than a blind hole.
-
-    Raises
-    ------
-    GeometryError
-        There is no such hole; it is much wider than the thread, or narrower; it is less deep; or less than
-        one pitch of the plate would stay round the thread.
+    The ``designation`` is such as ``"M6"`` or ``"M6x0.75"``, the ``depth`` that of the last full turn, mm;
+    left out it is all through, or one pitch less than a blind hole. Raises GeometryError where there is no
+    hole of this name at the top face; it is much wider than the thread, or narrower; it is less deep; or less
+    than one pitch of the plate would stay round the thread.
     """
     bore = hole(part, name)
     nominal, pitch = metric(designation)

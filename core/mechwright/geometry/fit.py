@@ -42,18 +42,7 @@ least 98 % of the largest one."""
 def fit_curves(
     curves: Curves, count: int, tolerance: float, tag: str = ""
 ) -> tuple[list[list[BSpline]], float]:
-    """Fit each curve by a chain of Bézier segments.
-
-    Parameters
-    ----------
-    curves
-        The exact curves, smooth on [0, 1].
-    count
-        Number of curves, 1 or more.
-    tolerance
-        Largest normal distance of a segment from its curve, mm, above 0.
-    tag
-        Tag of the segments.
+    """Fit each curve by a chain of Bézier segments of one tag; see :func:`fit_nets`.
 
     Returns
     -------
@@ -61,11 +50,6 @@ def fit_curves(
         One list of segments per curve, in order; consecutive ones share their end points to the last bit.
     deviation
         The largest distance found, mm.
-
-    Raises
-    ------
-    GeometryError
-        As :func:`fit_nets`.
 
     Examples
     --------
@@ -83,7 +67,7 @@ def fit_curves(
 
 
 def fit_nets(curves: Curves, count: int, tolerance: float) -> tuple[list[Array], float]:
-    """Fit each curve by a chain of Bézier nets: the arrays behind :func:`fit_curves`.
+    """Fit each of ``count`` exact curves, smooth on [0, 1], by a chain of Bézier nets within a tolerance, mm.
 
     Interpolation at Lobatto nodes; the degree rises from 3 until every curve is within the tolerance, and
     where degree 9 is not enough all curves are cut in halves. The deviation is measured at points between

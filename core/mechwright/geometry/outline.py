@@ -41,6 +41,7 @@ class Loop:
 
     Examples
     --------
+    >>> from mechwright.geometry import circle
     >>> round(Loop((circle((0, 0), 1.0),)).area, 9)
     3.141592654
     """
@@ -218,13 +219,7 @@ class Outline:
         )
 
     def polygon(self, tolerance: float = TOLERANCES.flatten) -> "shapely.Polygon":
-        """The outline as a polygon within ``tolerance``, mm.
-
-        Raises
-        ------
-        GeometryError
-            The outline cuts itself.
-        """
+        """The outline as a polygon within ``tolerance``, mm; raises GeometryError where it cuts itself."""
         if tolerance not in self._polygons:
             import shapely
 

@@ -68,15 +68,8 @@ class Parallel:
     def joints(self, distances: Array) -> tuple[Array, Array]:
         """Parameters of every joint at distances (m,) above 0, rising.
 
-        Returns
-        -------
-        before, after
-            (n, m) on segment i where it ends, and on segment i + 1 where that begins.
-
-        Raises
-        ------
-        GeometryError
-            Two neighbours do not meet any more.
+        Gives those (n, m) on segment i where it ends, and on segment i + 1 where that begins. Raises
+        GeometryError where two neighbours do not meet any more.
         """
         segments = self.loop.segments
         pairs = zip(segments, (*segments[1:], segments[0]), strict=True)
@@ -109,17 +102,8 @@ class Parallel:
     def strip(self, segment: Segment, first: float, last: float, distance: float) -> tuple[Array, Array]:
         """A spline between two parameters, and the same moved, as Bézier pieces of one parameter.
 
-        Returns
-        -------
-        grid
-            (n + 1,) parameters at which pieces end.
-        poles
-            (2, n, DEGREE + 1, 2) control points, mm, of the spline and of its parallel.
-
-        Raises
-        ------
-        GeometryError
-            The parallel is not smooth.
+        Gives the parameters (n + 1,) at which pieces end, and control points (2, n, DEGREE + 1, 2), mm, of
+        the spline and of its parallel. Raises GeometryError for a parallel that is not smooth.
         """
         breaks = segment.breaks()
         grid = np.concatenate(([first], breaks[(breaks > first) & (breaks < last)], [last]))
@@ -141,13 +125,8 @@ class Parallel:
     def at(self, distance: float) -> Loop:
         """The parallel, one segment for each of the loop.
 
-        Raises
-        ------
-        GeometryError
-            A segment vanishes or turns back: the distance is too large for the loop.
+        Raises GeometryError where a segment vanishes or turns back: the distance is too large for the loop.
 
-        Examples
-        --------
         >>> square = Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)])
         >>> round(Parallel(square).at(1.0).area, 6), round(Parallel(square, -1).at(1.0).area, 6)
         (4.0, 36.0)

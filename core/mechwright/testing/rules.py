@@ -140,10 +140,7 @@ def motion_faults(motion: Motion) -> list[str]:
 def outline_faults(part: Part) -> list[str]:
     """An outline that holds no material or is further from the exact curve than it may be.
 
-    Raises
-    ------
-    GeometryError
-        The outline cuts itself.
+    Raises GeometryError for one that cuts itself.
     """
     if part.outline is None:
         return []

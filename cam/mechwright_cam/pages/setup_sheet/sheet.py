@@ -72,7 +72,7 @@ def setup_html(
         "tools": tools,
         "operations": facts.operation_rows(program, traced, proof),
         "offsets": offsets,
-        "loads": facts.load_rows(proof),
+        "loads": proof.get("simulation", {}).get("tools", ()),
         "steps": steps(
             job,
             control,

@@ -47,12 +47,8 @@ class PlaneCurve:
     def of(cls, terms: Mapping[tuple[int, int], Fraction | int], axis: str) -> "PlaneCurve":
         """Sort the terms, drop zeros, and make the coefficient of the highest power of ρ one.
 
-        Where no pure power of ρ is highest, the coefficient of the last term is made one.
-
-        Raises
-        ------
-        GeometryError
-            No term is left, or there is no such axis.
+        Where no pure power of ρ is highest, the coefficient of the last term is made one. Raises
+        GeometryError where no term is left, or there is no such axis.
         """
         kept = {key: Fraction(value) for key, value in sorted(terms.items()) if value != 0}
         if not kept:
