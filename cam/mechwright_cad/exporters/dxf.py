@@ -209,10 +209,6 @@ def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], 
             curve = cubic(segment, TOLERANCES.flatten) if simple else segment
             points = [(x, y, 0.0) for x, y in curve.points]
             space.add_open_spline(points, curve.degree, curve.knots, dxfattribs=attributes)
-        case _:
-            raise GeometryError(
-                f"a segment of type {type(segment).__name__} cannot be drawn; use the three kinds"
-            )
 
 
 def _centres(

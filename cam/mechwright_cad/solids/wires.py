@@ -62,10 +62,6 @@ def _edge(segment: Segment, start: TopoDS_Vertex, end: TopoDS_Vertex, z: float) 
             edge = BRepBuilderAPI_MakeEdge(circle_at(segment, z), start, end, 0.0, abs(segment.sweep))
         case BSpline():
             edge = BRepBuilderAPI_MakeEdge(_spline(segment, z), start, end, 0.0, 1.0)
-        case _:
-            raise GeometryError(
-                f"a segment of type {type(segment).__name__} has no edge; use the three kinds"
-            )
     if not edge.IsDone():
         x, y = segment.start
         raise GeometryError(f"the segment at ({x:.6f}, {y:.6f}) gives no edge ({edge.Error().name})")

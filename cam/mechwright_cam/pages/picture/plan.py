@@ -88,8 +88,7 @@ def _names(job: Job, frame: Frame) -> str:
 
 def _gone(job: Job, frame: Frame) -> str:
     """What an earlier setup has cut through."""
-    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.air_below(0.0), DETAIL)))
-    data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
+    data = _data(shapely.simplify(job.air_below(0.0), DETAIL))
     look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
     return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
 
@@ -100,12 +99,16 @@ def _recesses(job: Job, frame: Frame) -> str:
     layers = []
     for layer in sections(job.part, DETAIL, steps=0)[:-1]:
         taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
-        rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
-        data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
-        if data:
+        if data := _data(taken):
             look = {"fill": "#5f7688", "fill_opacity": 0.4, "fill_rule": "evenodd", "stroke": "#1b2733"}
             layers.append(svg.element("path", d=data, **look, stroke_width=0.04 * frame.letters))
     return "".join(layers)
+
+
+def _data(shape: shapely.Geometry) -> str:
+    """Path data of all rings of a shape."""
+    rings = shapely.get_rings(shapely.get_parts(shape))
+    return "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
 
 
 def _details(job: Job, frame: Frame) -> str:
