@@ -41,12 +41,6 @@ class Mesh:
     points: Array
     triangles: NDArray[np.int64]
 
-    @property
-    def volume(self) -> float:
-        """Volume, mm³, by the divergence theorem."""
-        a, b, c = self.points[self.triangles].transpose(1, 0, 2)
-        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
-
 
 def triangulate(
     shape: TopoDS_Shape, tolerance: float = LINEAR, angle: float = ANGULAR, *, ruled: bool = False
