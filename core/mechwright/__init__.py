@@ -79,73 +79,19 @@ _HOMES = {
 
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
-__all__ = [
-    "HOOK_API",
-    "TOLERANCES",
-    "Arc",
-    "Array",
-    "BSpline",
-    "Bore",
-    "Build",
-    "Candidate",
-    "Chamfer",
-    "Channel",
-    "Colour",
-    "Command",
-    "Design",
-    "DesignError",
-    "Detail",
-    "Engraving",
-    "Exporter",
-    "Family",
-    "Feature",
-    "Finding",
-    "GeometryError",
-    "Host",
-    "Inspection",
-    "Instance",
-    "KinematicsError",
-    "Line",
-    "Loop",
-    "MaterialName",
-    "MechwrightError",
-    "Motion",
-    "OpenProfile",
-    "Outline",
-    "OutputError",
-    "Page",
-    "Parameters",
-    "Part",
-    "Plugin",
-    "PluginError",
-    "Pocket",
-    "Point",
-    "Poses",
-    "Profile",
-    "ProgramError",
-    "Progress",
-    "ProofError",
-    "Scalar",
-    "Segment",
-    "Severity",
-    "Stage",
-    "Synthesis",
-    "Table",
-    "Thread",
-    "ToolError",
-    "Trace",
-    "Wanted",
-    "__version__",
-    "at_stage",
-    "circle",
-    "hookimpl",
-    "host",
-    "kept",
-    "material",
-    "of_stage",
-    "refuse",
-    "until_error",
-]
+__all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
+__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
+__all__ += ["MaterialName", "Parameters", "material"]
+__all__ += ["Array", "Channel", "Motion", "Poses", "Scalar", "Trace"]
+__all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
+__all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
+__all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
+__all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
+__all__ += ["Candidate", "Progress", "Synthesis"]
+__all__ += ["Build", "Design", "Wanted"]
+__all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
+__all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]
+__all__ += ["TOLERANCES"]
 
 
 def __getattr__(name: str) -> Any:

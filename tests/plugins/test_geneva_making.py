@@ -60,7 +60,7 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     made = machine(job, LinuxCnc())
     assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
     assert f"pin-1 ⌀{fit.text}" in setup_html(
-        [(made.job, made.program, made.proof.as_dict())], host().get(Control, "linuxcnc")
+        made.job, made.program, made.proof.as_dict(), host().get(Control, "linuxcnc")
     )
     ((tool, moves),) = [
         (section.tool, operation.moves)
