@@ -92,6 +92,8 @@ def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
     points = _walls(keep)
     if near is None:
         return points
+    x0, y0, x1, y1 = shapely.bounds(shapely.buffer(shapely.box(*near.bounds), 2 * TOLERANCES.flatten))
+    points = points[((points >= (x0, y0)) & (points <= (x1, y1))).all(axis=1)]
     near = prepared(near)
     found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
     return found
