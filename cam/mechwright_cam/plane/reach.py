@@ -108,16 +108,13 @@ def remainder_depths(
     ``near`` is given, only walls that stand at it count.
     """
     walls = _points(keep, near)
-    touched = shapely.boundary(closing(keep, radius))
-    touched = prepared(touched)
     depths = np.zeros(len(walls))
-    # Nearly every point is touched; the prepared test for that is much faster than a distance.
-    points = shapely.points(walls)
-    away = np.flatnonzero(~shapely.dwithin(touched, points, 2 * PRECISION))
-    if away.size:
-        parts = shapely.STRtree(_edges(touched))
-        _, distance = parts.query_nearest(points[away], return_distance=True, all_matches=False)
-        depths[away] = distance
+    # Nearly every point is touched, and distances take long.
+    away = _deep(grow(_swollen(keep, radius), -radius - 2 * PRECISION, PRECISION), keep, near)
+    if away.any():
+        edges = shapely.STRtree(_edges(shapely.boundary(closing(keep, radius))))
+        points = shapely.points(walls[away])
+        _, depths[away] = edges.query_nearest(points, return_distance=True, all_matches=False)
     return walls, depths
 
 
