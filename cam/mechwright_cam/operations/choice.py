@@ -11,7 +11,7 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.entry import lead_length
-from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.plane.offsets import ROUGH, areas, grow
 from mechwright_cam.plane.path import rounded
 from mechwright_cam.plane.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.setup.job import Job, wear_margin
