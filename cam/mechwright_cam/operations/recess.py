@@ -109,7 +109,7 @@ def recess(
     bottom = bottom_of(job, feature.top, feature.depth)
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.body, window), shapely.union_all([must, gone]))
-    keep = _without_skin(keep, looked_at=first)
+    keep = without_skin(keep, looked_at=first)
     tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
     if job.frame is not None:
         tabs.append(shapely.intersection(job.frame.holds, window))
@@ -134,7 +134,7 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
     plate = areas(shapely.intersection(job.body, around))
     layers: list[Layer] = []
     for section in reversed(sections.cut_layers(plate, beside, floor)):
-        wall = _without_skin(areas(section.shape))
+        wall = without_skin(areas(section.shape))
         if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
             wall = layers.pop()[1]
         layers.append((floor - section.top, wall))
@@ -175,7 +175,7 @@ def reached_share(shapes: Recess, radius: float) -> float:
 
 
 @lru_cache(maxsize=64)
-def _without_skin(keep: shapely.Geometry, *, looked_at: bool = False) -> shapely.Geometry:
+def without_skin(keep: shapely.Geometry, *, looked_at: bool = False) -> shapely.Geometry:
     """Without what rounding leaves standing where a feature ends at the edge: long and thin, no drawn wall.
 
     The tip of a sharp wedge is as thin, but short. Paths follow the edge of what is thick; a shape that is
