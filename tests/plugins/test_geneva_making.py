@@ -19,7 +19,7 @@ from mechwright_cad.exporters.dxf import part as drawing
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machining, machine
-from mechwright_cam.operations.slots import outside_mills
+from mechwright_cam.operations.channel import outside_mills
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan

@@ -69,15 +69,24 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
     return grow(thinned(keep), radius + SAFE, ROUGH)
 
 
-@lru_cache(maxsize=64)
-def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
-    """Places (n, 2) on the edge of a shape, its corners and some on long edges; or those ``near`` a shape."""
-    if near is None:
-        points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
-    else:
-        points, near = _points(keep, None), prepared(near)
-        points = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
+@lru_cache(maxsize=32)
+def _walls(keep: shapely.Geometry) -> Array:
+    """Places (n, 2) on the edge of a shape: its corners, and some on long edges."""
+    points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
     return points
+
+
+@lru_cache(maxsize=32)
+def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
+    """Places (n, 2) on the edge of a shape, or those of them that stand on another shape."""
+    points = _walls(keep)
+    if near is None:
+        return points
+    x0, y0, x1, y1 = shapely.bounds(shapely.buffer(shapely.box(*near.bounds), 2 * TOLERANCES.flatten))
+    points = points[((points >= (x0, y0)) & (points <= (x1, y1))).all(axis=1)]
+    near = prepared(near)
+    found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
+    return found
 
 
 def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
@@ -86,14 +95,13 @@ def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | No
     Thickness is the distance from a wall point to the nearest place that the cutter touches. If a shape
     ``near`` is given, only walls that stand at it count.
     """
-    touched = prepared(shapely.boundary(closing(keep, radius)))
-    # Nearly every point is touched; the prepared test for that is much faster than a distance.
-    points = shapely.points(_points(keep, near))
-    away = points[~shapely.dwithin(touched, points, 2 * PRECISION)]
-    if not away.size:
+    # Nearly every point is touched, and distances take long.
+    away = _deep(grow(_swollen(keep, radius), -radius - 2 * PRECISION, PRECISION), keep, near)
+    if not away.any():
         return 0.0
-    parts = shapely.STRtree(_edges(touched))
-    _, distance = parts.query_nearest(away, return_distance=True, all_matches=False)
+    edges = shapely.STRtree(_edges(shapely.boundary(closing(keep, radius))))
+    points = shapely.points(_points(keep, near)[away])
+    _, distance = edges.query_nearest(points, return_distance=True, all_matches=False)
     return float(distance.max())
 
 
