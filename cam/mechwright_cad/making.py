@@ -17,7 +17,7 @@ from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.holes import joined
 from mechwright.cores import cores
 from mechwright.designs.design import Design
-from mechwright.errors import MechwrightError
+from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
 
 if TYPE_CHECKING:
@@ -56,15 +56,28 @@ class Work:
         Raises GeometryError for a part that cannot be made, OutputError where two files would have one name.
         """
         made = Output()
-        placed = any(part.instances for part in self.parts)
         for exporter in self.exporters:
-            for part in self.parts:
-                made.add(part.name + exporter.suffix, exporter.part(part))
-            name = self.design.name
-            assembly = exporter.assembly(name, self.parts, self.motion, self.sample) if placed else None
-            if assembly is not None:
-                made.add("assembly" + exporter.suffix, assembly)
+            contents = [(part.name, exporter.part(part)) for part in self.parts]
+            contents.append(("assembly", self._assembly(exporter)))
+            written = [(name, content) for name, content in contents if content is not None]
+            for name, content in written:
+                made.add(name + exporter.suffix, content)
+            if not written:
+                raise GeometryError(
+                    f"{exporter.name} holds whole mechanisms, and no part of this design has a place in one"
+                )
         return made.files
+
+    def _assembly(self, exporter: Exporter) -> bytes | None:
+        if not any(part.instances for part in self.parts):
+            return None
+        try:
+            return exporter.assembly(self.design.name, self.parts, self.motion, self.sample)
+        except MechwrightError as error:
+            family = self.design.family.name
+            raise GeometryError(
+                f"{exporter.name} cannot hold a mechanism of the family {family}: {error}"
+            ) from error
 
 
 def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list[Finding]:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         refuse,
         until_error,
     )
+    from mechwright.contracts.joint import GROUND, Joint
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
     from mechwright.contracts.parameters import Parameters, kept
@@ -57,6 +58,7 @@ _HOMES = {
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
     "mechwright.contracts.parameters": "Parameters kept",
@@ -82,7 +84,7 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
 __all__ += ["MaterialName", "Parameters", "material"]
-__all__ += ["Array", "Channel", "Motion", "Poses", "Scalar", "Trace"]
+__all__ += ["GROUND", "Array", "Channel", "Joint", "Motion", "Poses", "Scalar", "Trace"]
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]

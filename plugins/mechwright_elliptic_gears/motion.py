@@ -11,6 +11,7 @@ from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
+from mechwright_elliptic_gears.held import held_by
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
@@ -59,7 +60,7 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     channels["pressure_angle"] = Channel(steepest, "rad")
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
-    return Motion("theta2", channels, poses, figures(params), traces)
+    return Motion("theta2", channels, poses, figures(params), traces, held_by(params))
 
 
 def _point_channels(q: PointMotion) -> dict[str, Channel]:

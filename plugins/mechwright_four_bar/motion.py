@@ -16,7 +16,7 @@ from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, rate_peaks, speed_of, turn
-from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
+from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, held_by, pivot_of
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
@@ -64,7 +64,7 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     else:
         figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, frames_of(params, bodies), figures, traces)
+    return Motion("phi", channels, frames_of(params, bodies), figures, traces, held_by(params))
 
 
 def _figures(bar: FourBar) -> dict[str, Scalar]:

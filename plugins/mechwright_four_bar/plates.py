@@ -10,7 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright import GROUND, Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright import Joint as Held
+from mechwright.contracts.joint import fixed
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import (
     Boss,
@@ -188,6 +190,22 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
         at = moving[body].point(place).position + pivot
         poses[frame] = Poses.planar(at.real, at.imag, moving[body].turning.theta)
     return poses
+
+
+def held_by(params: FourBarParams) -> dict[str, Held]:
+    """What holds the bodies of :func:`frames_of`, the loop closed in B."""
+    held = fixed(GROUND, "ground")
+    for one in joints_of(params).values():
+        if one.place:
+            held |= fixed(one.body, one.frame)
+    return {
+        **held,
+        **fixed("coupler", "coupler-b"),
+        "A0": Held("revolute", "ground", "crank", drives=True),
+        "B0": Held("revolute", "ground", "follower", (params.ground, 0.0, 0.0)),
+        "A": Held("revolute", "crank", "coupler", (params.crank, 0.0, 0.0)),
+        "B": Held("revolute", "coupler", "follower", (params.coupler, 0.0, 0.0)),
+    }
 
 
 def crank_angles(params: FourBarParams, samples: int) -> Array:

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from mechwright import Array, Channel, Motion, Poses, Scalar, Stage, refuse
+from mechwright import GROUND, Array, Channel, Joint, Motion, Poses, Scalar, Stage, refuse
+from mechwright.contracts.joint import fixed
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
@@ -90,7 +91,25 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     if m.params.slots_made == "backed":
         for k in range(m.slots):
             poses[island_body(k)] = Poses.planar(0.0, 0.0, theta_w + 2 * m.wheel_half * k)
-    return Motion("theta_d", channels, poses, _figures(m, omega))
+    return Motion("theta_d", channels, poses, _figures(m, omega), joints=_joints(m))
+
+
+def _joints(m: Mechanism) -> dict[str, Joint]:
+    """Two shafts; rollers push the walls of the slots, and the driver's disc holds the wheel."""
+    rollers = [roller_body(k) for k in range(m.params.rollers)]
+    islands = [island_body(k) for k in range(m.slots)] if m.params.slots_made == "backed" else []
+    return {
+        "driver-shaft": Joint("revolute", GROUND, DRIVER, (m.axes, 0.0, 0.0), (0.0, 0.0, -1.0), drives=True),
+        "wheel-shaft": Joint("revolute", GROUND, WHEEL),
+        **fixed(DRIVER, *rollers),
+        **fixed(WHEEL, *islands),
+        "lock": Joint("contact", DRIVER, WHEEL),
+        **{
+            f"{roller}-in-{body}": Joint("contact", roller, body, radius=m.roller)
+            for roller in rollers
+            for body in (WHEEL, *islands)
+        },
+    }
 
 
 def roller_body(k: int) -> str:

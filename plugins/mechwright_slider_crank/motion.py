@@ -16,7 +16,7 @@ from mechwright_slider_crank.figures import least_transmission_angle, limits, tr
 from mechwright_slider_crank.forces import MILLI, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import body_poses, masses_of
+from mechwright_slider_crank.plates import body_poses, held_by, masses_of
 
 _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 """Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
@@ -51,7 +51,8 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     }
     point = params.coupler_point
     traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega, masses), traces)
+    figures = _figures(params, omega, masses)
+    return Motion("phi", channels, body_poses(params, phi), figures, traces, held_by(params))
 
 
 def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses, kept
+from mechwright import GROUND, Array, Colour, GeometryError, Instance, Joint, Outline, Part, Poses, kept
+from mechwright.contracts.joint import fixed
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
@@ -242,6 +243,22 @@ def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
     for name, (body, place) in fixed.items():
         poses[name] = BodyMotion(body.point(place), body.turning).poses()
     return poses
+
+
+def held_by(params: SliderCrankParams) -> dict[str, Joint]:
+    """What holds the bodies of :func:`body_poses`, the loop closed in the slider's pin."""
+    rails = [f"rail-{number}" for number in (1, 2)]
+    dowels = [f"dowel-{number}" for number in range(1, 5)]
+    return {
+        **fixed(GROUND, "base"),
+        **fixed("base", *rails, *dowels),
+        **fixed("crank", "crank-pin"),
+        **fixed("rod", "rod-end"),
+        "shaft": Joint("revolute", "base", "crank", drives=True),
+        "guide": Joint("prismatic", "base", "slider", (0.0, params.offset, 0.0), (1.0, 0.0, 0.0)),
+        "pin-a": Joint("revolute", "crank", "rod", (params.crank, 0.0, 0.0)),
+        "pin-b": Joint("revolute", "rod", "slider", (params.rod, 0.0, 0.0)),
+    }
 
 
 def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:

@@ -11,6 +11,7 @@ from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
+from mechwright_spherical.held import held_by
 from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
@@ -59,7 +60,9 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    return Motion("theta", channels, bodies, _figures(params, linkage), traces)
+    return Motion(
+        "theta", channels, bodies, _figures(params, linkage), traces, held_by(linkage, train, params.radius)
+    )
 
 
 def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:

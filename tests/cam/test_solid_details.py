@@ -19,8 +19,8 @@ from shop import rounded_box
 from step_read import read_step_solids
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
 from mechwright.contracts.holes import CLEARANCE, COARSE, fitted, hole, joined, metric, threaded
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 

@@ -11,8 +11,8 @@ import shapely
 from mechwright.build import Build
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Pocket, Profile
-from mechwright.contracts.sections import volume
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing

@@ -93,12 +93,10 @@ def marks(part: Part) -> list[tuple[str, cq.Shape]]:
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
     """All instances of the parts in their poses at one sample of the motion, see :func:`bodies_of`.
 
-    Raises GeometryError as that does, or where the motion has no such sample.
+    Raises GeometryError as that does.
     """
-    if not 0 <= sample < motion.samples:
-        raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
     whole = cq.Assembly(name=name)
-    for body in bodies_of(parts, motion):
+    for body in bodies_of(parts, motion, sample):
         place = _location(body.poses, sample, body.instance.z)
         colour = cq.Color(*body.part.colour_of(body.instance))
         whole.add(part_shape(body.part), name=body.name, loc=place, color=colour)

@@ -14,8 +14,8 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from mechwright.arrays import Array
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Part
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline, Outline, Segment
 from mechwright.tolerances import TOLERANCES
