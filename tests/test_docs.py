@@ -30,6 +30,7 @@ CONTRACTS = (
     "mechwright.contracts.exporter",
     "mechwright.contracts.family",
     "mechwright.contracts.finding",
+    "mechwright.contracts.joint",
     "mechwright.contracts.motion",
     "mechwright.contracts.parameters",
     "mechwright.contracts.part",

@@ -35,15 +35,9 @@ class EllipticGears(Family[EllipticGearParams]):
         return motion_of(params, samples)
 
     def parts(self, params: EllipticGearParams) -> "Sequence[Part]":
-        """The gears, and of a train all that carries and joins them.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """The gears, and of a train all that carries and joins them."""
         from mechwright_elliptic_gears.checks import findings
-        from mechwright_elliptic_gears.parts import parts_of
+        from mechwright_elliptic_gears.gear_parts import parts_of
 
         refuse(findings(params))
         return parts_of(params)

@@ -33,13 +33,7 @@ class FourBars(Family[FourBarParams]):
         return motion_of(params, samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
-        """Ground, crank, coupler and follower as plates, their pins and bushings.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Ground, crank, coupler and follower as plates, their pins and bushings."""
         from mechwright_four_bar.checks import findings
         from mechwright_four_bar.plates import parts_of
 

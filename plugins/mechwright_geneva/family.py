@@ -33,13 +33,7 @@ class Geneva(Family[GenevaParams]):
         return motion_of(params, samples)
 
     def parts(self, params: GenevaParams) -> "Sequence[Part]":
-        """Wheel, driver and rollers.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Wheel, driver and rollers."""
         from mechwright_geneva.checks import findings
         from mechwright_geneva.parts import parts_of
 

@@ -36,13 +36,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         return motion_of(params, samples)
 
     def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
-        """Base, rails, crank, rod, slider, and the turned parts that join them.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Base, rails, crank, rod, slider, and the turned parts that join them."""
         from mechwright_slider_crank.checks import findings
         from mechwright_slider_crank.plates import parts_of
 

@@ -36,13 +36,7 @@ class Spherical(Family[SphericalParams]):
         return motion_of(params, samples)
 
     def parts(self, params: SphericalParams) -> "Sequence[Part]":
-        """Links, pins, drive, base plate and flat strips.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Links, pins, drive, base plate and flat strips."""
         from mechwright_spherical.checks import findings
         from mechwright_spherical.parts import parts_of
 

@@ -32,14 +32,13 @@ def label_of(body: Body) -> str:
     return part.name if len(part.instances) == 1 else f"{part.name} ({body.instance.body})"
 
 
-def bodies_of(parts: Sequence[Part], motion: Motion) -> list[Body]:
+def bodies_of(parts: Sequence[Part], motion: Motion, sample: int = 0) -> list[Body]:
     """All instances, named as the assembly names them: by the body, and by the part where a body has several.
 
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have.
+    Raises GeometryError for an instance of a body, or a sample, that the motion does not have.
     """
+    if not 0 <= sample < motion.samples:
+        raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
     names = [instance.body for part in parts for instance in part.instances]
     taken: dict[str, int] = {}
     found = []
@@ -52,7 +51,7 @@ def bodies_of(parts: Sequence[Part], motion: Motion) -> list[Body]:
                 )
             name = instance.body if names.count(instance.body) == 1 else f"{instance.body}-{part.name}"
             taken[name] = taken.get(name, 0) + 1
-            if taken[name] > 1:
+            if taken[name] > 1:  # names of children of an assembly are unique
                 name = f"{name}-{taken[name]}"
             found.append(Body(name, part, instance, motion.poses[instance.body]))
     return found
