@@ -17,10 +17,10 @@ import numpy as np
 
 from mechwright import Array, Contributor, GeometryError, Output, ToleranceModel, Tolerances
 from mechwright_geneva.kinematics import Points, Stroke
-from mechwright_geneva.locking import cover
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.tube import Tube, bend, levers, normals, way
+from mechwright_geneva.wheel import Wheel
 
 WHEEL = Output("wheel angle", "rad")
 PLAY = Output("play in the slot", "rad", figure="least")
@@ -200,7 +200,7 @@ def _locks(m: Mechanism) -> bool:
     if middle <= 0 or not m.axes - m.rim < m.lock < m.axes + m.rim:
         return False
     try:
-        return middle >= cover(m)
+        return middle >= Wheel(m).arc_half
     except GeometryError:  # the disc meets no horn, as the check of its parts says
         return False
 

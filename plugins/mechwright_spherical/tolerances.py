@@ -22,8 +22,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mechwright import Array, Output, ToleranceModel, Tolerances
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.chain import third_position
-from mechwright_spherical.jets import Turning, circle
+from mechwright_spherical.jets import circle
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.vectors import arc, column, cross, dot, norm, rotate
