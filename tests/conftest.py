@@ -14,7 +14,7 @@ from hypothesis.internal.conjecture import providers
 REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
 PROGRAMS = {"rs274": "linuxcnc-uspace", "ogr2ogr": "gdal-bin", "ogrinfo": "gdal-bin"}
 """Program to the Debian package that has it."""
-MODULES = ("gmsh", "mypy")
+MODULES = ("gmsh", "mujoco", "mypy")
 PYGCODE = "MECHWRIGHT_PYGCODE"
 """Environment variable with the folder that pygcode is installed in."""
 

@@ -51,7 +51,7 @@ class Made:
         return shapely.affinity.translate(self._beside(planned=False), -x, -y)
 
     def _beside(self, *, planned: bool) -> shapely.Geometry:
-        whole = self.wheel.section(self.m.groove_depth / 2).shape(planned=planned)
+        whole = self.wheel.section(self.m.params.groove_depth / 2).shape(planned=planned)
         islands = self.parts.get("island", ())
         turned = [
             shapely.affinity.rotate(

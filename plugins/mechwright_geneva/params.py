@@ -134,6 +134,23 @@ class GenevaParams(Parameters):
         0.0, description="Constant torque against the wheel's turning."
     )
 
+    @property
+    def slots_made(self) -> Literal["through", "blind", "backed"]:
+        """How the slots are made."""
+        if self.construction != "auto":
+            return self.construction
+        return "through" if self.law == "straight" else "blind"
+
+    @property
+    def groove_depth(self) -> float:
+        """Depth of the slots, mm."""
+        return self.thickness - (0.0 if self.slots_made == "through" else self.floor)
+
+    @property
+    def roller_length(self) -> float:
+        """Length of the roller in the slot, mm: over a floor it keeps the axial gap."""
+        return self.groove_depth - (0.0 if self.slots_made == "through" else self.axial_gap)
+
     @model_validator(mode="after")
     def _together(self) -> Self:
         for law in ("polynomial", "table"):

@@ -136,7 +136,7 @@ def test_a_groove_narrower_than_every_cutter_is_refused():
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_solid_and_drawing_follow_from_the_feature(name):
-    from mechwright.contracts.sections import volume
+    from mechwright.contracts.moments import volume
     from mechwright_cad.solids.solid import part_solid
 
     of = opened(*LIMITS[name])

@@ -15,8 +15,9 @@ from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover
 from random_parts import run
 
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.contracts.sections import sections, volume
+from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line, Loop, circle
 from mechwright.geometry.trim import stretches, trimmed

@@ -14,7 +14,7 @@ from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.limits import measure
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.sound import conditions, sound
+from mechwright_geneva.sound import measured, possible, sound
 
 GENEVA = Geneva()
 THIN = {"least_wall": 0.5, "fixing": 0, "driver_bore": 0, "bore": 0}
@@ -283,7 +283,9 @@ class TestSweepAgainstCheck:
         law = LAWS["cycloidal"]()
         walls = walls_of(mechanism_of(GenevaParams(rollers=2, law="straight", slots=6)))
         with np.errstate(all="ignore"):
-            held = conditions(frame, radius[:, None], measure(frame, law, radius[:, None]), walls)
+            wide = radius[:, None]
+            held = possible(frame, wide, walls)
+            held |= measured(frame, wide, measure(frame, law, wide), walls)
         alone = dict.fromkeys(held, 0)
         for name in held:
             others = np.logical_and.reduce([held[other] for other in held if other != name])

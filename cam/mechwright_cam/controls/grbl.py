@@ -5,8 +5,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from mechwright.contracts.finding import Finding, Severity
-from mechwright_cam.controls.corners import EXACT
-from mechwright_cam.controls.dialect import CENTRE, FEEDS, RETURN, USUAL_M, Dialect
+from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.controls.writing.writer import Writer

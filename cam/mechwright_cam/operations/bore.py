@@ -83,7 +83,7 @@ class BoreOperation(Operation):
             plain = job.settings.compensation == "computer"
             finish = finish_bore if plain else finish_bore_compensated
             steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
-        return stock.without(task.region)
+        return Stock(gone=stock.gone)
 
 
 EXACT = 256

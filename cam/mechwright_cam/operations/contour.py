@@ -12,13 +12,12 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.part import Feature, Profile
 from mechwright.errors import DesignError
-from mechwright_cam.operations.channel import channel_of, roughing_mills
+from mechwright_cam.operations.channel import channel_of, fills_a_slot, outside_mills, roughing_mills
 from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, usable_mills
 from mechwright_cam.operations.compensation import entering
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
 from mechwright_cam.operations.layer import Layer, cut_layers
-from mechwright_cam.operations.slots import fills_a_slot, outside_mills
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import NOISE, Zone

@@ -9,7 +9,7 @@ from mechwright_cam.operations.entry import bore_lead, offsets_of
 from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, line, rounded
-from mechwright_cam.program.moves import Feed, FeedArc, Move
+from mechwright_cam.program.moves import Feed
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
 
@@ -35,18 +35,8 @@ class ContourWriter:
 
     def follow(self, path: Path) -> None:
         """Along a path; on arcs with the tool inside its centre is slower, by the radius that it runs on."""
-        pen, feed, here = self.pen, self.pen.rates.feed, path.start
-        moves: list[Move] = []
-        for cut in path.cuts:
-            if cut.turn:
-                i, j = cut.cx - here[0], cut.cy - here[1]
-                centre = math.hypot(i, j) - self.planned
-                pace = pen.rates.inside(centre, pen.tool.radius, feed) if cut.turn == self.side else feed
-                moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
-            else:
-                moves.append(Feed(cut.x, cut.y, None, feed))
-            here = (cut.x, cut.y)
-        pen.moves.extend(moves)
+        pen = self.pen
+        pen.moves += pen.along(path, pen.rates.feed, self.side, nearer=self.planned)
         pen.place = path.end
 
 

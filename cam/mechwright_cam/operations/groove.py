@@ -26,8 +26,8 @@ from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.layer import Layer
 from mechwright_cam.operations.middle_lines import middle_lines
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.recess import is_recess, plan_view, recess
-from mechwright_cam.operations.recess_zone import floor_mill, floor_radius, recess_zone
+from mechwright_cam.operations.recess import is_recess, plan_view
+from mechwright_cam.operations.recess_zone import first_look, floor_mill, floor_radius, recess_zone
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import SNUG, Zone
@@ -67,9 +67,7 @@ class Groove(Operation):
                 return Task(feature, self, (mill,), top, bottom, plan_view(feature), data=way)
         if not is_recess(feature) or floor_radius(feature) == 0:
             return None
-        bottom = bottom_of(job, feature.top, feature.depth)
-        mills = usable_mills(job, -bottom, floor_radius(feature))
-        shapes = recess(job, feature, mills)
+        mills, shapes = first_look(job, feature)
         if shapely.is_empty(shapes.must):
             return None
         mill, fills = floor_mill(job, feature, mills, shapes)

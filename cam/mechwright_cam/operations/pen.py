@@ -1,6 +1,8 @@
 """Writes moves: keeps the present position, and holds the rules of rapids and entries."""
 
 import math
+from collections.abc import Sequence
+from itertools import accumulate, repeat
 from typing import cast
 
 from mechwright.errors import ToolError
@@ -120,20 +122,34 @@ class Pen:
             return
         moves = cast("list[Move] | None", path.cache.get((feed, inside)))
         if moves is None:
-            moves = []
-            here = path.start
-            for cut in path.cuts:
-                if cut.turn:
-                    i, j = cut.cx - here[0], cut.cy - here[1]
-                    slow = cut.turn == inside
-                    pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
-                    moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
-                else:
-                    moves.append(Feed(cut.x, cut.y, None, feed))
-                here = (cut.x, cut.y)
+            moves = self.along(path, feed, inside)
             path.cache[feed, inside] = moves
         self.moves.extend(moves)
         self.place = path.end
+
+    def along(
+        self,
+        path: Path,
+        feed: float,
+        inside: int = 0,
+        heights: Sequence[float] | None = None,
+        nearer: float = 0.0,
+    ) -> list[Move]:
+        """The moves along a path, each to its height if there are some, z in mm.
+
+        On arcs that turn ``inside``, see :meth:`follow`, the centre runs ``nearer`` mm nearer to the middle.
+        """
+        here, moves = path.start, list[Move]()
+        for cut, z in zip(path.cuts, heights or repeat(None), strict=False):
+            if cut.turn:
+                i, j = cut.cx - here[0], cut.cy - here[1]
+                centre = math.hypot(i, j) - nearer
+                pace = self.rates.inside(centre, self.tool.radius, feed) if cut.turn == inside else feed
+                moves.append(FeedArc(cut.x, cut.y, z, i, j, cut.turn > 0, pace))
+            else:
+                moves.append(Feed(cut.x, cut.y, z, feed))
+            here = (cut.x, cut.y)
+        return moves
 
     def descend(self, path: Path, z: float, feed: float | None = None) -> None:
         """Run along a path while going evenly down to ``z``, arcs as helices."""
@@ -143,20 +159,12 @@ class Pen:
 
     def _evenly(self, path: Path, z: float, feed: float, inside: int = 0) -> None:
         """Run along a path while going evenly to ``z``."""
-        here, start, total, done = path.start, self.z, path.length, 0.0
-        level = rounded(z) == self.z
-        for cut in path.cuts:
-            done += cut.length
-            height = rounded(z if cut is path.cuts[-1] else start + (z - start) * done / total)
-            word = None if level else height
-            if cut.turn:
-                i, j = cut.cx - here[0], cut.cy - here[1]
-                slow = cut.turn == inside
-                pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
-                self.moves.append(FeedArc(cut.x, cut.y, word, i, j, cut.turn > 0, pace))
-            else:
-                self.moves.append(Feed(cut.x, cut.y, word, feed))
-            here = (cut.x, cut.y)
+        start, total, heights = self.z, path.length, None
+        if rounded(z) != start:
+            ways = accumulate(cut.length for cut in path.cuts)
+            heights = [rounded(start + (z - start) * way / total) for way in ways]
+            heights[-1:] = [rounded(z)]
+        self.moves += self.along(path, feed, inside, heights)
         self.place, self.z = path.end, rounded(z)
         self.level = self.z
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeGuard
 
+import numpy as np
 import shapely
 
 from mechwright.contracts import sections
@@ -25,7 +26,7 @@ from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import roomy_mills, run_out
-from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons
+from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons, sound
 from mechwright_cam.plane.reach import opening_keep
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
@@ -99,7 +100,8 @@ def recess(
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
     if shapely.is_empty(must):
         return Recess(must, must, must, True)
-    if not far:
+    first = not far
+    if first:
         far = run_out(roomy_mills(mills, must)[:1], job.settings)
         far = far if roomy else max(far, mills[0].diameter)
     (x0, y0, x1, y1), wide = shape.bounds, 4 * far
@@ -107,7 +109,7 @@ def recess(
     bottom = bottom_of(job, feature.top, feature.depth)
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.body, window), shapely.union_all([must, gone]))
-    keep = _without_skin(keep)
+    keep = without_skin(keep, looked_at=first)
     tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
     if job.frame is not None:
         tabs.append(shapely.intersection(job.frame.holds, window))
@@ -132,7 +134,7 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
     plate = areas(shapely.intersection(job.body, around))
     layers: list[Layer] = []
     for section in reversed(sections.cut_layers(plate, beside, floor)):
-        wall = _without_skin(areas(section.shape))
+        wall = without_skin(areas(section.shape))
         if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
             wall = layers.pop()[1]
         layers.append((floor - section.top, wall))
@@ -173,19 +175,26 @@ def reached_share(shapes: Recess, radius: float) -> float:
 
 
 @lru_cache(maxsize=64)
-def _without_skin(keep: shapely.Geometry) -> shapely.Geometry:
+def without_skin(keep: shapely.Geometry, *, looked_at: bool = False) -> shapely.Geometry:
     """Without what rounding leaves standing where a feature ends at the edge: long and thin, no drawn wall.
 
-    The tip of a sharp wedge is as thin, but short. Choice, findings and plan ask for the same shapes.
+    The tip of a sharp wedge is as thin, but short. Paths follow the edge of what is thick; a shape that is
+    only looked at, to choose mills, keeps what lies on that edge within the rounding of numbers.
     """
-    thin = shapely.get_parts(shapely.difference(keep, opened(keep, SKIN / 2)))
+    thick = opened(keep, SKIN / 2)
+    thin = shapely.get_parts(shapely.difference(keep, thick))
     length, area = shapely.length(thin), shapely.area(thin)
     found = (length > LONG) | (area < FILM * length)
+    if looked_at:
+        corners, owner = shapely.get_coordinates(thin, return_index=True)
+        away = ~shapely.dwithin(prepared(thick), shapely.points(corners), FILM)
+        found &= np.bincount(owner[away], minlength=len(thin)) > 0
     if not found.any():
         return keep
     # What is thinner than numbers can tell has come out as lines.
-    bodies = [*thin[found & (area > 0)], *shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)]
-    return shapely.union_all(polygons(shapely.difference(keep, shapely.union_all(bodies))))
+    lines = shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)
+    skin = shapely.multipolygons([*thin[found & (area > 0)], *lines])
+    return shapely.union_all(polygons(shapely.difference(keep, sound(skin))))
 
 
 def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:

@@ -130,6 +130,12 @@ def _mills(
     return tuple(mills), tuple(last_ones), tuple(finishing)
 
 
+def first_look(job: Job, feature: Profile | Pocket) -> tuple[list[Tool], Recess]:
+    """The mills that may cut a recess, largest first, and its shapes; raises ToolError if there is none."""
+    mills = usable_mills(job, -bottom_of(job, feature.top, feature.depth), floor_radius(feature))
+    return mills, recess(job, feature, mills)
+
+
 def floor_radius(feature: Profile | Pocket) -> float:
     """The fillet of a feature's floor, mm."""
     return feature.floor_radius if isinstance(feature, Pocket) else 0.0

@@ -47,6 +47,6 @@ class Stock:
 
 def together_left(stocks: list[Stock]) -> Stock:
     """The stock of several layers of one recess, as seen from above."""
-    last = stocks[-1]
-    left = last.left if len(stocks) == 1 else shapely.union_all([stock.left for stock in stocks])
-    return replace(last, left=left, over=max(stock.over for stock in stocks))
+    left, *others = dict.fromkeys(stock.left for stock in stocks)
+    left = shapely.union_all([left, *others]) if others else left
+    return replace(stocks[-1], left=left, over=max(stock.over for stock in stocks))

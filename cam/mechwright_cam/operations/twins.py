@@ -11,11 +11,12 @@ from mechwright.contracts.part import Feature, Pocket, Profile
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.operations.congruent import Turn, corners_of, turn_between
 from mechwright_cam.operations.recess import is_recess, plan_view
-from mechwright_cam.plane.offsets import ROUGH, areas
+from mechwright_cam.plane.offsets import ROUGH, areas, simplified
 from mechwright_cam.setup.job import Job
 
-SAME = 2 * ROUGH
-"""What stands around two copies is the same to this, mm: it decides on cutters, and no path follows it."""
+SAME = 3 * ROUGH
+"""What stands around two copies is the same to this, mm, once it is thinned: it decides on cutters, and no
+path follows it."""
 ROUND = 64
 """Chords of a quarter of the circle within which is compared: up to 100 mm they are within SAME."""
 
@@ -70,7 +71,7 @@ class Twins:
 
 def _clipped(shapes: Iterable[shapely.Geometry], disc: shapely.Polygon) -> shapely.Geometry:
     near = [shapely.intersection(shape, disc) for shape in shapes if shapely.intersects(shape, disc)]
-    return areas(shapely.union_all(near))
+    return simplified(areas(shapely.union_all(near)), ROUGH)
 
 
 def _same(one: shapely.Geometry, other: shapely.Geometry) -> bool:

@@ -34,16 +34,9 @@ FEW = 9
 
 
 def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
-    """The shape grown by ``distance``, mm, or shrunk if that is negative.
+    """The shape, or an array of lines or points, grown by ``distance``, mm, or shrunk if that is negative.
 
-    Parameters
-    ----------
-    shape
-        A geometry, or an array of lines or points.
-    distance
-        mm.
-    quad_segs
-        Chords per quarter circle at corners.
+    At corners there are ``quad_segs`` chords per quarter circle.
 
     Examples
     --------

@@ -165,19 +165,11 @@ class Piece:
 def pieces(
     ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: shapely.Geometry, order: int
 ) -> list[Piece]:
-    """The runs of a ring that have to be cut.
+    """The runs of a ring (n + 1, 2), mm, densified, that have to be cut; ``order`` goes into the pieces.
 
-    Parameters
-    ----------
-    ring
-        (n + 1, 2), mm, densified.
-    wanted, near
-        (n + 1,) per vertex: it cuts something; it is near something to cut. A run goes on while it is near,
-        so that it starts and ends in the clear, and has a wanted vertex.
-    room
-        Where the centre may be, prepared; a run that leaves it ends on its edge.
-    order
-        Goes into the pieces.
+    Per vertex ``wanted`` (n + 1,) tells that it cuts something, ``near`` that it is near something to cut. A
+    run goes on while it is near, so that it starts and ends in the clear, and has a wanted vertex. ``room``,
+    prepared, is where the centre may be; a run that leaves it ends on its edge.
     """
     inside = shapely.contains_xy(room, ring[:, 0], ring[:, 1])
     go = (near & inside)[:-1]

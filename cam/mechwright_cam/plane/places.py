@@ -2,39 +2,18 @@
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
 from mechwright_cam.plane.leads import CANDIDATES
-from mechwright_cam.plane.path import Cut, Path
+from mechwright_cam.plane.path import Cut, Path, Place, place_on
 
 STEP = 0.1
 """Places at which a way is looked at, mm."""
 LEAST_PIECE = 0.1
 """A path is not divided nearer to a node, mm."""
-
-
-class Place(NamedTuple):
-    """A place on a cut: length from the path's start, mm, the point, and the heading, rad."""
-
-    at: float
-    point: Point
-    heading: float
-
-
-def place_on(start: Point, cut: Cut, share: float, done: float) -> Place:
-    """The place at a share of a cut."""
-    at = done + share * cut.length
-    if not cut.turn:
-        x, y = (a + share * (b - a) for a, b in zip(start, (cut.x, cut.y), strict=True))
-        return Place(at, (x, y), math.atan2(cut.y - start[1], cut.x - start[0]))
-    radius = math.hypot(start[0] - cut.cx, start[1] - cut.cy)
-    angle = math.atan2(start[1] - cut.cy, start[0] - cut.cx) + share * cut.turn * cut.length / radius
-    point = cut.cx + radius * math.cos(angle), cut.cy + radius * math.sin(angle)
-    return Place(at, point, angle + cut.turn * math.pi / 2)
 
 
 def walk(path: Path) -> Iterator[tuple[Point, Cut, float]]:

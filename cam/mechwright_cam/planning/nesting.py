@@ -291,18 +291,14 @@ def _bottom_left(
             xs = np.unique(np.append(boxes[:, 2] + gap, 0.0))
             ys = np.unique(np.append(boxes[:, 3] + gap, 0.0))
             xs, ys = xs[xs + a <= width + SNAP], ys[ys + b <= height + SNAP]
-            x, y = (grid.ravel() for grid in np.meshgrid(xs, ys))
-            met = (
-                (x[:, None] < boxes[:, 2] + gap - SNAP)
-                & (x[:, None] + a > boxes[:, 0] - gap + SNAP)
-                & (y[:, None] < boxes[:, 3] + gap - SNAP)
-                & (y[:, None] + b > boxes[:, 1] - gap + SNAP)
-            ).any(axis=1)
-            x, y = x[~met], y[~met]
-            if x.size == 0:
+            beside = (xs[:, None] < boxes[:, 2] + gap - SNAP) & (xs[:, None] + a > boxes[:, 0] - gap + SNAP)
+            above = (ys[:, None] < boxes[:, 3] + gap - SNAP) & (ys[:, None] + b > boxes[:, 1] - gap + SNAP)
+            # How many boxes a place would meet, as a product of matrices; both ways ascend.
+            free = np.argwhere(above.astype(np.float32) @ beside.T.astype(np.float32) == 0)
+            if free.size == 0:
                 continue
-            place = np.lexsort((x, y))[0]
-            at = (float(y[place]) + b, float(x[place]), float(y[place]), turned)
+            row, column = free[0]
+            at = (float(ys[row]) + b, float(xs[column]), float(ys[row]), turned)
             best = at if best is None else min(best, at)
         if best is None:
             return None

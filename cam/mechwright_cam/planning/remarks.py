@@ -56,13 +56,13 @@ def lay_out(
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
     except MechwrightError as error:
-        return None, [_refusal(error)]
+        return None, [refusal(error)]
     refused = list(assigned.refused)
     try:
         check_clamp(job)
     except DesignError as error:
         refused.append(error)
-    found = [_refusal(error) for error in refused]
+    found = [refusal(error) for error in refused]
     if not found:
         for task in assigned.tasks:
             found += task.operation.remarks(task, job)
@@ -134,13 +134,13 @@ def _travel(job: Job) -> list[Finding]:
     ]
 
 
-def _refusal(error: MechwrightError) -> Finding:
+def refusal(error: MechwrightError, code: str = "cam.cannot-cut") -> Finding:
     """An error that names its parameter in front, as a finding."""
     text = str(error)
     parameter, _, message = text.partition(": ")
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
-    return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
+    return Finding(code, Severity.ERROR, parameter, message)
 
 
 def _spotted(job: Job, spot: Tool) -> float:

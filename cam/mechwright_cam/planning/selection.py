@@ -14,13 +14,12 @@ from mechwright_cam.operations.compensation import has_entries
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.rates import runs_too_fast
-from mechwright_cam.operations.recess import recess
-from mechwright_cam.operations.recess_zone import floor_mill
+from mechwright_cam.operations.recess_zone import first_look, floor_mill
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.assign import Assignments, assign
-from mechwright_cam.setup.depths import bottom_of, through
+from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.limits import height_of
@@ -179,9 +178,7 @@ def _floor_mills(every: Job) -> list[Tool]:
     found = []
     for feature in every.features:
         if isinstance(feature, Pocket) and feature.floor_radius > 0:
-            bottom = bottom_of(every, feature.top, feature.depth)
-            mills = usable_mills(every, -bottom, feature.floor_radius)
-            shapes = recess(every, feature, mills)
+            mills, shapes = first_look(every, feature)
             if not shapely.is_empty(shapes.must):
                 found.append(floor_mill(every, feature, mills, shapes)[0])
     return found

@@ -17,14 +17,14 @@ from typing import Literal
 import numpy as np
 import shapely
 
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.part import Bore, Feature, Part
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright_cam.plane.offsets import ROUGH, filled, grow
 from mechwright_cam.planning.assign import Assignments
-from mechwright_cam.planning.remarks import lay_out
+from mechwright_cam.planning.remarks import lay_out, refusal
 from mechwright_cam.setup.job import LEVEL, Air, Job
 from mechwright_cam.setup.sides import SIGNS, _over, sides
 from mechwright_cam.setup.thin_floors import thin_floors
@@ -41,6 +41,9 @@ DOWEL_FRAME = 3.0
 UNDERSIDE = "-underside"
 """What a part's name ends in for its second setup."""
 
+SECOND = "cam.second-side"
+"""Code of what is wrong with it."""
+
 WALL = 3.0
 """Stock around a dowel hole, mm: it must not break out under the dowel."""
 
@@ -56,7 +59,7 @@ def lay_out_setups(
     try:
         upper, under = sides(part)
     except DesignError as error:
-        return [], [_refusal("cam", str(error))]
+        return [], [refusal(error, SECOND)]
     if not under:
         job, found = lay_out(part, settings, library, (), assignments)
         return ([], found) if job is None else ([job], [*found, *thin_floors(part, upper, ())])
@@ -74,14 +77,9 @@ def lay_out_setups(
                 return [], found
         second, more = _second(job, part, under, library, assignments)
     except DesignError as error:
-        parameter, _, message = str(error).partition(": ")
-        return [], [*found, _refusal(parameter, message)]
+        return [], [*found, refusal(error, SECOND)]
     thin = thin_floors(part, upper, under)
     return ([job] if second is None else [job, second]), [*found, *more, *thin]
-
-
-def _refusal(parameter: str, message: str) -> Finding:
-    return Finding("cam.second-side", Severity.ERROR, parameter, message)
 
 
 def _second(

@@ -26,7 +26,7 @@ from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.rings import Ring, circle_ring, rings_of
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.sweep import Sweep, Sweeps
-from mechwright_cam.proof.wall_stock import HINTED
+from mechwright_cam.proof.wall import HINTED
 from mechwright_cam.proof.wanted import Wanted
 from mechwright_cam.shop.tool import MILLS, ToolKind
 

@@ -7,7 +7,7 @@ from mechwright.contracts.made_part import MadeSection, Witness
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.as_made import fine_chords
 from mechwright_cam.proof.sweep import Sweep, Sweeps
-from mechwright_cam.proof.wall_stock import HINTED
+from mechwright_cam.proof.wall import HINTED
 
 SEEN = 1e-4
 """A smaller step is none, mm: the last decimal of a program may move a pass by as much."""

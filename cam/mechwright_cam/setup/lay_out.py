@@ -20,19 +20,9 @@ from mechwright_cam.shop.tool import MILLS, Tool
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
     """Lay a plate part into its stock and decide how it is held.
 
-    Parameters
-    ----------
-    part, settings, tools
-        What is made, and with what.
-    below
-        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
-
-    Raises
-    ------
-    GeometryError
-        The part is no plate.
-    DesignError
-        The stock is too small, or the part has no bore to be held by.
+    ``below`` are features that a second setup cuts from the underside, and its dowels: tabs stay clear of
+    them. Raises GeometryError for a part that is no plate; DesignError where the stock is too small, or
+    nothing of the part can be held as the settings say.
     """
     widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
     # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.

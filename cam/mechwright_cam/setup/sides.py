@@ -27,10 +27,7 @@ SIGNS = {"x": (1.0, -1.0), "y": (-1.0, 1.0)}
 def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
     """The features that are cut from above, and those that only the underside shows.
 
-    Raises
-    ------
-    DesignError
-        A feature is closed on both sides.
+    Raises DesignError for a feature that is closed on both sides.
     """
     above = _open_from_above(part.features)
     rest = [feature for feature in part.features if feature not in above]

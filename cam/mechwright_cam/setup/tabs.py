@@ -37,19 +37,10 @@ DEEPER = 1.25
 
 
 def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[Tab, ...]:
-    """Place the tabs of a job along its outsides.
+    """Place the tabs of a job along its outsides; raises DesignError where there is no room for them.
 
-    Parameters
-    ----------
-    reach
-        How far they reach outwards, mm; in a nest it is to the middle between two parts.
-    below
-        Features that are cut from the underside later, and dowels, work coordinates: no tab stands there.
-
-    Raises
-    ------
-    DesignError
-        There is no room for them.
+    They reach ``reach`` mm outwards, in a nest to the middle between two parts, and stand at nothing of
+    ``below``: features that are cut from the underside later, and dowels, work coordinates.
     """
     hold = job.settings.hold
     if hold.tab_height >= job.thickness:

@@ -56,15 +56,8 @@ def gripping_height(job: "Job") -> float:
 def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
     """Place the jaws of a vice on two opposite finished edges, where no cutter goes as deep as they are.
 
-    Parameters
-    ----------
-    widest
-        Diameter of the widest end mill, mm.
-
-    Raises
-    ------
-    DesignError
-        There are no such edges, or they are too short for what is milled beside them.
+    ``widest`` is the diameter of the widest end mill, mm. Raises DesignError where there are no such edges,
+    or they are too short for what is milled beside them.
     """
     height = gripping_height(job)
     if height > job.thickness:

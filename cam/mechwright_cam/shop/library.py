@@ -18,13 +18,7 @@ BUILT_IN = Path(__file__).with_name("tools.toml")
 
 @dataclass(frozen=True)
 class Library:
-    """Cutters by name, each with its own T number.
-
-    Raises
-    ------
-    DesignError
-        Two cutters have one T number; the message names both.
-    """
+    """Cutters by name, each with its own T number; a DesignError names two that share one."""
 
     tools: tuple[Tool, ...]
 
@@ -71,12 +65,7 @@ class Library:
         """The library with cutting data of a design over its own, by the name of the tool.
 
         They hold for every material that the tool cuts. With a speed and a chip load they also stand for a
-        material that the library has no data for.
-
-        Raises
-        ------
-        ToolError
-            There is no such tool.
+        material that the library has no data for. Raises ToolError where there is no such tool.
         """
         return self.extended(tuple(_changed(self.get(name), change) for name, change in changes.items()))
 
@@ -108,12 +97,8 @@ def built_in() -> Library:
 def load_library(path: Path | None = None) -> Library:
     """Give the built-in library, extended and overridden by the cutters in ``path``.
 
-    Raises
-    ------
-    OutputError
-        The file cannot be read.
-    DesignError
-        A tool in it is wrong: file, tool, key, value and limit are named, one line for each wrong key.
+    Raises OutputError where that cannot be read; DesignError that names file, tool, key, value and limit, a
+    line for each wrong key.
     """
     if path is None:
         return built_in()

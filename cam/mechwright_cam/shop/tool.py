@@ -7,7 +7,6 @@ from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
-from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
 
 
 class ToolKind(StrEnum):

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright.contracts.tolerance_settings import Tolerances
+    from mechwright.contracts.tolerances import ToleranceModel
 
 P = TypeVar("P", bound=Parameters)
 
@@ -116,6 +118,27 @@ class Family(Plugin, Generic[P]):
         from mechwright.contracts.as_made import AsMade
 
         return AsMade()
+
+    def tolerances(
+        self,
+        params: P,  # noqa: ARG002 - used by families that have an analysis
+        tolerances: "Tolerances",  # noqa: ARG002
+    ) -> "ToleranceModel | None":
+        """How deviations of dimensions and joints change what the mechanism does.
+
+        Parameters
+        ----------
+        params
+            A design whose ``check`` finds no error of the motion.
+        tolerances
+            What the design file allows; it makes the contributors.
+
+        Returns
+        -------
+        model
+            None, the default, if the family has no tolerance analysis.
+        """
+        return None
 
     def synthesise(
         self,
