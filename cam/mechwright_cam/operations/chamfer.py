@@ -6,13 +6,12 @@ from functools import partial
 import shapely
 
 from mechwright.contracts.details import Chamfer
-from mechwright.contracts.part import Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import DetailOperation, spread, tools_of
+from mechwright_cam.operations.pointed import DetailOperation, spread
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.plane.path import Path
@@ -35,7 +34,7 @@ class ChamferOperation(DetailOperation):
         # Around the rim the tip must stay above the tabs.
         tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
         held, floor = False, _floor_below(job, detail, region)
-        for tool in tools_of(job, ToolKind.CHAMFER):
+        for tool in job.tools_of(ToolKind.CHAMFER):
             if abs(tool.point_angle - 90) > TOLERANCES.noise:
                 continue
             for below in BELOW:
@@ -86,9 +85,8 @@ def _floor_below(job: Job, detail: Chamfer, region: shapely.Polygon) -> float:
         return -math.inf
     floors = [
         -(feature.top + feature.depth)
-        for feature in job.features
-        if not (isinstance(feature, Profile) and feature.side == "outside")
-        and feature.top + feature.depth < job.thickness - TOLERANCES.noise
+        for feature in job.inner
+        if feature.top + feature.depth < job.thickness - TOLERANCES.noise
         and shapely.intersects(plan_view(feature), grow(region, -TOLERANCES.leftover))
     ]
     return max(floors, default=-math.inf)

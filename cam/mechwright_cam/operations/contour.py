@@ -10,7 +10,7 @@ import shapely
 
 from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
-from mechwright.contracts.part import Feature, Profile
+from mechwright.contracts.part import Feature, Profile, is_outside
 from mechwright.errors import DesignError
 from mechwright_cam.operations.channel import channel_of, fills_a_slot, outside_mills, roughing_mills
 from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, usable_mills
@@ -44,7 +44,7 @@ class Contour(Operation):
 
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
         """Any outside through the plate; without zones where all of its edges are those of the stock."""
-        if not (isinstance(feature, Profile) and feature.side == "outside"):
+        if not is_outside(feature):
             return None
         zones = _zones(job, feature)
         tools, region = (zones[0].tools, zones[0].clear) if zones else ((), shapely.Polygon())
@@ -52,7 +52,7 @@ class Contour(Operation):
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
         """The mills that rough and finish it; none is as wide as a slot of it, if there is a choice."""
-        if not (isinstance(feature, Profile) and feature.side == "outside"):
+        if not is_outside(feature):
             return None
         shape, settings = shapely.Polygon(feature.loop.flatten()), every.settings
         fit = usable_mills(every, -every.floor)

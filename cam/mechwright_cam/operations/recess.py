@@ -125,12 +125,7 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
     Only what is at most ``near`` mm from it counts.
     """
     floor, around = feature.top + feature.depth, grow(plan_view(feature), near, ROUGH)
-    beside = [
-        other
-        for other in job.features
-        if not (isinstance(other, Profile) and other.side == "outside")
-        and shapely.intersects(plan_view(other), around)
-    ]
+    beside = [other for other in job.inner if shapely.intersects(plan_view(other), around)]
     plate = areas(shapely.intersection(job.body, around))
     layers: list[Layer] = []
     for section in reversed(sections.cut_layers(plate, beside, floor)):
@@ -149,12 +144,11 @@ def _check_alone(job: Job, feature: Pocket, shape: shapely.Geometry) -> None:
             f"part {job.part.name}: {feature.name} has a floor_radius of {feature.floor_radius:g} mm, but "
             "goes through to the underside; a fillet needs a floor"
         )
-    for other in job.features:
-        beside = other is feature or (isinstance(other, Profile) and other.side == "outside")
+    for other in job.inner:
         apart = other.top >= floor - LEVEL or other.top + other.depth <= feature.top + LEVEL
-        if not beside and not apart and shapely.dwithin(shape, plan_view(other), SKIN):
-            if _within(other, feature, shape):
-                continue
+        if other is feature or apart or not shapely.dwithin(shape, plan_view(other), SKIN):
+            continue
+        if not _within(other, feature, shape):
             raise DesignError(
                 f"part {job.part.name}: {feature.name} has a floor_radius and opens into {other.name}; the "
                 "fillet would end there. Draw them apart, or as one, or without the fillet"
@@ -202,9 +196,6 @@ def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geome
     top, bottom = feature.top, feature.top + feature.depth
     return [
         plan_view(other)
-        for other in job.features
-        if other is not feature
-        and not (isinstance(other, Profile) and other.side == "outside")
-        and other.top <= top + LEVEL
-        and other.top + other.depth >= bottom - LEVEL
+        for other in job.inner
+        if other is not feature and other.top <= top + LEVEL and other.top + other.depth >= bottom - LEVEL
     ]

@@ -9,7 +9,7 @@ from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import DetailOperation, tools_of
+from mechwright_cam.operations.pointed import DetailOperation
 from mechwright_cam.plane.path import Path, arc, circle, rounded
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
@@ -42,7 +42,7 @@ class ThreadOperation(DetailOperation):
                 f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} "
                 f"mm that is {detail.depth:g} mm deep; draw one"
             )
-        for tool in tools_of(job, ToolKind.THREAD_MILL):
+        for tool in job.tools_of(ToolKind.THREAD_MILL):
             if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
                 write = partial(_turns, detail=detail, climb=job.settings.climb)
                 return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)

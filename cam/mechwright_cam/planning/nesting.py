@@ -26,7 +26,7 @@ from mechwright_cam.shop.holding import Nesting
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.tool import MILLS, widest_mill
 
 WEB = 3.0
 """Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
@@ -182,7 +182,7 @@ def channel_of(
         mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
         found.append(max(mills, default=0.0))
     # With room for any cutter, laying out the nest comes to what is missing, and not to the gap.
-    widest = max((tool.diameter for tool in library.tools if tool.kind in MILLS), default=0.0)
+    widest = widest_mill(library)
     return min(found, default=widest)
 
 

@@ -1,6 +1,6 @@
 """From a design to jobs: its plates, nested where that is wanted, with cutters, stock and holding."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import shapely
 
@@ -66,15 +66,8 @@ def prepare(
 ) -> tuple[list[Finding], list[Job]]:
     """Choose cutters and lay the plates among the parts into their stock.
 
-    ``assignments`` keeps who cuts what.
-
-    Returns
-    -------
-    findings
-        What the cutters cannot do, and what the family says of the parts as they leave them.
-    jobs
-        One for each part, and one more where the underside is milled as well; fewer if a finding is an
-        error.
+    Gives what the cutters cannot do, with what the family says of the parts as they leave them, and a job for
+    each part, with one more where the underside is milled as well; fewer if a finding is an error.
     """
     assignments = assignments or Assignments()
     library = library_of(design)
@@ -86,7 +79,7 @@ def prepare(
         laid, found = lay_out_setups(
             part, cam, library.cutting(cam.cutting).measured(cam.measured.lengths), assignments
         )
-        found = [*found, *(finding for job in laid for finding in check_machine(job))]
+        found += [finding for job in laid for finding in check_machine(job)]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
@@ -114,21 +107,15 @@ def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> li
     return findings
 
 
-def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
+def _unused_data(design: Design, jobs: Sequence[Job]) -> Iterator[Finding]:
     """Cutting data in the design for tools that no job has."""
     settings = settings_of(design)
     named = dict.fromkeys(name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting)
     used = {tool.name for job in jobs for tool in job.tools}
-    return [
-        Finding(
-            "cam.cutting-unused",
-            Severity.NOTE,
-            f"cam.cutting.{name}",
-            f"{name} is not used here, so its cutting data change nothing",
-        )
-        for name in named
-        if name not in used
-    ]
+    for name in named:
+        if name not in used:
+            message = f"{name} is not used here, so its cutting data change nothing"
+            yield Finding("cam.cutting-unused", Severity.NOTE, f"cam.cutting.{name}", message)
 
 
 def cut_outlines(job: Job, assignments: Assignments | None = None) -> tuple[shapely.Polygon, ...]:

@@ -40,18 +40,7 @@ TINY = 1e-9
 
 @dataclass(frozen=True)
 class Cutter:
-    """The outline of one cutter, or with arrays (n,) of many.
-
-    Parameters
-    ----------
-    radius
-        Largest radius, mm.
-    nose
-        Radius of the corner, mm.
-    tip
-        Radius of the flat at a pointed end, mm.
-    slope
-        Growth of the radius with height on a cone; inf for a mill.
+    """The outline of one cutter, or with arrays (n,) of many; lengths in mm.
 
     Examples
     --------
@@ -68,9 +57,11 @@ class Cutter:
     """
 
     radius: Any
+    """The largest."""
     nose: Any = 0.0
     tip: Any = 0.0
     slope: Any = math.inf
+    """Growth of the radius with height on a cone; inf for a mill."""
 
     def radius_at(self, height: Any) -> Array:
         """Radius at a height above the tip, mm; that of the tip below it.
