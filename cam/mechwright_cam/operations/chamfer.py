@@ -101,7 +101,6 @@ def _around(pen: Pen, paths: list[Path], z: float) -> None:
     for path in paths:
         if path.cuts:
             pen.above(path.start)
-            pen.sink(0.0)
-            pen.ramp(path, z)
+            pen.enter(path, 0.0, z, clear=False)
             pen.follow(path)
     pen.retract()

@@ -75,27 +75,23 @@ class Contour(Operation):
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Layer by layer, from the top down."""
-        zones: list[Zone] = task.data
-        if not zones:
+        layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in task.data]
+        if not layers:
             return stock
-        layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in zones]
         steps.cuts += cut_layers(layers)
         return layers[-1].stock
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """Out of the plate with all of a rounded corner."""
-        zones: list[Zone] = task.data
-        return min(zone.bottom_for(tool) for zone in zones)
+        return float(min(zone.bottom_for(tool) for zone in task.data))
 
     def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
         """The part as the finest mill leaves it."""
-        zones: list[Zone] = task.data
-        return closing(zones[0].wall, job.reach(zones[0].finisher)) if zones else None
+        return closing(task.data[0].wall, job.reach(task.data[0].finisher)) if task.data else None
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """Corners that its mills do not reach."""
-        zones: list[Zone] = task.data
-        return corner_remarks(zones[0], job) if zones else []
+        return corner_remarks(task.data[0], job) if task.data else []
 
 
 def _between(every: Job, first: Tool, middle: list[Tool], finest: Tool, part: shapely.Polygon) -> list[Tool]:

@@ -30,10 +30,7 @@ def cut_plates(
 ) -> list[Part]:
     """The plates among the parts as they are cut: nested where that is wanted.
 
-    Raises
-    ------
-    DesignError
-        A nest is not possible, or a table ``[cam.part.NAME]`` names no plate and no nest.
+    Raises DesignError where a nest is not possible, or ``[cam.part.NAME]`` names no plate and no nest.
     """
     cut = arranged(design, plates(parts), library, assignments)
     known = sorted({part.name for part in (*plates(parts), *cut)})
@@ -76,9 +73,8 @@ def prepare(
     jobs: list[Job] = []
     for part in cut:
         cam = settings_of(design).of(part.name)
-        laid, found = lay_out_setups(
-            part, cam, library.cutting(cam.cutting).measured(cam.measured.lengths), assignments
-        )
+        own = library.cutting(cam.cutting).measured(cam.measured.lengths)
+        laid, found = lay_out_setups(part, cam, own, assignments)
         found += [finding for job in laid for finding in check_machine(job)]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
@@ -139,11 +135,8 @@ def cut_outlines(job: Job, assignments: Assignments | None = None) -> tuple[shap
 
 def parts_as_cut(job: Job, assignments: Assignments | None = None) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
-    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
+    outlines = cut_outlines(job, assignments)
+    cut = [shapely.transform(outline, lambda points: points + job.origin) for outline in outlines]
     if isinstance(job.part, Nest):
         return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
     return [(job.part.name, cut[0])]
-
-
-def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
-    return shapely.transform(polygon, lambda points: points + job.origin)

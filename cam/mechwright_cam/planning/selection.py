@@ -46,10 +46,7 @@ def choose_tools(
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
     with cutting data for the material count, and cutters that get over the part within the machine's travel.
 
-    Raises
-    ------
-    ToolError
-        A name is not in the library (close matches are listed), or no cutter can make the part.
+    Raises ToolError where a name is not in the library (close matches are listed), or no cutter can make it.
     """
     if settings.tools:
         doubles = {name for name in settings.tools if settings.tools.count(name) > 1}

@@ -62,8 +62,7 @@ class Tab:
         beyond = np.maximum(np.maximum(self.ends[0] - out, out - self.ends[1]), 0.0)
         half = np.sqrt(np.maximum(radius**2 - beyond**2, 0.0))
         height = self.top - self.slope * np.maximum(np.abs(s) - half - self.width / 2, 0.0)
-        lowest: Array = np.where(beyond < radius, height, -np.inf)
-        return lowest
+        return np.asarray(np.where(beyond < radius, height, -np.inf))
 
 
 def least_z(tabs: tuple[Tab, ...], points: Array, radius: float) -> Array:
