@@ -17,7 +17,6 @@ from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_d
 from mechwright_cam.operations.entry import enters
 from mechwright_cam.operations.finishing import finish_heights
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.rates import rates
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.plane.leads import half_circles
@@ -142,13 +141,13 @@ def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
 
 def boring_time(job: Job, bore: Bore, drill: Tool | None, mill: Tool) -> float:
     """Time in which a mill roughs and finishes a bore, s; rapids and corners do not count."""
-    settings = job.settings
-    speed = rates(mill, job.part.material, settings.machine)
-    pen = Pen(mill, speed, settings.clearance, math.tan(math.radians(settings.ramp_angle)))
-    rough_bore(job, bore, drill, shapely.Polygon(), pen)
-    finish_bore(job, bore, pen)
+
+    def write(pen: Pen) -> None:
+        rough_bore(job, bore, drill, shapely.Polygon(), pen)
+        finish_bore(job, bore, pen)
+
     minutes, x, y = 0.0, *bore.centre
-    for move in pen.moves:
+    for move in Steps(job, job.settings.clearance).moves(mill, write):
         if isinstance(move, FeedArc):
             begin, end = math.atan2(-move.j, -move.i), math.atan2(move.y - y - move.j, move.x - x - move.i)
             turn = ((end - begin) * (1 if move.ccw else -1)) % math.tau or math.tau
@@ -213,7 +212,7 @@ def finish_bore(job: Job, bore: Bore, pen: Pen) -> None:
     into, off = half_circles(bore.centre, turn)
     path, feed, bottom = into + turn + off, pen.rates.inside(radius, mill.radius), _bottom(job, bore, mill)
     pen.above(path.start)
-    for z in finish_heights(job.settings, mill, job.part.material, -bore.top, bottom):
+    for z in finish_heights(job, mill, -bore.top, bottom):
         pen.sink(z)
         pen.follow(path, feed)
     pen.retract()

@@ -25,7 +25,7 @@ from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer, cut_layers
 from mechwright_cam.operations.recess import is_recess, recess
 from mechwright_cam.operations.recess_zone import recess_zone
-from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock, together_left
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons, swept
@@ -103,28 +103,26 @@ class Clear(Operation):
         zone: Zone = task.data
         height = zone.bottom + leave
         ((below, under),) = over_openings(replace(zone, top=height), stock)
-        floor = Layer(below, under, steps)
-        roughs = [Layer(*pair, steps) for pair in over_openings(replace(zone, bottom=height), stock)]
+        cuts: list[Cut] = []
+        floor = Layer(below, under, steps, cuts)
+        above_it = over_openings(replace(zone, bottom=height), stock)
+        roughs = [Layer(*pair, steps, cuts) for pair in above_it]
         for rough in roughs:
             self.open_up(rough, task.feature, floored=True)
-        cuts = [cut for rough in roughs for cut in rough.taken()]
         cleared = [mill for _, mill, _ in cuts]
         for mill in roughers(zone.mills, zone.finishers):
             found = [rough.roughing(mill) for rough in roughs]
             if found[0].share >= WORTH_A_TOOL:
                 for rough, one in zip(roughs, found, strict=True):
                     rough.rough(one)
-                    cuts += rough.taken()
                 if not cleared:  # where bounded engagement left corners standing a wide cutter would hit them
                     floor.floored(mill, found[-1])
-                    cuts += floor.taken()
         above: dict[str, Roughing] = {}
         for mill in zone.finishers:
             for rough in roughs:
                 above[mill.name] = rough.roughing(mill)
                 rough.rough(above[mill.name])
                 rough.rough_heavy(mill)
-                cuts += rough.taken()
         # What round mills left at the foot of the wall is cut in one go, down to the floor.
         last = roughs[-1].stock
         if not shapely.is_empty(last.ridges):
@@ -135,10 +133,10 @@ class Clear(Operation):
         floor.rough_heavy(zone.finisher, "finish the floor of narrow places")
         for mill in zone.finishers:
             floor.level(mill)
-        whole = Layer(zone, together_left([*(rough.stock for rough in roughs), floor.stock]), steps)
+        whole = Layer(zone, together_left([*(rough.stock for rough in roughs), floor.stock]), steps, cuts)
         for mill in zone.finishers:
             whole.finish(mill)
-        steps.cuts += [*cuts, *floor.cuts, *whole.cuts]
+        steps.cuts += cuts
         return whole.stock
 
     def deepest(self, task: Task, tool: Tool) -> float:

@@ -145,8 +145,7 @@ class CompensatedFinishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all contours."""
         zone = self.zone
-        material = self.job.part.material
-        heights = finish_heights(self.settings, self.tool, material, zone.top, zone.bottom)
+        heights = finish_heights(self.job, self.tool, zone.top, zone.bottom)
         waiting = self._contours()
         while waiting:
             contour = waiting.pop(0)

@@ -54,7 +54,7 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     )
     heading = side * math.pi / 2
     bottom = bottom_of(job, bore.top, bore.depth)
-    heights = finish_heights(job.settings, tool, job.part.material, -bore.top, bottom)
+    heights = finish_heights(job, tool, -bore.top, bottom)
     pen.above(start)
     run = ContourWriter(pen, side, offsets.planned)
     for z in heights:

@@ -18,6 +18,7 @@ from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.plane.path import Path
+from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
@@ -32,32 +33,30 @@ def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
     return min(settings.finish_step * tool.diameter, slot / (settings.stock_to_leave + HEAVY))
 
 
-def finish_heights(
-    settings: CamSettings, tool: Tool, material: str, top: float, bottom: float
-) -> list[float]:
+def finish_heights(job: Job, tool: Tool, top: float, bottom: float) -> list[float]:
     """Heights of the finishing passes, z in mm, with the repeats of the last one."""
-    heights = levels(top, bottom, finish_depth(settings, tool, material))
-    return heights + heights[-1:] * settings.spring_passes
+    heights = levels(top, bottom, finish_depth(job.settings, tool, job.part.material))
+    return heights + heights[-1:] * job.settings.spring_passes
 
 
 class Finishing:
     """The finishing of one zone, whose stock is only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, stock: Stock, settings: CamSettings, tool: Tool, material: str) -> None:
-        self.zone, self.settings, self.tool = zone, settings, tool
-        self.heights = finish_heights(settings, tool, material, zone.top, zone.bottom_for(tool))
-        self.step_down = tool.cutting[material].step_down * tool.diameter
+    def __init__(self, zone: Zone, stock: Stock, job: Job, tool: Tool) -> None:
+        self.zone, self.tool, self.settings = zone, tool, job.settings
+        self.heights = finish_heights(job, tool, zone.top, zone.bottom_for(tool))
+        self.step_down = tool.cutting[job.part.material].step_down * tool.diameter
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)
         room = zone.room(radius, finishing=True)
         if zone.tabs is not None:
             # Along a tab only as far as the finishing of the wall needs it.
-            near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
+            near = grow(zone.thinned, radius + job.settings.stock_to_leave + HEAVY, ROUGH)
             room = shapely.intersection(room, near)
         self.room = prepared(room)
         self.near = prepared(grow(stock.standing, radius + stock.over - CLEAR, ROUGH))
         # Where all of the plate goes, there is nothing but air beyond it.
-        beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
+        beyond = radius + job.settings.stock_to_leave if zone.in_the_open else 0.0
         # Leads touch the path they lead to: between that and the wall they may be as wrong as it.
         wide = grow(room, CLEAR + beyond, ROUGH)
         self.free = prepared(shapely.difference(wide, zone.blocked(tool, 0.0)))

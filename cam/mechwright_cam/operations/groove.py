@@ -97,7 +97,7 @@ class Groove(Operation):
         heights += heights[-1:] * springs
         assert is_recess(task.feature)  # noqa: S101 - nothing else is claimed
         paths = middle_lines(zone, plan_view(task.feature), mill.radius, job.settings.climb)
-        layer = Layer(zone, stock, steps)
+        layer = Layer(zone, stock, steps, steps.cuts)
         write = partial(to_and_fro, paths=paths, top=zone.top, heights=heights)
         layer.add("groove", mill, write, depth=layer.pass_depth(mill, step_down))
         if not layer.cuts[-1].moves:
@@ -105,7 +105,6 @@ class Groove(Operation):
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; draw it as "
                 f"wide as the mill, {mill.diameter:g} mm, or wider"
             )
-        steps.cuts += layer.cuts
         return stock.without(zone.clear)
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
