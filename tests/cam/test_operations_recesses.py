@@ -24,7 +24,7 @@ from mechwright.geometry.trim import stretches, trimmed
 from mechwright_cad.exporters import dxf
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.pages.picture import plan_view
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
@@ -141,7 +141,7 @@ def test_the_program_with_the_groove_gouges_the_plain_part():
 
 def test_a_recess_beside_the_plate_is_refused():
     of = recessed(Pocket("lost", box(40, -5, 50, 5), (), 0, 2))
-    found = check_tools(of, CamSettings(), LIBRARY)
+    found = lay_out(of, CamSettings(), LIBRARY)[1]
     assert any("lost takes nothing of the plate" in finding.message for finding in found)
 
 
@@ -154,7 +154,7 @@ def test_a_narrow_recess_has_a_mill_chosen_for_it():
 
 def test_a_slot_narrower_than_every_cutter_is_refused():
     of = recessed(Pocket("slit", box(-40, -1.3, 40, 1.3), (), 0, 1))
-    found = check_tools(of, CamSettings(tools=("mill-6",)), LIBRARY)
+    found = lay_out(of, CamSettings(tools=("mill-6",)), LIBRARY)[1]
     assert any("no listed end mill enters slit" in finding.message for finding in found)
 
 

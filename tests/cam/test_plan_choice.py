@@ -14,7 +14,7 @@ from mechwright.geometry import Loop
 from mechwright_cam.operations.choice import roomy_mills
 from mechwright_cam.operations.recess import without_skin
 from mechwright_cam.plane.reach import closing, remainder
-from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
@@ -90,7 +90,7 @@ def test_choice_by_corners_and_thickness():
 
 
 def test_findings():
-    assert check_tools(plate(bore(12)), CamSettings(), LIBRARY) == []
+    assert lay_out(plate(bore(12)), CamSettings(), LIBRARY)[1] == []
     narrow = plate(Loop.polygon([(-10, -1), (-10, 1), (10, 1), (10, -1)]))
     for of, changes, code, parameter in (
         (plate(bore(3)), {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
@@ -115,11 +115,11 @@ def test_findings():
         (narrow, {}, "cam.unreachable", "cam.tools"),
         (plate(bore(3), thickness=12), {"tools": ["mill-2", "mill-6"]}, "cam.cannot-cut", "cam.tools"),
     ):
-        found = check_tools(of, CamSettings.model_validate(changes), LIBRARY)
+        found = lay_out(of, CamSettings.model_validate(changes), LIBRARY)[1]
         assert (code, parameter) in [(f.code, f.parameter) for f in found], (changes, found)
         if code == "cam.cannot-cut":
             assert [f.severity for f in found if f.code == code] == [Severity.ERROR]
-    note = check_tools(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)
+    note = lay_out(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)[1]
     assert [f.code for f in note] == ["cam.slender", "cam.deflection"]
 
 
@@ -164,7 +164,7 @@ def test_any_part_is_cut_or_refused(
     assert leftover(job, program) == 0
     check_rules(job, program)
     if not named:  # every cutter that was chosen has something to do
-        assert "cam.tool-unused" not in [f.code for f in check_tools(of, wanted, LIBRARY)]
+        assert "cam.tool-unused" not in [f.code for f in lay_out(of, wanted, LIBRARY)[1]]
 
 
 @pytest.mark.parametrize("method", ["tabs", "bore"])

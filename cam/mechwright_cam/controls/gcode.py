@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.read import interpret_files
 from mechwright_cam.controls.reading.run import Run
@@ -80,12 +80,8 @@ class GcodeControl(Sections):
         if settings.compensation != "computer" and self.offsets.d is None:
             lacks.append(("compensation", "cutter compensation (G41, G42)", 'use compensation = "computer"'))
         return [
-            Finding(
-                f"cam.{key.replace('_', '-')}",
-                Severity.ERROR,
-                f"cam.{key}",
-                f"{self.title} has no {what}",
-                remedy=remedy,
+            Finding.error(
+                f"cam.{key.replace('_', '-')}", f"cam.{key}", f"{self.title} has no {what}", remedy=remedy
             )
             for key, what, remedy in lacks
         ]

@@ -6,9 +6,9 @@ from typing import Literal
 from mechwright.contracts.part import Bore
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.entry import bore_lead, offsets_of
-from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, line, rounded
+from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, line, round_from_right, rounded
 from mechwright_cam.program.moves import Feed
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
@@ -22,8 +22,7 @@ class ContourWriter:
 
     def on(self, end: Point) -> None:
         """The straight line that turns compensation on."""
-        word: Literal["left", "right"] = "left" if self.side > 0 else "right"
-        self._straight(end, word)
+        self._straight(end, "left" if self.side > 0 else "right")
 
     def off(self, end: Point) -> None:
         """The straight line that turns it off."""
@@ -47,7 +46,7 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     radius = bore.diameter / 2 - CIRCLE_BIAS - offsets.base
     lead = bore_lead(offsets, radius)
     x, y = bore.centre
-    turn = circle(bore.centre, radius, (x + radius, y), side > 0)
+    turn = round_from_right(bore.centre, radius, side > 0)
     # Seen from where the circle is touched, y leads to its middle and x along it.
     start, first, last = (
         (rounded(x + radius - v), rounded(y + side * u))
@@ -55,10 +54,10 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     )
     heading = side * math.pi / 2
     bottom = bottom_of(job, bore.top, bore.depth)
-    heights = levels(-bore.top, bottom, finish_depth(job.settings, tool, job.part.material))
+    heights = finish_heights(job, tool, -bore.top, bottom)
     pen.above(start)
     run = ContourWriter(pen, side, offsets.planned)
-    for z in heights + [bottom] * job.settings.spring_passes:
+    for z in heights:
         pen.sink(z)
         run.on(first)
         run.follow(touching(first, turn.start, heading, side))

@@ -12,7 +12,6 @@ from mechwright.contracts.part import Feature
 from mechwright_cam.operations.clearing import TIGHT
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
-from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.recess import is_recess
 from mechwright_cam.operations.recess_zone import first_look, recess_zone
@@ -20,6 +19,7 @@ from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import CUSP, Zone
 from mechwright_cam.plane.path import line, polyline, rounded
+from mechwright_cam.setup.depths import floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
 
@@ -80,11 +80,7 @@ def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float, leave: 
     heights = levels(zone.top, zone.bottom + leave, step_down)
     for z in heights if leave == 0 else [*heights, rounded(zone.bottom)]:
         pen.above(path.start)
-        if clear:
-            pen.sink(z)
-        else:
-            pen.sink(above)
-            pen.ramp(first, z)
+        pen.enter(first, above, z, clear)
         pen.follow(path)
         above = z
     pen.retract()

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import shapely
 
-from mechwright_cam.setup.job import LEVEL, Air
+from mechwright_cam.setup.job import Air, air_below
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +41,7 @@ class Stock:
 
     def air_below(self, z: float) -> shapely.Geometry:
         """Where nothing stands below a height z, mm; for 0, where earlier setups have cut through."""
-        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
-        return found
+        return air_below(self.gone, z)
 
 
 def together_left(stocks: list[Stock]) -> Stock:

@@ -101,6 +101,14 @@ def with_leads(path: Path, heading: float, rho: float, sweep: float, climb: bool
     return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))
 
 
+def half_circles(centre: Point, turn: Path) -> tuple[Path, Path]:
+    """The ways from the middle of a circle to its start, and from there back."""
+    middle, start, side = printed(centre), turn.start, turn.cuts[0].turn
+    between = ((middle[0] + start[0]) / 2, (middle[1] + start[1]) / 2)
+    into, off = arc(middle, start, between, side), arc(start, middle, between, side)
+    return Path(middle, (into,)), Path(start, (off,))
+
+
 def _off(place: Point, heading: float, side: int, rise: Any, along: Any) -> Any:
     """What is so far off a wall, and ahead along it, from a place on it, mm: a point, or x and y of many."""
     tx, ty = math.cos(heading), math.sin(heading)

@@ -54,6 +54,11 @@ def grow(shape: shapely.Geometry, distance: float, tolerance: float = FINE) -> s
     return buffered(shape, distance, corners(abs(distance), tolerance))
 
 
+def swept(room: shapely.Geometry, radius: float, tolerance: float = ROUGH) -> shapely.Geometry:
+    """All of a room that a disc gets to without leaving it."""
+    return grow(grow(room, -radius, tolerance), radius, tolerance)
+
+
 def areas(shape: shapely.Geometry) -> shapely.Geometry:
     """The shape without the lines and points that overlays leave, and which others fail on."""
     if shape.geom_type in ("Polygon", "MultiPolygon"):
@@ -122,8 +127,7 @@ LEAST_RING = 4
 
 def _thinned_ring(ring: shapely.LinearRing, tolerance: float) -> Array:
     # Nothing but a line follows from it, so its topology need not be watched: that takes most time.
-    points: Array = shapely.get_coordinates(shapely.simplify(ring, tolerance, preserve_topology=False))
-    return points
+    return np.asarray(shapely.get_coordinates(shapely.simplify(ring, tolerance, preserve_topology=False)))
 
 
 def rings(shape: shapely.Geometry, climb: bool, tolerance: float = FINE) -> list[Array]:
@@ -141,8 +145,7 @@ def rings(shape: shapely.Geometry, climb: bool, tolerance: float = FINE) -> list
 
 def densified(ring: Array, step: float) -> Array:
     """The ring with edges of at most ``step``."""
-    dense: Array = shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
-    return dense
+    return np.asarray(shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step)))
 
 
 BISECTIONS = 12

@@ -11,7 +11,7 @@ closed
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -122,32 +122,29 @@ class Path:
 
     def reversed(self) -> "Path":
         """The same way run backwards."""
-        starts = [self.start, *((cut.x, cut.y) for cut in self.cuts[:-1])]
-        back = tuple(
-            Cut(x, y, cut.cx, cut.cy, -cut.turn, cut.length)
-            for (x, y), cut in zip(starts[::-1], self.cuts[::-1], strict=True)
-        )
-        return Path(self.end, back)
+        back = [Cut(*start, cut.cx, cut.cy, -cut.turn, cut.length) for start, cut, _ in self.walk()]
+        return Path(self.end, tuple(back[::-1]))
+
+    def walk(self) -> Iterator[tuple[Point, Cut, float]]:
+        """The cuts, with their starts and the way before them."""
+        here, done = self.start, 0.0
+        for cut in self.cuts:
+            yield here, cut, done
+            here, done = (cut.x, cut.y), done + cut.length
 
     def split(self, at: float) -> tuple["Path", "Path"]:
         """The parts before and after ``at`` mm of the way; either may be empty."""
-        done = 0.0
-        here = self.start
-        for number, cut in enumerate(self.cuts):
+        for number, (here, cut, done) in enumerate(self.walk()):
             if done + cut.length >= at:
                 first, second = _cut_at(here, cut, at - done)
-                before = self.cuts[:number] + first
-                middle = Path(self.start, before).end
-                return Path(self.start, before), Path(middle, second + self.cuts[number + 1 :])
-            done += cut.length
-            here = (cut.x, cut.y)
+                before = Path(self.start, self.cuts[:number] + first)
+                return before, Path(before.end, second + self.cuts[number + 1 :])
         return self, Path(self.end, ())
 
     def points(self, step: float) -> Array:
         """Points (n, 2) along the way, both ends included, at most ``step`` mm apart."""
         rows: list[Array] = [np.array([self.start])]
-        here = self.start
-        for cut in self.cuts:
+        for here, cut, _ in self.walk():
             count = max(1, math.ceil(cut.length / step))
             t = np.arange(1, count + 1)[:, None] / count
             if cut.turn:
@@ -157,7 +154,6 @@ class Path:
                 rows.append(np.hstack((cut.cx + radius * np.cos(angle), cut.cy + radius * np.sin(angle))))
             else:
                 rows.append(np.array(here) + t * (np.array((cut.x, cut.y)) - here))
-            here = (cut.x, cut.y)
         return np.concatenate(rows)
 
 
@@ -195,6 +191,11 @@ def circle(centre: Point, radius: float, start: Point, ccw: bool) -> Path:
     half = math.pi * radius
     one = Cut(*far, (begin[0] + far[0]) / 2, (begin[1] + far[1]) / 2, turn, half)
     return Path(begin, (one, one._replace(x=begin[0], y=begin[1])))
+
+
+def round_from_right(centre: Point, radius: float, ccw: bool) -> Path:
+    """A full circle from its rightmost point."""
+    return circle(centre, radius, (centre[0] + radius, centre[1]), ccw)
 
 
 CIRCLE_BIAS = TOLERANCES.flatten + 1e-4

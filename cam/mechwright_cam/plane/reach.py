@@ -72,8 +72,7 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
 @lru_cache(maxsize=32)
 def _walls(keep: shapely.Geometry) -> Array:
     """Places (n, 2) on the edge of a shape: its corners, and some on long edges."""
-    points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
-    return points
+    return np.asarray(shapely.get_coordinates(shapely.segmentize(keep, SPACING)))
 
 
 @lru_cache(maxsize=32)
@@ -85,8 +84,7 @@ def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
     x0, y0, x1, y1 = shapely.bounds(shapely.buffer(shapely.box(*near.bounds), 2 * TOLERANCES.flatten))
     points = points[((points >= (x0, y0)) & (points <= (x1, y1))).all(axis=1)]
     near = prepared(near)
-    found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
-    return found
+    return np.asarray(points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)])
 
 
 def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
@@ -147,8 +145,7 @@ def _deep(
     """Which places on the edge of ``keep``, or those ``near`` a shape, lie in another one."""
     shape = prepared(shape)
     x, y = _points(keep, near).T
-    inside: NDArray[np.bool_] = shapely.contains_xy(shape, x, y)
-    return inside
+    return np.asarray(shapely.contains_xy(shape, x, y))
 
 
 def closed_area(swollen: shapely.Geometry, radius: float) -> float:

@@ -23,16 +23,10 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 def plan(job: Job, assignments: Assignments | None = None) -> Program:
-    """Plan the whole machining of a plate part.
+    """Plan the whole machining of a plate part; ``assignments`` keeps who cuts what.
 
-    Who cuts what is taken from ``assignments``, and decided there if it has not been yet.
-
-    Raises
-    ------
-    ToolError
-        The cutters of the job cannot make the part.
-    DesignError
-        The holding or the stock is in the way.
+    Raises ToolError where the cutters of the job cannot make the part, DesignError where the holding or the
+    stock is in the way.
     """
     return _Planner(job, assignments or Assignments()).program()
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import shapely
 
 from mechwright.contracts.details import Detail
-from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright_cam.operations.bore import cutters_of
 from mechwright_cam.operations.choice import entry_place, usable_mills
@@ -46,10 +46,7 @@ def choose_tools(
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
     with cutting data for the material count, and cutters that get over the part within the machine's travel.
 
-    Raises
-    ------
-    ToolError
-        A name is not in the library (close matches are listed), or no cutter can make the part.
+    Raises ToolError where a name is not in the library (close matches are listed), or no cutter can make it.
     """
     if settings.tools:
         doubles = {name for name in settings.tools if settings.tools.count(name) > 1}
@@ -96,7 +93,7 @@ def _turn(feature: Feature) -> tuple[float, ...]:
     """Outsides are asked first, and bores last, from the smallest on: its mill may bore the larger too."""
     if isinstance(feature, Bore):
         return (2, feature.diameter, feature.top, feature.depth)
-    return (0,) if isinstance(feature, Profile) and feature.side == "outside" else (1,)
+    return (0,) if is_outside(feature) else (1,)
 
 
 def _wanted(
@@ -205,10 +202,5 @@ def _drills(every: Job) -> list[Tool]:
     for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
         if not any(OPENS * width <= other.diameter for other in drills.values()):
             drills[drill.name] = drill
-    spots = [
-        tool
-        for tool in every.tools
-        if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
-    ]
-    first = [max(spots, key=lambda tool: tool.diameter)] if spots and drills else []
-    return first + sorted(drills.values(), key=lambda tool: -tool.diameter)
+    spots = every.tools_of(ToolKind.SPOT_DRILL) if drills else []
+    return spots[:1] + sorted(drills.values(), key=lambda tool: -tool.diameter)

@@ -23,23 +23,9 @@ class Library:
     tools: tuple[Tool, ...]
 
     def __post_init__(self) -> None:
-        by_number: dict[int, Tool] = {}
-        for tool in self.tools:
-            other = by_number.setdefault(tool.number, tool)
-            if other is not tool:
-                raise DesignError(
-                    f"tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
-                    "give one of them another T number"
-                )
-        by_offset: dict[int, Tool] = {}
-        for tool in self.tools:
-            if tool.kind is ToolKind.END_MILL or tool.diameter_offset is not None:
-                other = by_offset.setdefault(tool.d_number, tool)
-                if other is not tool:
-                    raise DesignError(
-                        f"tools {other.name!r} and {tool.name!r} both have D number {tool.d_number}; "
-                        "give one of them another diameter_offset"
-                    )
+        _check_apart("number", "T number", [(tool.number, tool) for tool in self.tools])
+        compensated = [t for t in self.tools if t.kind is ToolKind.END_MILL or t.diameter_offset is not None]
+        _check_apart("D number", "diameter_offset", [(tool.d_number, tool) for tool in compensated])
 
     def __iter__(self) -> Iterator[Tool]:
         return iter(self.tools)
@@ -71,13 +57,19 @@ class Library:
 
     def measured(self, lengths: Mapping[str, float]) -> "Library":
         """The library with lengths as measured, mm, by the name of the tool."""
-        known = ((tool, lengths.get(tool.name, tool.length)) for tool in self.tools)
-        return Library(
-            tuple(
-                tool if length == tool.length else tool.model_copy(update={"length": length})
-                for tool, length in known
+        known = [tool for tool in self.tools if lengths.get(tool.name, tool.length) != tool.length]
+        return self.extended(tuple(t.model_copy(update={"length": lengths[t.name]}) for t in known))
+
+
+def _check_apart(what: str, key: str, numbers: list[tuple[int, Tool]]) -> None:
+    known: dict[int, Tool] = {}
+    for number, tool in numbers:
+        other = known.setdefault(number, tool)
+        if other is not tool:
+            raise DesignError(
+                f"tools {other.name!r} and {tool.name!r} both have {what} {number}; give one of them "
+                f"another {key}"
             )
-        )
 
 
 def _changed(tool: Tool, change: CuttingChange) -> Tool:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
-from mechwright.contracts.part import Bore, Part, Profile
+from mechwright.contracts.part import Bore, Part, is_outside
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
@@ -158,8 +158,7 @@ def _wall(part: Part, bore: Bore) -> float:
     axis = shapely.Point(bore.centre)
     walls = [shapely.boundary(shapely.Polygon(part.outline.outer.flatten()))]
     for feature in part.features:
-        outside = isinstance(feature, Profile) and feature.side == "outside"
         coaxial = isinstance(feature, Bore) and math.dist(feature.centre, bore.centre) < TOLERANCES.closure
-        if not outside and not coaxial:
+        if not is_outside(feature) and not coaxial:
             walls.append(shapely.boundary(plan_view(feature)))
     return float(min(shapely.distance(axis, wall) for wall in walls))

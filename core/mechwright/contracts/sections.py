@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.geometry import circle
 from mechwright.tolerances import TOLERANCES
 
@@ -147,8 +147,8 @@ def cut_layers(
         shape = whole
         for feature, view in zip(features, views, strict=True):
             if feature.top < middle < feature.top + feature.depth:
-                outside = isinstance(feature, Profile) and feature.side == "outside"
-                shape = shapely.intersection(shape, view) if outside else shapely.difference(shape, view)
+                stays = shapely.intersection if is_outside(feature) else shapely.difference
+                shape = stays(shape, view)
         layers.append(Section(top, bottom, shape))
     return tuple(layers)
 

@@ -1,4 +1,4 @@
-"""The command line as a user would call it, in a process of its own."""
+"""What a fresh interpreter sees: the command line as a user would call it, and what an import brings in."""
 
 import json
 import os
@@ -12,6 +12,8 @@ from mechwright.designs.text import toml
 
 _COLLISION = "interference.collision"
 """Code of the finding that two bodies collide."""
+HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
+"""Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
 
 
 def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]]:
@@ -56,8 +58,25 @@ def _run(
 ) -> subprocess.CompletedProcess[str]:
     file = folder / "design.toml"
     file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
+    return _python("-m", "mechwright", command, file, *options)
+
+
+def heavy_imports(module: str) -> list[str]:
+    """Give the heavy libraries that importing ``module`` loads; AssertionError if it cannot be imported.
+
+    >>> heavy_imports("mechwright.geometry")
+    []
+    """
+    words = f"import sys, importlib; importlib.import_module({module!r}); print(*sorted(sys.modules))"
+    done = _python("-c", words)
+    if done.returncode:
+        raise AssertionError(f"import {module} fails:\n{done.stderr}")
+    return sorted(set(done.stdout.split()) & set(HEAVY))
+
+
+def _python(*words: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(  # noqa: S603 - our own interpreter and our own words
-        [sys.executable, "-m", "mechwright", command, file, *options],
+        [sys.executable, *words],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,

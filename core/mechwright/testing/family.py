@@ -35,7 +35,6 @@ from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
-from mechwright.testing.imports import heavy_imports
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.results import difference
 from mechwright.testing.tolerances import ToleranceTests
@@ -112,7 +111,7 @@ class FamilyContract(ToleranceTests):
 
     def test_import_is_light(self) -> None:
         """Importing the family brings in no heavy library, so that listing families stays fast."""
-        assert heavy_imports(self.family.__module__) == []
+        assert commands.heavy_imports(self.family.__module__) == []
 
     def test_schema(self) -> None:
         """Every field has a description, and every number bounds and a unit."""

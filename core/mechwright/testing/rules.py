@@ -11,7 +11,7 @@ import numpy as np
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Part, Pocket, Profile, is_outside
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import kind
@@ -176,11 +176,7 @@ def _left_over(part: Part, outline: Outline) -> list[str]:
     import shapely
 
     left = shapely.union_all(
-        [
-            shapely.Polygon(feature.loop.flatten())
-            for feature in part.features
-            if isinstance(feature, Profile) and feature.side == "outside"
-        ]
+        [shapely.Polygon(feature.loop.flatten()) for feature in part.features if is_outside(feature)]
     )
     for feature in part.features:
         if feature.top + feature.depth < part.thickness - TOLERANCES.closure:
