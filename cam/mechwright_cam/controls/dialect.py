@@ -86,6 +86,24 @@ class Dialect:
     """The control refuses an arc whose radii differ by more than both, in mm and as a part of the radius."""
     line_length: int = 255
     """Longest line, characters."""
+    ascii_comments: bool = False
+    """Whether comments have to be ASCII as well: some controls obey other bytes, or cannot store them."""
+    active_comments: tuple[str, ...] = ()
+    """Beginnings of comments, in small letters, that the control carries out and this interpreter refuses."""
+    capitals: bool = False
+    """Whether words have to be written in capitals."""
+    largest_n: int = 99_999
+    """Largest line number."""
+    parts_of_n: bool = False
+    """Whether a line number may have decimals."""
+    one_m: bool = False
+    """Whether a line may hold one M code only, as the control would drop the others."""
+    both_coolants: bool = True
+    """Whether M7 and M8 may stand in one line."""
+    one_use_of_axes: bool = False
+    """Whether the control refuses G10, G28, G30 and G43.1 beside a motion, as both take the axes."""
+    tables: frozenset[int] = frozenset({2, 10, 11, 12, 13, 20})
+    """L of the G10 that the control knows."""
     change_stops_spindle: bool = True
     """Whether M6 stops the spindle."""
     percent_ends: bool = True

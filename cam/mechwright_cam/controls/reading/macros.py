@@ -56,7 +56,7 @@ OWN = 30
 """So many numbered parameters belong to a subroutine."""
 _COMMENT = re.compile(r"\([^)]*\)|;.*")
 _O_WORD = re.compile(
-    r"(?:n\d+)?o(\d+|<[^<>]+>)"
+    r"(?:n[0-9]+)?o([0-9]+|<[^<>]+>)"
     r"(sub|endsub|return|call|do|while|endwhile|if|elseif|else|endif|repeat|endrepeat|break|continue)(.*)"
 )
 _LETTER = re.compile(r"[a-z@^]")
@@ -104,6 +104,7 @@ class Macros(Lines):
             self.at += 1
             try:
                 if index in self.words:
+                    yield index, "".join(_COMMENT.findall(self.lines[index]))
                     self._obey(index, *self.words[index])
                 else:
                     yield index, self._plain(self.lines[index])

@@ -12,6 +12,8 @@ from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, s
 from mechwright_cam.controls.reading.run import Coolant, Kind, TableWrite
 
 INCH = 25.4
+LARGEST_WHOLE = 99_999_999
+"""Numbers of tools, offsets and turns: more than eight digits no control takes."""
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
 """G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
 AXES = "XYZ"
@@ -59,8 +61,8 @@ class Modal(Compensation):
         return value * (bare if bare is not None and letter in block.bare else unit)
 
     def _whole(self, block: Block, letter: str, value: float) -> int:
-        if value < 0 or value != int(value):
-            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
+        if value < 0 or value != int(value) or value > LARGEST_WHOLE:
+            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 to {LARGEST_WHOLE}")
         return int(value)
 
     def _set(self, **changes: Any) -> None:
@@ -220,8 +222,9 @@ class Modal(Compensation):
         if 100 not in block.g:
             return
         table = self._take(block, "L", "G10 needs L")
-        if table not in {1, 2, 10, 11, 12, 13, 20}:
-            raise fail(block.line, "G10 is read with L1, L2, L10 to L13 and L20")
+        if table not in self.dialect.tables:
+            known = ", ".join(f"L{number}" for number in sorted(self.dialect.tables))
+            raise fail(block.line, f"G10 L{table:g}: {self.dialect.name} is known to read G10 with {known}")
         number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
         values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
         self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))

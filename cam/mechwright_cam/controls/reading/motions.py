@@ -103,6 +103,8 @@ class Moving(Modal):
         axes = {axis: words.pop(axis) for axis in AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
+        if self.motion == 10 and not self.feed > 0:
+            raise fail(block.line, "a feed move without a feed; write F above 0")
         high = axes.get("Z", math.nan) * self.scale >= self.upper_end
         self._home_axes(block.line, axes, math.inf if high else math.nan)
 
