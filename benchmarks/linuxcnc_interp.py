@@ -2,9 +2,9 @@
 
 ``python benchmarks/linuxcnc_interp.py FOLDER`` (such as ``tests/interp`` of a checkout of LinuxCNC)
 
-Each program is run by ``rs274`` (Debian package ``linuxcnc-uspace``) and by our reader, from X0 Y0 Z0 with the
-tools of the ``.tbl`` beside it. Both end at the same places, or both refuse it, or ours refuses it by name:
-anything else is told, and the exit code is 1.
+Each program is run by ``rs274`` (Debian package ``linuxcnc-uspace``) and by our reader, from X0 Y0 Z0 with
+the tools of the ``.tbl`` beside it. Both end at the same places, or both refuse it, or ours refuses it by
+name: anything else is told, and the exit code is 1.
 """
 
 import re
@@ -69,6 +69,8 @@ def compare(name: str, text: str, table: str) -> Verdict:
         return Verdict(name, word, str(error))
     canon = theirs(text, table)
     if canon is None or not canon.ok:
+        if not run.ended:
+            return Verdict(name, "both refuse", "the program does not end (check program-end)")
         error = "it does not end" if canon is None else " / ".join(canon.error.splitlines()[-2:])
         return Verdict(name, "accepted by us alone", error)
     inches = "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" in canon.text.partition("SET_FEED_REFERENCE")[2]

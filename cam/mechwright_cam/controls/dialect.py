@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 
 @dataclass(frozen=True, slots=True)
 class Corners:
@@ -84,6 +86,16 @@ class Dialect:
     arc_absolute: float = 0.0283
     arc_relative: float = 0.001
     """The control refuses an arc whose radii differ by more than both, in mm and as a part of the radius."""
+    arc_inch: float = 1.0
+    """So many times ``arc_absolute`` and ``arc_most`` are in inches (G20)."""
+    arc_of_larger: bool = False
+    """Whether that part is of the larger radius, and not of that at the start."""
+    arc_least: float = 0.0
+    """The control refuses an arc of no larger radius, mm."""
+    arc_chord: float | None = None
+    """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``."""
+    arc_entry: bool = True
+    """Whether cutter compensation may be turned on along an arc."""
     line_length: int = 255
     """Longest line, characters."""
     ascii_comments: bool = False
@@ -140,10 +152,17 @@ class Dialect:
     name: str = "the control"
     """Name for messages; a control gives its own title."""
 
-    def refuses(self, error: Any, radius: Any) -> Any:
-        """Whether arcs are refused whose radii differ so much, by that at the start; (n,) or one, mm."""
-        beyond = (error > self.arc_absolute) & (error > self.arc_relative * radius)
-        return beyond | (error > self.arc_most)
+    def refuses(self, first: Any, last: Any, inches: bool) -> Any:
+        """Whether arcs are refused whose radii at the start and at the end are these; (n,) or one, mm.
+
+        >>> Dialect(frozenset()).refuses(10.0, 10.02, False), Dialect(frozenset()).refuses(10.0, 10.03, False)
+        (np.False_, np.True_)
+        """
+        factor, error = self.arc_inch if inches else 1.0, np.abs(np.subtract(first, last))
+        part = self.arc_relative * (np.maximum(first, last) if self.arc_of_larger else first)
+        beyond = (error > self.arc_absolute * factor) & (error > part)
+        small = np.minimum(first, last) <= self.arc_least
+        return beyond | (error > self.arc_most * factor) | small
 
     def m(self, code: int) -> int:
         """The control's own M code for a usual one.

@@ -35,6 +35,7 @@ class Fanuc(GcodeControl):
         ascii_comments=True,
         capitals=True,
         one_m=True,
+        arc_entry=False,
         percent_ends=False,
         program_numbers=True,
         home_cancels_length=True,

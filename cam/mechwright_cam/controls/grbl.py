@@ -45,6 +45,7 @@ class Grbl(GcodeControl):
         ),
         arc_absolute=0.005,
         arc_most=0.5,
+        arc_chord=0.0,
         line_length=80,
         counts_code=True,
         ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed and speed

@@ -32,7 +32,6 @@ class Modal(Compensation):
 
     def __init__(self, dialect: Dialect) -> None:
         super().__init__(dialect)
-        self.scale = 1.0
         self.absolute = True
         self.absolute_centres = dialect.absolute_centres
         self.selected: int | None = None
@@ -59,6 +58,10 @@ class Modal(Compensation):
         bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
         value = self._take(block, letter, missing)
         return value * (bare if bare is not None and letter in block.bare else unit)
+
+    def _without_compensation(self, block: Block, name: str) -> None:
+        if self.side:
+            raise fail(block.line, f"{name} while compensation is on; write G40 before")
 
     def _whole(self, block: Block, letter: str, value: float) -> int:
         if value < 0 or value != int(value) or value > LARGEST_WHOLE:
@@ -102,6 +105,7 @@ class Modal(Compensation):
                 self._keep_state()
                 self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
         if 6 in block.m:
+            self._without_compensation(block, "M6")
             if self.selected is None:
                 raise fail(block.line, "M6 without a tool; write T before it")
             self._set(tool=self.selected)
@@ -137,7 +141,7 @@ class Modal(Compensation):
                 if code == 170:
                     self._state("plane")
             elif code == 400:
-                self.end_compensation()
+                self.end_compensation(block.line)
                 self._set(side=0, diameter_offset=None)
                 self._state("cutter compensation")
             elif code in {410, 420, 411, 421}:
@@ -183,6 +187,9 @@ class Modal(Compensation):
 
     def _length_offset(self, block: Block) -> None:
         offset, length = self.state.length_offset, None
+        for code in block.g:
+            if code in GROUPS["length offset"]:
+                self._without_compensation(block, spell(code))
         if 430 in block.g:
             offset = self._number(block, "H", 430)
         elif 431 in block.g:
@@ -202,6 +209,7 @@ class Modal(Compensation):
             if code not in GROUPS["work offset"]:
                 continue
             name = spell(code)
+            self._without_compensation(block, name)
             if code in EXTENDED or (self.dialect.program_numbers and code == 540 and "P" in words):
                 number = self._whole(block, "P", self._take(block, "P", f"{name} needs its number, P"))
                 name = f"{'G54.1' if code == 540 else name} P{number}"
@@ -221,6 +229,7 @@ class Modal(Compensation):
         """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
         if 100 not in block.g:
             return
+        self._without_compensation(block, "G10")
         table = self._take(block, "L", "G10 needs L")
         if table not in self.dialect.tables:
             known = ", ".join(f"L{number}" for number in sorted(self.dialect.tables))

@@ -150,6 +150,8 @@ class Moving(Modal):
         here = {"X": self.x, "Y": self.y, "Z": self.z}
         if self.side:
             here["X"], here["Y"] = self.contour
+        elif self.left is not None:
+            raise fail(block.line, "the move after compensation has ended (G40) is an arc; leave on a line")
         target = dict(zip(AXES, self._target(block, words), strict=True))
         start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
         turns = self._whole(block, "P", words.pop("P", 1.0))
@@ -161,7 +163,10 @@ class Moving(Modal):
                 raise fail(block.line, f"an arc has either R, or {first} and {second}")
             radius = words.pop("R") * self.scale
             try:
-                centre = centre_of(start, end, radius, ccw, self.dialect.arc_absolute)
+                chord = (
+                    self.dialect.arc_absolute if self.dialect.arc_chord is None else self.dialect.arc_chord
+                )
+                centre = centre_of(start, end, radius, ccw, chord)
             except ValueError as error:
                 raise fail(block.line, str(error)) from None
         elif words.keys() & {first, second}:

@@ -25,6 +25,8 @@ class Recorder:
         self.dialect = dialect
         self.x = self.y = self.z = math.nan
         self.feed = 0.0
+        self.scale = 1.0
+        """Length of a unit of the program, mm."""
         self.ended = False
         self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
         self.index = 0
@@ -101,11 +103,11 @@ class Recorder:
 
         Raises ProgramError if the control refuses the arc.
         """
-        first = math.dist(start, centre)
-        error = abs(first - math.dist(end, centre))
-        if first == 0:
-            raise fail(line, "an arc of radius 0")
-        if self.dialect.refuses(error, first):
+        first, last = math.dist(start, centre), math.dist(end, centre)
+        error = abs(first - last)
+        if min(first, last) <= self.dialect.arc_least:
+            raise fail(line, f"an arc of radius {min(first, last):.4g}")
+        if self.dialect.refuses(first, last, self.scale != 1.0):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
