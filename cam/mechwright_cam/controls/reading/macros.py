@@ -49,8 +49,8 @@ class Lines:
             yield self.at - 1, self.lines[self.at - 1]
 
 
-MOST_LINES = 1_000_000
-"""A program that runs more lines than this is taken for an endless loop."""
+MOST_LINES = 500_000
+"""A program that runs more lines than this is taken for an endless loop: ten seconds."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
 OWN = 30
@@ -125,7 +125,8 @@ class Macros(Lines):
             self.at += 1
             try:
                 if index in self.words:
-                    yield index, "".join(_COMMENT.findall(self.lines[index]))
+                    if comments := _COMMENT.findall(self.lines[index]):
+                        yield index, "".join(comments)
                     self._obey(index, *self.words[index])
                 else:
                     yield index, self._plain(self.lines[index])

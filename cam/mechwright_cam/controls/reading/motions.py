@@ -203,6 +203,7 @@ class Moving(Modal):
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
+        self.check_steps(line, count)
         angle = math.atan2(start[1] - centre[1], start[0] - centre[0])
         for number in range(1, count):
             share = number / count

@@ -59,6 +59,7 @@ def interpret(
             after = run_stretch(machine, plain, index)
             if after > index:
                 source.at = after
+                machine.check_steps(after)
                 continue
         elif dialect.percent and raw.strip(" \t") == "%":
             percents += 1
@@ -74,6 +75,7 @@ def interpret(
         if block.deleted and block_delete:
             continue
         machine.run(block)
+        machine.check_steps(index + 1)
         if machine.ended:
             return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
     return machine.result(len(lines))

@@ -14,6 +14,8 @@ from mechwright_cam.controls.reading.run import COLUMNS, WIDTH, Kind, Remark, Ru
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
+MOST_STEPS = 500_000
+"""Moves of a program beyond which it is refused: no proof of more ends in time and memory."""
 LARGEST = 1e5
 """Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 
@@ -59,6 +61,11 @@ class Recorder:
     def steps(self) -> int:
         """Number of steps so far."""
         return self.before + len(self.rows)
+
+    def check_steps(self, line: int, more: int = 0) -> None:
+        """Raise ProgramError if the program, with so many more steps, makes more than any should."""
+        if self.steps + more > MOST_STEPS:
+            raise fail(line, f"more than {MOST_STEPS} moves; split the program")
 
     def append(self, table: Array) -> None:
         """Record steps (k, 15), as COLUMNS has them; the tool is where the last of them ends."""
@@ -120,6 +127,8 @@ class Recorder:
         x, y, gap = self.x, self.y, self.dialect.peck_clearance
         if plane - bottom > MOST_PECKS * step:
             raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
+        if math.isfinite(step):
+            self.check_steps(line, 3 * int((plane - bottom) / step))
         depth = plane - step
         while depth > bottom:
             self._feed_to(line, x, y, depth)
