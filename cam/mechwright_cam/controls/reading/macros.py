@@ -131,8 +131,6 @@ class Macros(Lines):
                 else:
                     yield index, self._plain(self.lines[index])
                     done += self.at - index - 1
-            except RecursionError:
-                raise fail(index + 1, "brackets are nested too deep") from None
             except (ValueError, OverflowError) as error:
                 if str(error).startswith("line "):
                     raise
