@@ -34,7 +34,9 @@ def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, 
     with Build(path, open_host(), Wanted("verify")) as build:
         _ = build.design
         # Comments may be of any age.
-        texts = {str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1")[0] for file in programs}
+        texts = {
+            str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1", mark=True)[0] for file in programs
+        }
         if len(texts) < len(programs):
             raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
         program, *rest = texts

@@ -1,6 +1,7 @@
 """Is there material where the tool goes now? Computed only for the few moves that need the answer."""
 
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 import shapely
@@ -15,6 +16,8 @@ from mechwright_cam.setup.job import Job
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
+MOST_TOLD = 100
+"""So many rapids that meet material are enough to know of."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 ACCURACY = 0.001
@@ -59,11 +62,11 @@ class Stock:
 
     @cached_property
     def rapids(self) -> list[int]:
-        """The rapids that meet material; straight up follows the tool's own hole."""
+        """The first rapids that meet material; straight up follows the tool's own hole."""
         paths, rapid = self.paths, self.paths.rapids
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
-        return [step for step in low.tolist() if self.meets(step)]
+        return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
 
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
         """Whether the tool, moving straight as this step does, meets material that earlier steps left.
