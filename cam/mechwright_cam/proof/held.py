@@ -116,7 +116,7 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
     pieces = pieces.only(near)
     if len(pieces) == 0:
         return None
-    room = shapely.distance(paths.lines(pieces), one.shape) - own[pieces.step] - one.radius
+    room = shapely.distance(paths.room(pieces), one.shape) - own[pieces.step] - one.radius
     worst = int(np.argmin(room))
     if room[worst] >= 0:
         return None

@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 _HOMES = (
     ("machine_rules", "program_end modes tools work_offset"),
     ("offset_rules", "offset_tables length_offset diameter_offset"),
-    ("machine_rules", "positions machine_moves"),
+    ("machine_moves", "positions machine_moves"),
     ("cutting_state", "path_tolerance"),
     ("machine_rules", "tool_change stops"),
     ("cutting_state", "spindle coolant arcs feeds speeds"),

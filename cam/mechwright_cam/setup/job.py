@@ -110,6 +110,11 @@ class Job:
         return -self.thickness - self.settings.breakthrough
 
     @property
+    def highest(self) -> float:
+        """Height z of the highest thing known to be over the table: the stock's top, 0, or what holds it."""
+        return max(0.0, *(thing.top for thing in (self.clamp, *self.jaws) if thing is not None), 0.0)
+
+    @property
     def datum(self) -> Point:
         """X and Y of the edges of the stock from which X0 and Y0 are found, mm: left and front.
 
