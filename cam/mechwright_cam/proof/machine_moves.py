@@ -39,7 +39,7 @@ def positions(scene: Scene) -> Check:
 
 
 def _blind(scene: Scene, height: float) -> NDArray[np.bool_]:
-    """(n,) whether a step from an X or Y that the text does not say ends, or goes sideways, below a height."""
+    """(n,) whether a step from an X or Y that the text does not say ends, or crosses, below a height."""
     run, least = scene.run, height - NEAR
     start, end = np.isfinite(run.start[:, :2]), np.isfinite(run.end[:, :2])
     found = (end & ~start).any(axis=1)
