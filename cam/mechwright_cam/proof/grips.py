@@ -1,5 +1,6 @@
 """What holds the plate and its pieces: where, and from when on."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,12 @@ LEAST_RIM = 1 / 8
 """A piece with so much of the plate's edge has a clamp on it, as the setup sheet asks: share of all of it."""
 LEAST_JAW = 0.5
 """A piece that touches so much of both jaws is gripped by them: share of their width."""
+
+PRESSED = 20.0
+"""A toe clamp holds a piece of which it covers so much, mm²: a toe of 10 mm that reaches over by 2 mm."""
+LEAST_AREA = {"vacuum": 500.0, "tape": 100.0}
+"""A piece so large stays where it is when it is cut free, mm², under the 12 N sideways of a finishing cut: a
+vacuum of 0.8 bar with friction of 0.3 holds 0.024 N/mm², double-sided tape 0.12 N/mm² at least."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +48,8 @@ def grips(scene: Scene) -> list[Grip]:
     if job.jaws:
         faces = tuple(found.inside(shapely.buffer(jaw.face, found.cell)) for jaw in job.jaws)
         return [Grip(faces, tuple(int(LEAST_JAW * np.count_nonzero(face)) + 1 for face in faces))]
+    if job.settings.hold.method == "none":
+        return _from_below_and_above(job, found)
     held = [_edge(found)]
     if job.clamp is not None:
         middle = shapely.Point(job.clamp.centre)
@@ -50,6 +59,16 @@ def grips(scene: Scene) -> list[Grip]:
         since = clamp_set(scene)
         if way_through(scene) < since:  # before there is one, nobody can have set it
             held.append(Grip((found.inside(disc),), (1,), since))
+    return held
+
+
+def _from_below_and_above(job: Job, found: Footprint) -> list[Grip]:
+    """A vacuum or tape under the whole plate, and clamps on it."""
+    cells = 1 / found.cell**2
+    held = [Grip((found.inside(toe.shape),), (math.ceil(PRESSED * cells),)) for toe in job.toes]
+    if job.settings.hold.bed is not None:
+        everywhere = np.ones(found.cut.shape, dtype=bool)
+        held.append(Grip((everywhere,), (math.ceil(LEAST_AREA[job.settings.hold.bed] * cells),)))
     return held
 
 
@@ -64,6 +83,10 @@ def advice(job: Job) -> str:
     """What to do about a piece that nothing holds."""
     if job.clamp is not None:
         return "clamp it before"
+    if job.settings.hold.bed == "vacuum":
+        return f"leave pieces of {LEAST_AREA['vacuum']:g} mm² at least, or tabs"
+    if job.settings.hold.method == "none":
+        return "hold it by tape (cam.hold.bed), or with one more of cam.hold.toe_clamps"
     if job.jaws:
         return "leave it between the jaws"
     return "leave tabs"

@@ -71,6 +71,10 @@ def obstacles(scene: Scene) -> list[Obstacle]:
         Obstacle(f"the {jaw.edge} jaw of the vice (up to Z{jaw.top:g})", jaw.shape, 0.0, jaw.top, -1)
         for jaw in job.jaws
     ]
+    found += [
+        Obstacle(f"toe clamp {toe.number} (up to Z{toe.top:g})", toe.shape, 0.0, toe.top, -1)
+        for toe in job.toes
+    ]
     if job.clamp is not None:
         since = clamp_set(scene)
         name = f"the clamp (diameter {job.clamp.diameter:g} mm, up to Z{job.clamp.top:g})"
@@ -99,7 +103,7 @@ def clamp(scene: Scene) -> Check:
                 return check
     if not every:
         return Check(True, "there is no clamp in the way")
-    held = "jaws of the vice" if scene.job.jaws else "clamp"
+    held = "jaws of the vice" if scene.job.jaws else "toe clamps" if scene.job.toes else "clamp"
     return Check(True, f"the cutter stays clear of the {held}")
 
 

@@ -20,6 +20,15 @@ class Clamp:
 
 
 @dataclass(frozen=True)
+class ToeClamp:
+    """A clamp on the plate: its number, its plan view with the bolt, its top, z in mm."""
+
+    number: int
+    shape: shapely.Polygon
+    top: float
+
+
+@dataclass(frozen=True)
 class Tab:
     """A bridge from the part to the frame.
 

@@ -26,7 +26,7 @@ import shapely
 from mechwright.contracts.details import Detail, moved
 from mechwright.contracts.part import Feature, Part
 from mechwright.geometry.segments import Point
-from mechwright_cam.setup.holding import Clamp, Jaw, Tab
+from mechwright_cam.setup.holding import Clamp, Jaw, Tab, ToeClamp
 from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.setup.turned import Frame, TurnedOver
 from mechwright_cam.shop.settings import CamSettings
@@ -78,6 +78,8 @@ class Job:
         The bore clamp, if that holds the part.
     jaws
         The jaws of the vice, if that holds the part.
+    toes
+        The clamps on the plate, if those hold it.
     side
         ``"underside"`` if the plate has been turned over.
     gone
@@ -95,6 +97,7 @@ class Job:
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
     jaws: tuple[Jaw, ...] = ()
+    toes: tuple[ToeClamp, ...] = ()
     side: Literal["top", "underside"] = "top"
     gone: tuple[Air, ...] = ()
     pick_up: tuple[Point, ...] = ()
@@ -112,7 +115,8 @@ class Job:
     @property
     def highest(self) -> float:
         """Height z of the highest thing known to be over the table: the stock's top, 0, or what holds it."""
-        return max(0.0, *(thing.top for thing in (self.clamp, *self.jaws) if thing is not None), 0.0)
+        things = (self.clamp, *self.jaws, *self.toes)
+        return max(0.0, *(thing.top for thing in things if thing is not None), 0.0)
 
     @property
     def datum(self) -> Point:
