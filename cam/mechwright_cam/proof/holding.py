@@ -8,15 +8,13 @@ from mechwright_cam.proof.bands import bands, stock_shape
 from mechwright_cam.proof.grips import advice, grips
 from mechwright_cam.proof.loose import Loose, loose_pieces, passed
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Shape, grow, swept
+from mechwright_cam.proof.plane import grow
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stops import clamp_set, way_through
-from mechwright_cam.proof.sweep import Sweep
+from mechwright_cam.proof.sweep import BRIDGE, Sweep, taken
 from mechwright_cam.setup.job import Job
 
-BRIDGE = 0.02
-"""Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
 TOUCHES = 0.002
 """The part touches a jaw where it is so near to its face, mm: the chords of its outline, and rounding."""
 BEARS = 0.95
@@ -118,17 +116,6 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     return True
 
 
-def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
-    """What is cut away of a region, roughly."""
-    region = prepared(region)
-    shapes: list[Shape] = []
-    for sweep in cut:
-        chains = sweep.beside(region)
-        near = chains[shapely.dwithin(region, chains, sweep.radius)]
-        shapes.append(swept(near, sweep.radius, BRIDGE))
-    return shapes
-
-
 def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     """A tab that ends in nothing, if there is one.
 
@@ -138,7 +125,7 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     plate = stock_shape(job)
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
     tabs = [grow(tab.shape, scrap, BRIDGE) for tab in job.tabs]
-    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
+    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*taken(cut, plate), *tabs])))
     inside = shapely.point_on_surface(shapely.get_parts(job.target))
     others = pieces[~shapely.intersects(pieces[:, None], inside).any(axis=1)]
     ends = np.array([shapely.dwithin(others, tab, BRIDGE) for tab in tabs]).reshape(len(tabs), len(others))

@@ -11,6 +11,7 @@ from mechwright.cores import together
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.beyond import SPOTS
+from mechwright_cam.proof.found_tabs import with_found_tabs
 from mechwright_cam.proof.holding import remarks
 from mechwright_cam.proof.report import Proof, Spot
 from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
@@ -63,6 +64,7 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
 
 def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
+    scene = with_found_tabs(scene)
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
     run, _, _, _ = scene.run, scene.stock, scene.sweeps, scene.pieces
     checks = together(partial(ask, scene=scene), rules)  # none depends on another

@@ -21,7 +21,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled, opened
-from mechwright_cam.setup.holding import Tab, _corners, _piece_at, _rectangle
+from mechwright_cam.setup.holding import Tab, _corners, _piece_at, rectangle
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.tab_places import rows, tab_width
 from mechwright_cam.shop.tool import MILLS
@@ -77,7 +77,7 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
             for at in row:
                 place = _across(ring, at, min(width / 2, ring.length / 100))
                 ends = (-TAB_REACH, _frame_at(job, ring, place, reach))
-                shape = _rectangle(place, width + slopes, ends)
+                shape = rectangle(place, width + slopes, ends)
                 tab = Tab(shape, hold.tab_height - job.thickness, width, slope, place[:2], place[2], ends)
                 tabs.append(_sunk(job, feature, tab, slopes) if slopes else tab)
             _check_apart(feature, tabs)
@@ -121,7 +121,7 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
         inner = shapely.LineString(_corners(place, 2 * half, (-depth, 0.0))[:2])
         if shapely.contains_properly(part, inner):
             ends = (-depth, _outer_end(job, part, tab, 2 * half))
-            shape = _rectangle(place, tab.width + slopes, ends)
+            shape = rectangle(place, tab.width + slopes, ends)
             # Outline and wall may differ by rounding, which makes no opening.
             openings = opened(shapely.difference(part, job.target), TOLERANCES.flatten)
             bridge = shapely.difference(shapely.intersection(shape, shapely.box(*job.stock)), openings)

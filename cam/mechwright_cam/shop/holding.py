@@ -81,6 +81,10 @@ class Hold(Parameters):
         "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
     )
     tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
+    tab_places: Literal["planned", "found"] = Field(
+        "planned",
+        description="Whether the proof asks for the planned tabs, or judges those it finds by their size.",
+    )
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."
