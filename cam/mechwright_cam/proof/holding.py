@@ -85,6 +85,7 @@ def remarks(scene: Scene) -> list[str]:
         f"Y{piece.place[1]:.1f}; "
         + ("no cutter comes near it any more" if piece.taken is None else "it is taken out at a stop")
         for piece in loose_pieces(scene, grips(scene))
+        if not piece.is_part and passed(scene, piece) is None
     ]
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from mechwright.contracts.part import Profile
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.entry_rules import ABOVE
 from mechwright_cam.proof.footprint import UNSURE, Mask
@@ -67,8 +68,8 @@ def _loose(scene: Scene, cells: Mask, step: int) -> Loose:
     x, y = place = found.place(cells)
     part = np.count_nonzero(found.inside(found.part, cells))
     area = np.count_nonzero(found.within(cells, UNSURE * found.cell)) * found.cell**2
-    within = (f.name for f in scene.job.features if shapely.contains_xy(inside_of(f), x, y))
-    name = next(within, "")
+    openings = [f for f in scene.job.features if not (isinstance(f, Profile) and f.side == "outside")]
+    name = next((f.name for f in openings if shapely.contains_xy(inside_of(f), x, y)), "")
     where = f"in {name}" if name else "beside the part"
     stops = [stop for stop in stops_that_say(scene.run, TAKES) if stop > step]
     is_part = bool(part >= PART * np.count_nonzero(cells))
