@@ -90,8 +90,8 @@ class Verify(Command):
     ) -> None:
         """Prove that a program from anywhere cuts the part.
 
-        The part is that of a design, or of a drawing. The program is simulated as those of `cam` are. The exit
-        code is 1 if it does not cut the part. Several files, one for each tool, are one program.
+        The part is that of a design, or of a drawing. The program is simulated as those of `cam` are. The
+        exit code is 1 if it does not cut the part. Several files, one for each tool, are one program.
         """
         from mechwright_cam.commands import verify
 

@@ -73,12 +73,12 @@ def stops(scene: Scene) -> Check:
     if (step := first(stop & (scene.run.of_states(lambda state: state.spindle) != 0))) is not None:
         message = f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it"
         return scene.bad(step, message)
+    if (step := first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))) is not None:
+        return scene.bad(step, f"{halt} stops the program with the tool down; before it {retract(scene)}")
     wet = run.of_states(lambda state: state.coolant != "off")
     if (step := first(stop & wet)) is not None:
         message = f"{halt} stops the program while coolant runs; write {scene.control.m(9)} before it"
         return scene.bad(step, message)
-    if (step := first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))) is not None:
-        return scene.bad(step, f"{halt} stops the program with the tool down; before it {retract(scene)}")
     return Check(True, "at stops spindle and coolant are off and the tool is up")
 
 
