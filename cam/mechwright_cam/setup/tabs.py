@@ -10,6 +10,7 @@ base
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import shapely
@@ -79,7 +80,9 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
                 ends = (-TAB_REACH, _frame_at(job, ring, place, reach))
                 shape = rectangle(place, width + slopes, ends)
                 tab = Tab(shape, hold.tab_height - job.thickness, width, slope, place[:2], place[2], ends)
-                tabs.append(_sunk(job, feature, tab, slopes) if slopes else tab)
+                tabs.append(
+                    _sunk(job, feature, tab, slopes) if slopes else _beside_openings(job, feature, tab)
+                )
             _check_apart(feature, tabs)
             _check_floors(job, low, tabs)
             _check_below(job, below, tabs)
@@ -105,6 +108,16 @@ def _slope(job: "Job") -> float:
                     f"{angle:g} degrees; use at most ramp_angle, {limit:g} degrees, or list another mill"
                 )
     return math.tan(math.radians(angle))
+
+
+def _beside_openings(job: "Job", feature: Profile, tab: Tab) -> Tab:
+    """A tab as far as it lies on no opening: behind a thin wall its inner end would."""
+    part = shapely.Polygon(feature.loop.flatten())
+    behind = shapely.difference(shapely.intersection(tab.shape, part), job.target)
+    if opened(behind, TOLERANCES.flatten).is_empty:  # outline and wall may differ by rounding
+        return tab
+    rest = shapely.difference(tab.shape, shapely.buffer(behind, TOLERANCES.flatten, join_style="mitre"))
+    return replace(tab, shape=_piece_at(rest, (*tab.at, tab.along)))
 
 
 def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
