@@ -83,8 +83,7 @@ def rapid_height(scene: Scene) -> Check:
     sideways = np.hypot(*(paths.end - paths.start)[rapid, :2].T) > NEAR
     low = rapid[sideways & (paths.low[rapid] < limit - NEAR)]
     if low.size:
-        lines = paths.lines(paths.whole(low))
-        over = low[shapely.dwithin(lines, stock_shape(scene.job), paths.radius[low])]
+        over = low[shapely.dwithin(paths.room(paths.whole(low)), stock_shape(scene.job), paths.radius[low])]
         if over.size:
             step = int(over[0])
             z = float(paths.low[step])

@@ -27,17 +27,6 @@ def gouge(scene: Scene) -> Check:
     return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
 
 
-def tabs(scene: Scene) -> Check:
-    """The tabs remain."""
-    cut, limit, count = scene.in_tab, TOLERANCES.gouge, len(scene.job.tabs)
-    if not count:
-        return Check(True, "there are no tabs")
-    if cut is None or cut.depth <= limit:
-        return Check(True, f"all {count} tabs remain")
-    message = f"cuts {cut.depth:.3f} mm into a tab that holds the part, the limit is {limit:g} mm"
-    return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
-
-
 def leftover(scene: Scene) -> Check:
     """No stock stays where a cutter of the program could go."""
     left, limit = scene.remains, TOLERANCES.leftover
@@ -82,9 +71,9 @@ def depth(scene: Scene) -> Check:
         if shape.is_empty or shape.area <= NEAR:
             continue
         shape = prepared(shape)
-        low = _lowest(paths, paths.below(floor + ROUNDING, steps=paths.cuts), shape)
+        low = lowest_cut(paths, paths.below(floor + ROUNDING, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
-            low = _lowest(paths, paths.below(-NEAR, steps=paths.cuts), shape)
+            low = lowest_cut(paths, paths.below(-NEAR, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
             pieces = paths.below(floor + ROUNDING, steps=paths.cuts)
             if low == 0.0 and (beside := _beside(paths, pieces, wall)) is not None:
@@ -117,7 +106,7 @@ def _beside(paths: Paths, pieces: Pieces, shape: Shape) -> tuple[int, float] | N
     return int(pieces.step[nearest]), float(gap[nearest])
 
 
-def _lowest(paths: Paths, pieces: Pieces, shape: Shape) -> float:
+def lowest_cut(paths: Paths, pieces: Pieces, shape: Shape) -> float:
     """Lowest z at which any piece cuts into a shape; 0 if none does."""
     order, some, begin = np.argsort(pieces.low, kind="stable"), AT_ONCE, 0
     while begin < order.size:  # the lowest first: one of them nearly always does

@@ -13,9 +13,11 @@ from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.footprint import Footprint, footprint
 from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
@@ -69,6 +71,16 @@ class Scene:
     def stock(self) -> Stock:
         """The plate while the program runs."""
         return Stock(self.paths, self.job)
+
+    @cached_property
+    def footprint(self) -> Footprint:
+        """By which step the plate is cut through, cell by cell."""
+        return footprint(self.paths, self.job)
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The pieces that it falls into."""
+        return Pieces(self.footprint)
 
     @cached_property
     def gouge(self) -> Gouge | None:

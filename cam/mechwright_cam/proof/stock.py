@@ -69,7 +69,7 @@ class Stock:
         return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
 
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
-        """Whether the tool, moving straight as this step does, meets material that earlier steps left.
+        """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
         which begins so far above the cutter's tip: shank or holder.
@@ -80,7 +80,7 @@ class Stock:
             return False
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))
         reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
-        shape = grow(paths.lines(pieces)[0], reach, ACCURACY)
+        shape = grow(paths.room(pieces)[0], reach, ACCURACY)
         body = shapely.intersection(shape, self.plate)
         if body.is_empty:
             return False
