@@ -64,7 +64,7 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
 def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
-    run, _, _ = scene.run, scene.stock, scene.sweeps
+    run, _, _, _ = scene.run, scene.stock, scene.sweeps, scene.simulation
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)

@@ -17,6 +17,7 @@ from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.setup.job import Job
@@ -69,6 +70,11 @@ class Scene:
     def stock(self) -> Stock:
         """The plate while the program runs."""
         return Stock(self.paths, self.job)
+
+    @cached_property
+    def simulation(self) -> Simulation:
+        """The plate on a grid, and how hard the tools work."""
+        return simulate(self.paths, self.job)
 
     @cached_property
     def gouge(self) -> Gouge | None:
