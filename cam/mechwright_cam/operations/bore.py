@@ -19,7 +19,7 @@ from mechwright_cam.operations.finishing import finish_depth
 from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.rates import rates
-from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.steps import Steps, slope
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Rapid
@@ -144,7 +144,7 @@ def boring_time(job: Job, bore: Bore, drill: Tool | None, mill: Tool) -> float:
     """Time in which a mill roughs and finishes a bore, s; rapids and corners do not count."""
     settings = job.settings
     speed = rates(mill, job.part.material, settings.machine)
-    pen = Pen(mill, speed, settings.clearance, math.tan(math.radians(settings.ramp_angle)))
+    pen = Pen(mill, speed, settings.clearance, slope(mill, settings))
     rough_bore(job, bore, drill, shapely.Polygon(), pen)
     finish_bore(job, bore, pen)
     minutes, x, y = 0.0, *bore.centre

@@ -68,7 +68,7 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
-    notes = loose(scene.sweeps, scene.job)
+    notes = [*loose(scene.sweeps, scene.job), *(check.message for check in checks if check.told)]
     if left.beyond:
         where = f"in {len(left.beyond)} place(s), up to {deepest:.3f} mm, {area:.3f} mm² in all"
         notes.insert(0, f"stock that no cutter of the program reaches: {where}")

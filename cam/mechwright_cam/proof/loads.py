@@ -16,6 +16,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +84,10 @@ class Taken:
             np.zeros((keep.size, 2)),
         )
 
+    @property
+    def cuts(self) -> Ints:
+        """Indices of the places at which something is taken on the way there."""
+        return np.flatnonzero((self.volume > 0) & (self.length > 0))
 
     def of_steps(self, steps: Ints) -> Array:
         """Volume (k,) that each of the steps takes; one without a place of its own has that of the next."""
@@ -90,7 +95,8 @@ class Taken:
         np.add.at(own, self.step, self.volume)
         after = np.searchsorted(self.step, steps)
         lacks = self.step[after] != steps
-        return np.where(lacks, self.volume[after], own[steps])
+        found: Array = np.where(lacks, self.volume[after], own[steps])
+        return found
 
 
 @dataclass(frozen=True)
@@ -100,6 +106,9 @@ class Loads:
     stuff: Material
     step: Ints
     """The step in which most is taken."""
+    first: Ints
+    last: Ints
+    """Its first and its last step."""
     tool: Ints
     radius: Array
     flutes: Array
@@ -157,8 +166,14 @@ class Loads:
 
     def only(self, which: NDArray[np.bool_] | Ints) -> "Loads":
         """Some of the windows."""
-        arrays = (getattr(self, field.name)[which] for field in fields(self)[1:])
-        return Loads(self.stuff, *arrays)
+        return Loads(self.stuff, **{name: getattr(self, name)[which] for name in _ARRAYS})
+
+
+_ARRAYS: dict[str, type] = {
+    field.name: {"Ints": np.int64, "Array": np.float64}.get(str(field.type), np.bool_)
+    for field in fields(Loads)[1:]
+}
+"""Name and kind of the arrays of Loads."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,18 +204,18 @@ class Work:
 
 def loads_of(taken: Sequence[Taken], paths: Paths, name: str) -> Loads:
     """The windows of what was taken of a material."""
-    parts = [one for each in taken for one in _windows(each, paths)]
-    columns = (np.concatenate(column) if parts else np.empty(0) for column in zip(*parts, strict=True))
-    step, tool, *rest, down = columns if parts else [np.empty(0)] * 13
-    return Loads(material(name), step.astype(np.int64), tool.astype(np.int64), *rest, down.astype(np.bool_))
+    stuff = material(name)
+    parts = [_windows(one, paths, stuff) for one in taken if one.cuts.size]
+    values: dict[str, NDArray[Any]] = {
+        name: np.concatenate([getattr(one, name) for one in parts]) if parts else np.empty(0, dtype=kind)
+        for name, kind in _ARRAYS.items()
+    }
+    return Loads(stuff, **values)
 
 
-def _windows(taken: Taken, paths: Paths) -> list[tuple[Array, ...]]:
-    """The windows of one tool's path, in the order of the fields of Loads."""
-    run = paths.run
-    cuts = np.flatnonzero((taken.volume > 0) & (taken.length > 0))
-    if cuts.size == 0:
-        return []
+def _windows(taken: Taken, paths: Paths, stuff: Material) -> Loads:
+    """The windows of one tool's path, which takes something."""
+    run, cuts = paths.run, taken.cuts
     tool = paths.tools[int(run.tool[taken.step[cuts[0]]])]
     down = (np.hypot(*taken.way[cuts, :2].T) <= NEAR) & (taken.way[cuts, 2] < 0)
     # A window ends where the cutter has left the material or turns down, or where it is long enough.
@@ -214,7 +229,8 @@ def _windows(taken: Taken, paths: Paths) -> list[tuple[Array, ...]]:
     n = int(window[-1]) + 1
 
     def total(values: Array) -> Array:
-        return np.bincount(window, values, minlength=n)
+        out: Array = np.bincount(window, values, minlength=n).astype(np.float64)
+        return out
 
     def greatest(values: Array) -> Array:
         most = np.zeros(n)
@@ -235,8 +251,11 @@ def _windows(taken: Taken, paths: Paths) -> list[tuple[Array, ...]]:
         angle = approach(tool, depth)
     straight = np.zeros(n, dtype=np.bool_)
     straight[window] = down
-    columns = (
+    loads = Loads(
+        stuff,
         heaviest,
+        step[np.searchsorted(window, np.arange(n))],
+        step[np.searchsorted(window, np.arange(n), side="right") - 1],
         np.full(n, tool.number),
         np.full(n, tool.radius),
         np.full(n, float(tool.flutes)),
@@ -250,9 +269,7 @@ def _windows(taken: Taken, paths: Paths) -> list[tuple[Array, ...]]:
         total(aside) / (all_volume * tool.radius),
         straight,
     )
-    # Of shorter ones nothing is known: the grid is coarser than that.
-    long = path >= tool.radius
-    return [tuple(column[long] for column in columns)] if long.any() else []
+    return loads.only(path >= tool.radius)  # of shorter ones nothing is known: the grid is coarser than that
 
 
 def works_of(loads: Loads, run: Run, machine: Machine) -> tuple[Work, ...]:

@@ -1,4 +1,4 @@
-"""The stock while the program runs, on a grid of heights: what each piece of path takes, and the picture at last.
+"""The stock while the program runs, on a grid of heights: what each piece of path takes, and the picture.
 
 What is cut of the part is proven exactly, without a grid. This is for what cutter and spindle ask: how hard
 each tool has to work (:mod:`mechwright_cam.proof.loads`), how much of the feed is in air, and a picture.
@@ -12,7 +12,6 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
@@ -29,8 +28,8 @@ CELLS = 1_000_000
 FINEST = 0.05
 """Smallest cell, mm: finer shows nothing more."""
 MOST_PLACES = 40_000
-"""Places along the path at which the cutter is set onto the grid, about 50 µs each: where there would be more,
-the cells are wider, up to a share of the finest cutter's radius."""
+"""Places along the path at which the cutter is set onto the grid, about 50 µs each: where there would be
+more, the cells are wider, up to a share of the finest cutter's radius."""
 COARSEST = 1 / 3
 """That share: with wider cells a cutter has no shape."""
 
@@ -54,7 +53,10 @@ class Simulation:
     def as_dict(self) -> dict[str, Any]:
         """Plain data for ``proof.json``."""
         works = [
-            {key: round(value, 4) if isinstance(value, float) else value for key, value in asdict(work).items()}
+            {
+                key: round(value, 4) if isinstance(value, float) else value
+                for key, value in asdict(work).items()
+            }
             for work in self.works
         ]
         return {"air_mm": round(self.air_mm, 1), "feed_mm": round(self.feed_mm, 1), "tools": works}
@@ -125,7 +127,8 @@ def _cut(
     for index, row, column, height in zip(
         low.tolist(), rows[low].tolist(), columns[low].tolist(), taken.z[low].tolist(), strict=True
     ):
-        a, b, c, d = max(row - half, 0), min(row + half + 1, ny), max(column - half, 0), min(column + half + 1, nx)
+        a, b = max(row - half, 0), min(row + half + 1, ny)
+        c, d = max(column - half, 0), min(column + half + 1, nx)
         if a >= b or c >= d:
             continue
         stock = heights[a:b, c:d]

@@ -54,8 +54,10 @@ def step_times(run: Run, machine: Machine) -> Array:
 
 
 def stretches(run: Run) -> list[tuple[str, int, int]]:
-    """Name, first step and step after the last of each operation: from one operation comment to the next; by
-    tool where there are none."""
+    """Name, first step and step after the last of each operation.
+
+    They go from one operation comment to the next, or where there are none, from tool to tool.
+    """
     named = [
         (remark.step, _as_planned(remark.text[len(OPERATION_COMMENT) :]))
         for remark in run.remarks

@@ -1,8 +1,8 @@
 """What a cut asks of the spindle, and what the spindle has.
 
 Kienzle's law: a chip h mm thick is cut with k_c = k_c1.1 h^-m N/mm² on its cross-section. A tooth of a mill
-that is fed f_z per tooth meets h = f_z sin φ sin κ, with φ from 0 at the start of its way through the material
-to the engagement φ_s, and κ the angle of its edge (90 degrees for a flat end). The mean over that way is
+that is fed f_z per tooth meets h = f_z sin φ sin κ, with φ from 0 where it enters the material to the
+engagement φ_s, and κ the angle of its edge (90 degrees for a flat end). The mean over that way is
 
     k = k_c1.1 (f_z sin κ)^-m ∫ sin^(1-m) φ dφ / (1 - cos φ_s),
 
@@ -38,7 +38,7 @@ def _integral(exponent: float) -> Array:
 
 
 def milling_force(stuff: Material, tooth: Any, engagement: Any) -> Array:
-    """Mean specific force (n,), N/mm², of teeth that take ``tooth`` mm, f_z sin κ, over an ``engagement``, rad.
+    """Mean specific force (n,), N/mm², of teeth that take ``tooth`` mm (f_z sin κ) over an engagement, rad.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def milling_force(stuff: Material, tooth: Any, engagement: Any) -> Array:
 
 
 def drilling_force(stuff: Material, chip: Any) -> Array:
-    """Specific force (n,), N/mm², of an edge that is in the material all the time, with chips this thick, mm."""
+    """Specific force (n,), N/mm², of an edge that never leaves the material, with chips this thick, mm."""
     out: Array = stuff.force * np.maximum(chip, THINNEST) ** -stuff.force_exponent
     return out
 
