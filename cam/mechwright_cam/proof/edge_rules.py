@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright_cam.controls.reading import Kind
-from mechwright_cam.proof.cutting_rules import BEYOND, MIDDLE, SHAVES, cutting_data
+from mechwright_cam.proof.cutting_rules import BEYOND, MIDDLE, ROUGHING_PLAY, SHAVES, cutting_data
 from mechwright_cam.proof.loads import Loads
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
@@ -89,11 +89,12 @@ def plunges(scene: Scene) -> Check:
     return Check(True, "no mill goes down into material faster than its middle cuts")
 
 
-SKIN = 0.1
-"""A cut that takes no more beside a wall than is left for finishing, and this, is a finishing cut, mm."""
+SKIN = 1.5
+"""A cut that takes no more beside a wall than so many times what is left there is a finishing cut; in corners
+that is as much."""
 ONE_SIDED = 0.3
 """Material is on one side of a path if its middle is so far off it, in radii."""
-LASTS = 10.0
+LASTS = 3.0
 """Finishing the wrong way round is told of if it lasts for so many diameters: leads and corners do not."""
 
 
@@ -125,7 +126,9 @@ def against(scene: Scene) -> tuple[int, Tool, float] | None:
         if tool.kind not in MILLS:
             continue
         mine = loads.only(loads.tool == number)
-        skin = mine.only(~mine.down & (mine.width <= min(cam.stock_to_leave + SKIN, tool.radius / 2)))
+        skin = mine.only(
+            ~mine.down & (mine.width <= min(SKIN * cam.stock_to_leave + ROUGHING_PLAY, tool.radius / 2))
+        )
         side = skin.side if cam.climb else -skin.side
         wrong = side > ONE_SIDED
         length = float(skin.path[wrong].sum())

@@ -24,7 +24,7 @@ THINNEST = 0.002
 """Thinnest chip, mm, that the law is asked about: a sharp edge is not much rounder than that."""
 NARROWEST = 0.02
 """Least engagement, rad: below it the quotient of integral and width is one of rounding errors."""
-ANGLES = np.linspace(0.0, math.pi, 1801)
+ANGLES = np.linspace(0.0, math.pi, 18001)
 WATTS = 1 / 60
 """N/mm² times cm³/min: a joule per cm³, in a minute."""
 
