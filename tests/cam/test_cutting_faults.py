@@ -232,3 +232,32 @@ def test_planning_keeps_to_the_ramp_that_a_tool_can_do() -> None:
     assert prove(text, gentle.job).ok
     found = prove(one.text, gentle.job).checks["entries"].message
     assert "T23 (mill-8) ramps into the stock at 1.6 degrees, the limit is 1, at " in found
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(
+    ("operation", "planned", "other"), [("profile-inside", 8, 6), ("tabs", 8, 6), ("slot", 6, 7)]
+)
+def test_a_path_for_a_tool_of_another_diameter_is_called_so(
+    operation: str, planned: float, other: float, control: str
+) -> None:
+    (one,) = made(operation, control)
+    wrong = fitted(one, f"mill-{planned}", diameter=float(other))
+    proof = prove(one.text, wrong.job, BY_NAME[control])
+    said = [
+        proof.checks[name].message for name in ("gouge", "depth", "leftover") if not proof.checks[name].passed
+    ]
+    assert said
+    for message in said:
+        assert f"(mill-{planned}) of {other} mm runs {planned / 2:.2f}"[:-1] in message
+        assert f"as one of {planned}.0" in message
+        assert "the path is made for a tool of another diameter, and " in message
+
+
+def test_a_single_wrong_coordinate_is_no_wrong_tool() -> None:
+    (one,) = made("profile-inside", "linuxcnc")
+    way = "G1 Y2.9719 F1960\n"
+    assert way in one.text
+    proof = prove(one.text.replace(way, f"{way}X8.9985\nX7.9985\n"), one.job)
+    assert not proof.ok
+    assert not any("another diameter" in check.message for check in proof.failures)

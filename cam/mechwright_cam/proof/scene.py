@@ -15,6 +15,7 @@ from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
 from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
+from mechwright_cam.proof.misfit import misfit
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.simulation import Simulation, simulate
@@ -102,6 +103,11 @@ class Scene:
     def remains(self) -> Remains:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
+
+    @cached_property
+    def misfit(self) -> str:
+        """What is wrong where a path is made for another tool; nothing where it is not."""
+        return misfit(self.sweeps, self.job)
 
     def state(self, step: int) -> State:
         """Machine state in a step."""
