@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright_cam.controls.reading import Kind
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.cutting_rules import BEYOND, MIDDLE, ROUGHING_PLAY, SHAVES, cutting_data
 from mechwright_cam.proof.loads import Loads
 from mechwright_cam.proof.paths import NEAR
+from mechwright_cam.proof.plane import Boundary
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.shop.cutter import cutter
@@ -59,6 +62,14 @@ def _hollow(tool: Tool) -> str:
     )
 
 
+WITHIN = 0.8
+"""Straight down, the outer fifth of a mill's radius cuts well: it is fast."""
+
+
+SKIM = 0.3
+"""A mill may go so far into material, mm, as roughing leaves on floors, before its plunge feed counts."""
+
+
 def plunges(scene: Scene) -> Check:
     """No mill goes down into material faster than its middle cuts, straight or on a steep ramp."""
     run, paths = scene.run, scene.paths
@@ -69,15 +80,17 @@ def plunges(scene: Scene) -> Check:
     for tool, data in cutting_data(scene):
         if tool.kind not in MILLS and tool.kind is not ToolKind.CHAMFER:
             continue
-        radius = tool.radius - SHAVES if tool.kind in MILLS and tool.nose == 0 else MIDDLE * tool.radius
+        # Beside that, a mill goes down along a wall, and takes what is left there with its rim.
+        beside = SKIN * scene.job.settings.stock_to_leave + ROUGHING_PLAY
+        flat = tool.kind in MILLS and tool.nose == 0
+        radius = min((WITHIN if flat else MIDDLE) * tool.radius, tool.radius - beside)
         mine = cuts[run.tool[cuts] == tool.number]
         share = BEYOND * data.plunge
         most = share * data.chip_load * rpm[mine] * tool.flutes
         for index in np.flatnonzero(down[mine] > most + 1.0).tolist():
             step, limit = int(mine[index]), float(most[index])
-            if radius <= 0 or not scene.stock.meets(
-                step, lift=float(cutter(tool).height_at(radius)), radius=radius
-            ):
+            lift = max(float(cutter(tool).height_at(radius)), SKIM)
+            if radius <= 0 or not scene.stock.meets(step, lift=lift, radius=radius):
                 continue
             found = float(down[step])
             feed = math.floor(float(run.feed[step]) * limit / found)
@@ -129,12 +142,32 @@ def against(scene: Scene) -> tuple[int, Tool, float] | None:
         skin = mine.only(
             ~mine.down & (mine.width <= min(SKIN * cam.stock_to_leave + ROUGHING_PLAY, tool.radius / 2))
         )
+        skin = skin.only(np.isin(skin.step, _at_walls(scene, skin.step)))
         side = skin.side if cam.climb else -skin.side
         wrong = side > ONE_SIDED
         length = float(skin.path[wrong].sum())
         if length > LASTS * tool.diameter and _volume(skin, wrong) > _volume(skin, side < -ONE_SIDED):
             return int(skin.step[wrong][0]), tool, length
     return None
+
+
+AT_WALL = 0.02
+"""The edge of a mill that finishes a wall is so near to it, mm."""
+
+
+def _at_walls(scene: Scene, steps: Ints) -> Ints:
+    """Those of the steps in which the edge of the tool runs along a finished wall."""
+    paths, steps = scene.paths, np.unique(steps)
+    if not steps.size:
+        return steps
+    lines, radius = paths.lines(paths.whole(steps)), paths.radius[steps]
+    found = np.zeros(steps.size, dtype=np.bool_)
+    for band in bands(scene.job):
+        if not band.keep.is_empty:
+            away = Boundary(band.keep).distance(lines, within=float(radius.max()) + AT_WALL)
+            found |= (np.abs(away - radius) < AT_WALL) & (paths.low[steps] < band.top - NEAR)
+    at: Ints = steps[found]
+    return at
 
 
 def _volume(loads: Loads, which: NDArray[np.bool_]) -> float:
