@@ -90,7 +90,9 @@ def plunges(scene: Scene) -> Check:
         for index in np.flatnonzero(down[mine] > most + 1.0).tolist():
             step, limit = int(mine[index]), float(most[index])
             lift = max(float(cutter(tool).height_at(radius)), SKIM)
-            if radius <= 0 or not scene.stock.meets(step, lift=lift, radius=radius):
+            if radius <= 0 or _sliver(scene, tool, step):
+                continue
+            if not scene.stock.meets(step, lift=lift, radius=radius):
                 continue
             found = float(down[step])
             feed = math.floor(float(run.feed[step]) * limit / found)
@@ -100,6 +102,17 @@ def plunges(scene: Scene) -> Check:
             )
             return scene.bad(step, message, found, limit, "mm/min")
     return Check(True, "no mill goes down into material faster than its middle cuts")
+
+
+SLIVER = 0.2
+"""Straight down, less than this share of a cutter's area is what other cutters left between their cuts."""
+
+
+def _sliver(scene: Scene, tool: Tool, step: int) -> bool:
+    """Whether a move straight down takes next to nothing, as measured on the grid."""
+    loads = scene.simulation.loads
+    section = loads.section[loads.down & (loads.first <= step) & (loads.last >= step)]
+    return bool(section.size and section.max() < SLIVER * math.pi * tool.radius**2)
 
 
 SKIN = 1.5
