@@ -252,8 +252,10 @@ def test_a_plunge_into_a_hole_is_no_plunge_into_stock() -> None:
 
 
 def test_a_ramp_has_a_limit() -> None:
+    assert prove(CLEAN, plate_job(ramp_angle=1)).ok  # a preference of the design: this mill does more
     for limit, angle, guilty in ((2.8, "2.9", "Y12 Z-1.2"), (2.5, "2.7", "G3 X2.999 Y0 Z-0.9")):
-        proof = prove(CLEAN, plate_job(ramp_angle=limit))
+        gentle = MILL.model_copy(update={"ramp_angle": limit})
+        proof = prove(CLEAN, plate_job(tools=(SPOT, DRILL, gentle)))
         assert [c.name for c in proof.failures] == ["entries"]
         assert f"{angle} degrees" in proof.failures[0].message
         assert proof.failures[0].line == line_of(CLEAN, guilty)

@@ -63,7 +63,9 @@ def verify_drawing(programs: Sequence[Path], dxf: Path, report: Report, **wanted
 def read_programs(programs: Sequence[Path]) -> tuple[str | dict[str, str], str]:
     """One text, or several by their files' names; and what to call them."""
     # Comments may be of any age.
-    texts = {str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1", mark=True)[0] for file in programs}
+    texts = {
+        str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1", mark=True)[0] for file in programs
+    }
     if len(texts) < len(programs):
         raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
     program, *rest = texts

@@ -66,11 +66,11 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
     scene = with_found_tabs(scene)
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
-    run, _, _, _ = scene.run, scene.stock, scene.sweeps, scene.pieces
+    run, *_ = scene.run, scene.stock, scene.sweeps, scene.simulation, scene.pieces
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
-    notes = remarks(scene)
+    notes = [*remarks(scene), *(check.message for check in checks if check.told)]
     if left.beyond:
         where = f"in {len(left.beyond)} place(s), up to {deepest:.3f} mm, {area:.3f} mm² in all"
         notes.insert(0, f"stock that no cutter of the program reaches: {where}")

@@ -24,6 +24,8 @@ def gouge(scene: Scene) -> Check:
         depth = cut.depth if cut else 0.0
         return Check(True, "the cutter stays out of the finished part", value=depth, limit=limit, unit="mm")
     message = f"cuts {cut.depth:.3f} mm into the finished part, the limit is {limit:g} mm"
+    if scene.misfit:
+        message = f"{scene.misfit}, and {message}"
     return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
 
 
@@ -41,6 +43,8 @@ def leftover(scene: Scene) -> Check:
     if left.bore is not None:
         where = f"on the wall of {left.bore.name}, which is to be cut to {left.bore.diameter:g} mm"
     message = f"{found} {where}, the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
+    if scene.misfit:
+        message = f"{scene.misfit}, and {message}"
     return Check(False, message, None, left.reachable, limit, "mm", left.at)
 
 
@@ -85,6 +89,8 @@ def depth(scene: Scene) -> Check:
                 )
                 return scene.bad(step, words, gap, 0.0, "mm")
             message = f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}"
+            if scene.misfit:
+                message = f"{scene.misfit}, and nothing cuts at the wall of {feature.name}"
             return Check(False, message, None, low, floor, "mm")
     return Check(True, "every feature is cut to its full depth")
 
