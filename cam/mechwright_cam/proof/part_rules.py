@@ -80,7 +80,7 @@ def depth(scene: Scene) -> Check:
             low = lowest_cut(paths, paths.below(-NEAR, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
             pieces = paths.below(floor + ROUNDING, steps=paths.cuts)
-            if low == 0.0 and (beside := _beside(paths, pieces, wall)) is not None:
+            if not scene.misfit and low == 0.0 and (beside := _beside(paths, pieces, wall)) is not None:
                 step, gap = beside
                 tool = paths.tools[int(scene.run.tool[step])]
                 words = (
