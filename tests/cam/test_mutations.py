@@ -305,17 +305,3 @@ def test_state_words_at_any_place_are_refused_or_change_no_cut(control: str) -> 
         # A rapid that is fed instead, in air, takes longer and no more.
         assert not changed or state == "G1", f"line {wrong.line}: {wrong.change}: {changed}"
     assert refusals > 160
-
-
-@pytest.mark.parametrize("diameter", [6.0, 7.0])
-def test_a_path_for_a_wider_mill_is_called_that(diameter: float) -> None:
-    """Nothing is said of depth: the mill goes deep enough, beside the part."""
-    one = made("profile-outside")
-    tools = tuple(tool.model_copy(update={"diameter": diameter}) for tool in one.job.tools)
-    found = prove(one.text, replace(one.job, tools=tools)).checks["depth"]
-    stays = (8 - diameter) / 2
-    assert re.match(
-        rf"line \d+: T23 \(mill-8, {diameter:g} mm\) stays {stays:.1f}\d\d mm away from the wall of outside; "
-        "is the path made for a wider cutter",
-        found.message,
-    )

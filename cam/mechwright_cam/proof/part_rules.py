@@ -67,7 +67,7 @@ def depth(scene: Scene) -> Check:
     paths, job = scene.paths, scene.job
     for feature in job.features:
         floor = -min(feature.top + feature.depth, job.thickness)
-        shape = wall = floor_of(feature, job)
+        shape = floor_of(feature, job)
         if isinstance(feature, Profile) and feature.side == "outside":
             # At its own wall: further away, in a nest, are the cuts around its neighbours.
             around = shapely.intersection(grow(shape, AROUND_OUTSIDE, ROUGHLY_AROUND), stock_shape(job))
@@ -79,37 +79,11 @@ def depth(scene: Scene) -> Check:
         if low > floor + ROUNDING:
             low = lowest_cut(paths, paths.below(-NEAR, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
-            pieces = paths.below(floor + ROUNDING, steps=paths.cuts)
-            if not scene.misfit and low == 0.0 and (beside := _beside(paths, pieces, wall)) is not None:
-                step, gap = beside
-                tool = paths.tools[int(scene.run.tool[step])]
-                words = (
-                    f"T{tool.number} ({tool.name}, {tool.diameter:g} mm) stays {gap:.3f} mm away from the "
-                    f"wall of {feature.name}; is the path made for a wider cutter?"
-                )
-                return scene.bad(step, words, gap, 0.0, "mm")
             message = f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}"
             if scene.misfit:
                 message = f"{scene.misfit}, and nothing cuts at the wall of {feature.name}"
             return Check(False, message, None, low, floor, "mm")
     return Check(True, "every feature is cut to its full depth")
-
-
-def _beside(paths: Paths, pieces: Pieces, shape: Shape) -> tuple[int, float] | None:
-    """The step that comes nearest to a shape without cutting into it, and how far it stays away, mm.
-
-    None if it stays further away than its cutter is wide: it makes something else.
-    """
-    away = shapely.distance(shape, paths.lines(pieces))
-    pieces, away = pieces.only(away > 0), away[away > 0]  # what is cut inside of it is something else
-    if len(pieces) == 0:
-        return None
-    radius = paths.radius[pieces.step]
-    gap = away - radius
-    nearest = int(np.argmin(gap))
-    if not 0 < gap[nearest] <= 2 * radius[nearest]:
-        return None
-    return int(pieces.step[nearest]), float(gap[nearest])
 
 
 def lowest_cut(paths: Paths, pieces: Pieces, shape: Shape) -> float:
