@@ -139,4 +139,4 @@ def _onto_stock(scene: Scene) -> Ints:
     rapid = paths.rapids
     z = paths.end[rapid, 2]
     onto: Ints = rapid[(z < ABOVE - NEAR) & (z >= -NEAR) & (z < paths.start[rapid, 2])]
-    return onto
+    return onto[~scene.stock.in_own_hole(onto, np.full(onto.size, -TOUCH))]

@@ -71,7 +71,9 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
             deepest = max(deepest, float(depth.max()))
         # Of moves that cut equally deep the first is to blame.
         enough = deepest / NEAR
-        todo = todo[(most[todo] > enough + 1) | (most[todo] > enough - 1) & (pieces.step[todo] < pieces.step[worst])]
+        todo = todo[
+            (most[todo] > enough + 1) | (most[todo] > enough - 1) & (pieces.step[todo] < pieces.step[worst])
+        ]
     if worst < 0:
         return None
     one = pieces.only(np.array([worst]))
@@ -96,7 +98,8 @@ def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:
         gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
     shape = paths.cutters(pieces.step)
     end = np.where(shape.nose > 0, shape.height_at(np.maximum(gap, 0.0)), 0.0)
-    return np.minimum(radius - gap, deep - end)
+    depth: Array = np.minimum(radius - gap, deep - end)
+    return depth
 
 
 def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:

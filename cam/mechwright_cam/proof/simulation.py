@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
@@ -33,6 +34,8 @@ MOST_PLACES = 40_000
 more, the cells are wider, up to a share of the finest cutter's radius."""
 MOST_LOWERED = 100_000_000
 """Cells under the cutter at all of these places, about 10 ns each: the same holds."""
+MOST_TRIED = 200_000
+"""Places at which a cutter may take something, beyond which a program is refused: two seconds."""
 COARSEST = 1 / 3
 """That share: with wider cells a cutter has no shape."""
 
@@ -101,7 +104,7 @@ def _cell_for(paths: Paths, steps: Ints) -> float:
     wanted = length / np.sqrt(8 * radius)  # places are this over the root of a cell
     under = wanted * 4 * radius**2  # and cells this over its square, and that root
     cell = max((float(wanted.sum()) / MOST_PLACES) ** 2, (float(under.sum()) / MOST_LOWERED) ** 0.4)
-    return min(cell, COARSEST * float(radius.min()))
+    return float(min(cell, COARSEST * float(radius.min())))
 
 
 def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
@@ -129,6 +132,12 @@ def _cut(
     met = (rows >= -half) & (rows < ny + half) & (columns >= -half) & (columns < nx + half)
     low = np.flatnonzero((taken.z < -NEAR) & met)
     low = low[_deeper(rows[low] * (nx + 2 * half) + columns[low], taken.z[low])]
+    if low.size > MOST_TRIED:
+        line = int(paths.run.line[taken.step[low[MOST_TRIED]]])
+        raise ProgramError(
+            f"line {line}: so long a path in material, each time deeper, is set onto the stock at more than "
+            f"{MOST_TRIED:,} places; split the program"
+        )
     at = (np.arange(-half, half + 1) * cell).astype(np.float32)
     # A loop, place by place: each cut depends on what the one before has left.
     for index, row, column, height in zip(
@@ -154,7 +163,7 @@ def _cut(
 
 
 def _deeper(cell: Ints, z: Array) -> Ints:
-    """Those of the places (n,) in whose cell the same tool has not been as deep before: others take nothing."""
+    """Those of the places (n,) in whose cell the tool has not been as deep before: others take nothing."""
     order = np.argsort(cell, kind="stable")
     z = z[order]
     group = np.concatenate(([0], np.cumsum(np.diff(cell[order]) != 0)))[: z.size]
