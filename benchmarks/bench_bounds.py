@@ -89,7 +89,7 @@ CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 work offsets": lambda: [f"G5{4 + k % 2}" for k in range(MANY)],
     "100,000 retracts": lambda: ["G53 G0 Z0"] * MANY,
     "100,000 compensated cuts": lambda: [
-        *("G0 X60 Y0 Z5", "G41 D10 G1 X50 F1000", "X40"),
+        *("G0 X60 Y0 Z5", "G41 D23 G1 X50 F1000", "X40"),
         *(f"G1 X{40 - k / 1e4:.4f} Y{(k % 2) / 1e3}" for k in range(MANY)),
         *("G1 Y30", "G40 G1 Y40"),
     ],

@@ -23,6 +23,8 @@ TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
 MOST_TOLD = 100
 """So many rapids that meet material are enough to know of."""
+UNEVEN = 0.2
+"""Plates are uneven and are set up to tenths, mm: a rapid keeps so far off a side or a face not yet cut."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 LAST = 2000
@@ -43,6 +45,10 @@ class Stock:
     def __init__(self, paths: Paths, job: Job) -> None:
         self.paths = paths
         self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
+        edge = stock_shape(job)
+        around = shapely.buffer(edge, UNEVEN, join_style="mitre")
+        self.rough = shapely.union(self.plate, shapely.difference(around, edge))
+        """The plate, and the margin that its outside may be larger by."""
         self.air = [air for air in job.gone if air.top < -NEAR]
         self._work = self._asked = 0
         self._free: dict[tuple[Any, ...], int] = {}
@@ -97,7 +103,7 @@ class Stock:
         return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
 
     def in_own_hole(self, rapids: Ints, z: Array) -> NDArray[np.bool_]:
-        """(n,) whether a rapid is straight down, where the same tool has been fed to ``z`` (n,), as pecks do."""
+        """(n,) whether a rapid is straight down, where the same tool was fed to ``z`` (n,), as pecks do."""
         paths, steps = self.paths, np.concatenate((self.cuts, rapids))
         fed = np.arange(steps.size) < self.cuts.size
         upright = np.hypot(*(paths.end - paths.start)[steps, :2].T) <= NEAR
@@ -114,11 +120,23 @@ class Stock:
         found[wanted] = free[~fed]
         return found
 
-    def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
+    @cached_property
+    def beside(self) -> int | None:
+        """The first rapid that goes so near to a side of the plate that it may meet it; None if none does."""
+        paths, rapid = self.paths, self.paths.rapids
+        low = rapid[(paths.low[rapid] < -NEAR) & (paths.end[rapid, 2] <= paths.start[rapid, 2])]
+        low = low[~self.in_own_hole(low, paths.low[low])]
+        sides = shapely.boundary(shapely.convex_hull(self.rough))
+        low = low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])]
+        return next((step for step in low.tolist() if self.meets(step, rough=True)), None)
+
+    def meets(
+        self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False
+    ) -> bool:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
-        which begins so far above the cutter's tip: shank or holder.
+        which begins so far above the cutter's tip: shank or holder. A ``rough`` plate may be larger by UNEVEN.
         """
         paths = self.paths
         z = float(paths.low[step]) + lift
@@ -127,18 +145,27 @@ class Stock:
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))
         reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
         move = (*paths.start[step, :2], *paths.end[step, :2], *paths.run.centre[step], paths.run.sweep[step])
-        key = (paths.run.tool[step], lift, reach, paths.start[step, 2], paths.end[step, 2], *map(repr, move))
+        key = (
+            rough,
+            paths.run.tool[step],
+            lift,
+            reach,
+            paths.start[step, 2],
+            paths.end[step, 2],
+            *map(repr, move),
+        )
         if self._free.get(key, step) < step:
             return False
         self._asked += 1
-        if self._meets(step, z, grow(paths.room(pieces)[0], reach, ACCURACY)):
+        plate = self.rough if rough else self.plate
+        body = shapely.intersection(grow(paths.room(pieces)[0], reach, ACCURACY), plate)
+        if self._meets(step, z, body):
             return True
         self._free[key] = step
         return False
 
-    def _meets(self, step: int, z: float, shape: Shape) -> bool:
-        """Whether there is material in a shape above a height when a step begins."""
-        body = shapely.intersection(shape, self.plate)
+    def _meets(self, step: int, z: float, body: Shape) -> bool:
+        """Whether material is left in some of the plate, above a height, when a step begins."""
         if body.is_empty:
             return False
         rest = self._left(step, z, body)

@@ -112,7 +112,7 @@ class Sweeps:
         if beyond < len(pieces):
             line = int(paths.run.line[pieces.step[beyond]])
             raise ProgramError(
-                f"line {line}: the cuts down to Z{height:g} have more than {MOST_CHORDS:,} chords up to here, "
+                f"line {line}: the cuts down to Z{height:g} have over {MOST_CHORDS:,} chords up to here, "
                 "most of them in arcs; split the program"
             )
         radius = np.round(paths.radius_at(pieces, level), 6)
