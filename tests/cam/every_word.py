@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from by_control import BY_NAME, interpret
-from rs274 import run_rs274
+from rs274 import RS274, run_rs274
 
 from mechwright.errors import ProgramError
 
@@ -128,29 +128,35 @@ def witness(one: Try, folder: Path) -> str:
     return "" if canon.ok else canon.error.splitlines()[-1]
 
 
+def judged(control: str, words: tuple[str, ...], folder: Path) -> tuple[dict[str, int], list[str]]:
+    """How many tries had which outcome, and those that must not be."""
+    count = dict.fromkeys(("refused", "read", "nothing", "ignored", "only LinuxCNC refuses"), 0)
+    wrong = []
+    for one in tries(control, words):
+        found, said = outcome(one), ""
+        if (
+            control == "linuxcnc"
+            and RS274
+            and found in {"read", "nothing"}
+            and (said := witness(one, folder))
+        ):
+            found = "only LinuxCNC refuses"
+        count[found] += 1
+        if found in {"ignored", "only LinuxCNC refuses"}:
+            wrong.append(f"{one}: {said or found}")
+    return count, wrong
+
+
 def main(*controls: str) -> int:
-    wrong = 0
+    found: list[str] = []
     for control in controls or SMALL:
-        count = dict.fromkeys(("refused", "read", "nothing", "ignored", "only LinuxCNC refuses"), 0)
-        told: dict[str, int] = {}
         with tempfile.TemporaryDirectory() as folder:
-            for one in tries(control):
-                found = outcome(one)
-                if (
-                    control == "linuxcnc"
-                    and found in {"read", "nothing"}
-                    and (said := witness(one, Path(folder)))
-                ):
-                    found = "only LinuxCNC refuses"
-                    told[f"{one}: {said}"] = 1
-                count[found] += 1
-                if found == "ignored":
-                    told[str(one)] = 1
-        print(control, ", ".join(f"{name} {n}" for name, n in count.items()), flush=True)
-        for line in told:
-            print("   ", line)
-        wrong += len(told)
-    return int(wrong > 0)
+            count, wrong = judged(control, WORDS, Path(folder))
+        told = [f"{control}: " + ", ".join(f"{name} {n}" for name, n in count.items()), *wrong]
+        sys.stdout.write("\n    ".join(told) + "\n")
+        sys.stdout.flush()
+        found += wrong
+    return int(bool(found))
 
 
 if __name__ == "__main__":

@@ -136,7 +136,7 @@ class Stock:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
-        which begins so far above the cutter's tip: shank or holder. A ``rough`` plate may be larger by UNEVEN.
+        which begins so far above the cutter's tip: shank or holder. A ``rough`` plate has its margin.
         """
         paths = self.paths
         z = float(paths.low[step]) + lift
