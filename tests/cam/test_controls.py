@@ -1,7 +1,6 @@
 """The five controls: kept texts, the contract, options, and what each control reads."""
 
 import re
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -225,12 +224,9 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-def test_a_long_program_is_read_and_proven_quickly(control: str) -> None:
-    text = post_of(control).write(long_program(20_000))
-    started = time.perf_counter()
+def test_a_long_program_is_read_and_proven(control: str) -> None:
+    text = post_of(control).write(long_program(20_000))  # benchmarks/bench_controls.py times 100,000 moves
     assert prove(text, plate_job(), BY_NAME[control]).ok
-    # 0.4 s on two busy cores; 100,000 moves are timed in benchmarks/bench_controls.py.
-    assert time.perf_counter() - started < 5
 
 
 @pytest.mark.parametrize(
