@@ -29,6 +29,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.slowed import slowed
 
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
@@ -410,6 +411,9 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
             program = plan(laid)
             text = post.write(program)
             scene = Scene(text, laid, post)
+            while gentler := slowed(program, scene):
+                program, text = gentler, post.write(gentler)
+                scene = Scene(text, laid, post)
             made.append(Machined(laid, program, {program.name: text}, judge(scene), scene))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))

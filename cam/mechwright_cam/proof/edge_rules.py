@@ -4,6 +4,8 @@ A drill cuts with its point, downwards; a thread mill with the teeth at its rim;
 """
 
 import math
+from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +74,24 @@ SKIM = 0.3
 
 def plunges(scene: Scene) -> Check:
     """No mill goes down into material faster than its middle cuts, straight or on a steep ramp."""
+    for step, tool, found, limit in too_steep(scene):
+        feed = float(scene.run.feed[step])
+        message = (
+            f"F{feed:g} takes T{tool.number} ({tool.name}) down into {scene.job.part.material} at "
+            f"{found:.0f} mm/min, {limit:.0f} at most; lower F to {math.floor(feed * limit / found)}, or "
+            "ramp less steeply"
+        )
+        return scene.bad(step, message, found, limit, "mm/min")
+    return Check(True, "no mill goes down into material faster than its middle cuts")
+
+
+@lru_cache(maxsize=1)  # planning lowers feeds by it, and the proof asks the same scene again
+def too_steep(scene: Scene) -> tuple[tuple[int, Tool, float, float], ...]:
+    """The steps that go down too fast: step, tool, its speed downwards and the greatest one, mm/min."""
+    return tuple(_too_steep(scene))
+
+
+def _too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
     run, paths = scene.run, scene.paths
     rpm = run.of_states(lambda state: state.rpm)
     drop = paths.start[:, 2] - paths.end[:, 2]
@@ -87,21 +107,18 @@ def plunges(scene: Scene) -> Check:
         mine = cuts[run.tool[cuts] == tool.number]
         share = BEYOND * data.plunge
         most = share * data.chip_load * rpm[mine] * tool.flutes
-        for index in np.flatnonzero(down[mine] > most + 1.0).tolist():
+        if radius <= 0:
+            continue
+        lift = max(float(cutter(tool).height_at(radius)), SKIM)
+        fast = np.flatnonzero(down[mine] > most + 1.0)
+        fast = fast[~scene.stock.bored(mine[fast], lift=lift, radius=radius)]
+        for index in fast.tolist():
             step, limit = int(mine[index]), float(most[index])
-            lift = max(float(cutter(tool).height_at(radius)), SKIM)
-            if radius <= 0 or _sliver(scene, tool, step):
+            if _sliver(scene, tool, step):
                 continue
             if not scene.stock.meets(step, lift=lift, radius=radius):
                 continue
-            found = float(down[step])
-            feed = math.floor(float(run.feed[step]) * limit / found)
-            message = (
-                f"F{run.feed[step]:g} takes T{tool.number} ({tool.name}) down into {scene.job.part.material} "
-                f"at {found:.0f} mm/min, {limit:.0f} at most; lower F to {feed}, or ramp less steeply"
-            )
-            return scene.bad(step, message, found, limit, "mm/min")
-    return Check(True, "no mill goes down into material faster than its middle cuts")
+            yield step, tool, float(down[step]), limit
 
 
 SLIVER = 0.2
