@@ -12,7 +12,7 @@ Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 
 
 class FourBarParams(Parameters):
-    """A crank that turns fully, a coupler, a follower and the ground, made of plates.
+    """A crank that turns fully or swings as a lever, a coupler, a follower and the ground, made of plates.
 
     Examples
     --------
@@ -38,8 +38,23 @@ class FourBarParams(Parameters):
     coupler_point_y: Place | None = Field(
         None, description="Coupler point across the coupler, positive to the left of A to B."
     )
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
-    direction: Literal["ccw", "cw"] = Field("ccw", description="Sense of the crank, seen from above.")
+    speed: RevPerMin = Field(
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+    )
+    direction: Literal["ccw", "cw"] = Field(
+        "ccw", description="Sense of the crank, or of a lever's first swing, seen from above."
+    )
+    swing_from: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None,
+        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
+        "turns fully, or goes as far as it can.",
+    )
+    swing_to: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None, description="The other end of that swing."
+    )
     load_torque: Annotated[float, Unit("N*m")] = Field(
         0.0, ge=-10000, le=10000, description="Torque of the load on the follower, counter-clockwise."
     )
@@ -76,6 +91,12 @@ class FourBarParams(Parameters):
             raise ValueError(
                 "coupler_bend is for a coupler without a point; leave out coupler_point_x and _y"
             )
+        if (self.swing_from is None) != (self.swing_to is None):
+            raise ValueError("give both swing_from and swing_to, or neither")
+        if self.swing_from is not None and self.swing_from == self.swing_to:
+            raise ValueError("swing_from and swing_to are the same angle, so nothing moves; give two")
+        if self.swing_from is not None and self.direction == "cw":
+            raise ValueError("direction is that of a crank that turns; exchange swing_from and swing_to")
         return self
 
     @property

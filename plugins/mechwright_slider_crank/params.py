@@ -33,8 +33,13 @@ class SliderCrankParams(Parameters):
     assembly: Literal["ahead", "behind"] = Field(
         "ahead", description="Whether the slider stands ahead of the crank pin along the slide, or behind it."
     )
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
-    clockwise: bool = Field(False, description="Whether the crank turns clockwise.")
+    speed: RevPerMin = Field(
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+    )
+    clockwise: bool = Field(False, description="Whether the crank turns clockwise, or a lever begins so.")
     load: Newtons = Field(
         0.0,
         ge=-1e6,

@@ -47,13 +47,15 @@ class FourBarTable(Parameters):
     point_elevation: Degrees = Field(
         15.0, ge=-90, le=90, description="Path point: angle η out of the coupler's great circle, to its left."
     )
-    start: Degrees = Field(
-        0.0,
-        ge=-360,
-        le=360,
-        description="Input angle at the start; 0 where the input link points at the output axis.",
+    start: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None,
+        description="Input angle at the start; 0 where the input link points at the output axis. Left out, 0, "
+        "or where the swing of an input begins that cannot turn fully.",
     )
-    travel: Degrees = Field(360.0, ge=-720, le=720, description="How far the input turns from there.")
+    travel: Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None = Field(
+        None,
+        description="How far the input turns from there; left out, a turn, or as far as it can and back.",
+    )
     input_axis: Direction = Field((0.0, 0.0, 1.0), description="Direction of the input axis.")
     output_towards: Direction = Field(
         (1.0, 0.0, 0.0), description="Direction to which the output axis lies from the input axis."
