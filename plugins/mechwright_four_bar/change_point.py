@@ -53,7 +53,7 @@ def close_through(bar: FourBar, phi: ArrayLike, sense: float = 1.0) -> Loop:
 
 
 def turns_to_close(bar: FourBar) -> int:
-    """Turns of the crank after which the linkage stands as at the start: 2 where each changes its branch once.
+    """Turns of the crank after which the linkage stands as at the start: 2 where each changes the branch.
 
     >>> turns_to_close(FourBar(40, 80, 70, 110)), turns_to_close(FourBar(50, 90, 50, 90))
     (2, 1)

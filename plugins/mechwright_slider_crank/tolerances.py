@@ -54,7 +54,7 @@ class SliderCrankTolerances(ToleranceModel):
         sizes = sizes_of(params)
         if self.link.at_limit:
             raise DesignError(
-                "rod: standing across the slide, it leaves no error in proportion to a tolerance; make it longer"
+                "rod: where it stands across the slide, errors are not proportional to tolerances; make it longer"
             )
         course = course_of(params)
         self.positions = (

@@ -49,8 +49,8 @@ class FourBarTable(Parameters):
     )
     start: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
         None,
-        description="Input angle at the start; 0 where the input link points at the output axis. Left out, 0, "
-        "or where the swing of an input begins that cannot turn fully.",
+        description="Input angle at the start; 0 where the input link points at the output axis. Left out, "
+        "0, or where the swing of an input begins that cannot turn fully.",
     )
     travel: Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None = Field(
         None,
