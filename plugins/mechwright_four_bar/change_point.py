@@ -46,7 +46,10 @@ def close_through(bar: FourBar, phi: ArrayLike, sense: float = 1.0) -> Loop:
     crank = bar.crank * np.exp(1j * (phi - bar.ground_angle))
     coupler = _coupler(bar, phi, kept)
     open_: Jet = [crank - bar.ground, 1j * crank, -crank, -1j * crank]
-    follower = [(one + bar.coupler * two) / bar.follower for one, two in zip(open_, coupler, strict=True)]
+    follower: Jet = [
+        np.asarray((one + bar.coupler * two) / bar.follower, dtype=np.complex128)
+        for one, two in zip(open_, coupler, strict=True)
+    ]
     joint_a = np.asarray(crank * ahead, dtype=np.complex128)
     rates = [_rates([ahead * value for value in jet]) for jet in (coupler, follower)]
     return Loop(phi, joint_a, joint_a + bar.coupler * rates[0].direction, *rates)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
-from mechwright.tolerances import falls_short
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
@@ -209,7 +209,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
         for one, two in combinations(bosses, 2):
             distance = abs(one.centre - two.centre)
             needed = (one.bore + two.bore) / 2 + params.rim
-            if distance >= needed:
+            if not falls_short(distance, needed):
                 continue
             point = "coupler-point" in (one.tag, two.tag)
             yield Finding.error(
@@ -307,7 +307,7 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
         key=lambda pair: pair[1],
     )
     force = peaks[f"force_{joint}"].value
-    if pressure > BEARING_PRESSURE:
+    if exceeds(pressure, BEARING_PRESSURE):
         yield Finding.warning(
             "four-bar.bearing-pressure",
             "pin_diameter",

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
 from mechwright.mechanics.planar.dynamics import Forces
-from mechwright.tolerances import falls_short
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_slider_crank.course import TURN_BACK, course_of, ends_of, least_of, period_of, reach, turns
 from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
@@ -165,7 +165,7 @@ def _webs(params: SliderCrankParams) -> Iterator[Finding]:
 
 
 def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iterator[Finding]:
-    if web < LEAST_WEB:
+    if falls_short(web, LEAST_WEB):
         message = f"{web:.3g} mm are left {where}, the limit is {LEAST_WEB:g} mm"
         yield Finding.error(code, parameter, message, web, LEAST_WEB, "mm", remedy)
 
@@ -174,7 +174,7 @@ def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iter
 def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether the rod can be drawn, and all plates find their layers."""
     most = MOST_BEND * params.rod
-    if abs(params.rod_bend) > most:
+    if exceeds(abs(params.rod_bend), most):
         yield Finding.error(
             "slider-crank.rod-bend",
             "rod_bend",
@@ -221,7 +221,7 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     sizes, carried = sizes_of(params), _at_work(params)
     force = float(max(np.abs(carried.joints["crank-pin"]).max(), np.abs(carried.joints["wrist-pin"]).max()))
     pressure = force / (sizes.pin * params.thickness)
-    if pressure > MAX_PRESSURE:
+    if exceeds(pressure, MAX_PRESSURE):
         yield Finding.warning(
             "slider-crank.pin-pressure",
             "pin",
@@ -236,7 +236,7 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
     lever = params.gap + params.thickness / 2
     bending = 32 * force * lever / (math.pi * sizes.pin**3)
-    if bending > MAX_BENDING:
+    if exceeds(bending, MAX_BENDING):
         yield Finding.warning(
             "slider-crank.pin-bending",
             "pin",

@@ -54,7 +54,7 @@ class SliderCrankTolerances(ToleranceModel):
         sizes = sizes_of(params)
         if self.link.at_limit:
             raise DesignError(
-                "rod: where it stands across the slide, errors are not proportional to tolerances; make it longer"
+                "rod: where it stands across the slide, no error is of first order; make it longer"
             )
         course = course_of(params)
         self.positions = (

@@ -11,7 +11,7 @@ import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage, kept, until_error
 from mechwright.mechanics.planar import Turning
-from mechwright.tolerances import falls_short
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.linkage import TURN_BACK, Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
@@ -185,7 +185,7 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
         worst, rms = float(misses.max()), float(np.sqrt(np.mean(misses**2)))
         said = f"the path misses its points by up to {worst:.4g} mm, rms {rms:.4g} mm"
         tolerance = params.path_tolerance
-        if tolerance is not None and worst > tolerance:
+        if tolerance is not None and exceeds(worst, tolerance):
             yield Finding.warning(
                 "spherical.path",
                 key,

@@ -163,8 +163,8 @@ class Motion:
         for name, curve in self.curves.items():
             if curve.body not in self.poses or curve.points.ndim != 2 or curve.points.shape[1] != 3:
                 raise KinematicsError(
-                    f"the curve {name!r} has points of shape {curve.points.shape} in body {curve.body!r}; it needs "
-                    "(n, 3) in a body that has poses"
+                    f"the curve {name!r} has points of shape {curve.points.shape} in body {curve.body!r}; it "
+                    "needs (n, 3) in a body that has poses"
                 )
         check_bodies(self.joints, self.poses.keys())
 
