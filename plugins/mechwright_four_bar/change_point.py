@@ -83,8 +83,8 @@ def _coupler(bar: FourBar, phi: Array, kept: float) -> Jet:
     reach = 2 * math.sqrt(a * f)
     outer = _times(reach, half_cos) if far else _root(_plus(_times(-1, square), (b + c) ** 2))
     if near and abs(a - f) <= slack:
-        ahead = [-1j * (one + 1j * two) for one, two in zip(half_cos, half_sin, strict=True)]
-        both = [2 * a * one + 1j * kept * two for one, two in zip(half_sin, outer, strict=True)]
+        ahead: Jet = [-1j * (one + 1j * two) for one, two in zip(half_cos, half_sin, strict=True)]
+        both: Jet = [2 * a * one + 1j * kept * two for one, two in zip(half_sin, outer, strict=True)]
         return _times(1 / (2 * c), _product(ahead, both))
     inner = _times(reach, half_sin) if near else _root(_plus(square, -((b - c) ** 2)))
     across = _product(outer, inner)
@@ -100,7 +100,7 @@ def _circle(cos: Array, sin: Array, rate: float) -> tuple[Jet, Jet]:
     one, two, three = rate, rate**2, rate**3
     cosine = [cos, -one * sin, -two * cos, three * sin]
     sine = [sin, one * cos, -two * sin, -three * cos]
-    return [v + 0j for v in cosine], [v + 0j for v in sine]
+    return [np.asarray(v, np.complex128) for v in cosine], [np.asarray(v, np.complex128) for v in sine]
 
 
 def _plus(jet: Jet, number: float) -> Jet:

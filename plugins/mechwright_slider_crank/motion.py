@@ -13,7 +13,7 @@ from mechwright.mechanics.planar.channels import point_channels, pole_channels, 
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.course import course_of, ends_of, least_of, reach, turns
-from mechwright_slider_crank.figures import transmission_angle
+from mechwright_slider_crank.figures import Limits, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
@@ -116,6 +116,7 @@ def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[
         return rates | {"drive_torque_max": np.abs(carried.drive) * MILLI, **forces}
 
     most = _most(params, sizes)
+    kept = limits(linkage) if linkage.at_limit else None
     units = {"v_max": "mm/s", "a_max": "mm/s^2", "drive_torque_max": "N*m"}
     return {
         "stroke": Scalar(ends.stroke, "mm"),
@@ -126,6 +127,7 @@ def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[
         "s_near": Scalar(ends.near_position, "mm"),
         "least_transmission_angle": Scalar(least_of(params), "rad"),
         **({} if turns(params) else _lever(params)),
+        **({} if kept is None else _in_one_assembly(kept)),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
         **({} if masses is None else _mass_figures(params, masses)),
     }
@@ -139,6 +141,14 @@ def _most(params: SliderCrankParams, sizes: Callable[..., dict[str, Array]]) -> 
         return {name: float(size.max()) for name, size in sizes(drive.theta, drive).items()}
     turned = abs(course.travel) / math.tau
     return peaks(lambda angle: sizes(turned * angle))
+
+
+def _in_one_assembly(ends: Limits) -> dict[str, Scalar]:
+    """Stroke and time ratio of a linkage at its limit that something keeps in its assembly."""
+    return {
+        "assembly_stroke": Scalar(ends.stroke, "mm"),
+        "assembly_time_ratio": Scalar(ends.time_ratio, ""),
+    }
 
 
 def _lever(params: SliderCrankParams) -> dict[str, Scalar]:

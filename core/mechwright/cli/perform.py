@@ -63,7 +63,9 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
     if errors(told) or build.missing:
         said = ", ".join(build.missing)
         tell(
-            path, f"written up to the {stage}; what is above forbids the rest" + (f": {said}" if said else "")
+            path,
+            f"written up to the {stage}; the errors above forbid what follows"
+            + (f": {said}" if said else ""),
         )
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
