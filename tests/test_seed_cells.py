@@ -108,7 +108,9 @@ def test_every_slot_of_the_geneva(case):
     }
     motion = moving("geneva", **parameters)
     assert motion.scalars["index_angle"].value == pytest.approx(2 * math.pi / slots)
-    assert {f"slot-{k}-{side}" for k in range(1, slots + 1) for side in ("left", "right")} <= set(motion.curves)
+    assert {f"slot-{k}-{side}" for k in range(1, slots + 1) for side in ("left", "right")} <= set(
+        motion.curves
+    )
     run = mechanism_of(GenevaParams.model_validate(parameters)).stroke(np.linspace(0, 1, 4001))
     assert run.regularity(roller, RIGHT).min() == pytest.approx(least, abs=2e-6)
 
@@ -173,7 +175,16 @@ def test_the_ends_of_the_family_of_slider_cranks():
 
 @pytest.mark.parametrize(
     ("crank", "rod", "offset"),
-    [(1, 3, "1/2"), (2, 1, "1/3"), (1, "5/2", 0), (1, "3/2", "1/2"), (3, 1, 2), (3, 5, 2), (2, 2, 1), (8, 3, 5)],
+    [
+        (1, 3, "1/2"),
+        (2, 1, "1/3"),
+        (1, "5/2", 0),
+        (1, "3/2", "1/2"),
+        (3, 1, 2),
+        (3, 5, 2),
+        (2, 2, 1),
+        (8, 3, 5),
+    ],
 )
 def test_the_poles_of_the_slider_crank_lie_on_their_locus(crank, rod, offset):
     from fractions import Fraction
@@ -195,7 +206,8 @@ def test_the_poles_of_the_slider_crank_lie_on_their_locus(crank, rod, offset):
     for one, two in zip(x, y, strict=True):
         place = Fraction(one), Fraction(two)
         terms = [
-            value * (place[0] ** 2 + place[1] ** 2) ** i * place[1] ** j for (i, j), value in curve.terms.items()
+            value * (place[0] ** 2 + place[1] ** 2) ** i * place[1] ** j
+            for (i, j), value in curve.terms.items()
         ]
         assert abs(float(sum(terms) / sum(map(abs, terms)))) < 1e-12
 

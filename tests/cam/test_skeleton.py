@@ -65,7 +65,7 @@ def test_a_slide_is_a_line_as_long_as_the_way_and_a_block():
     guide = {"guide": Joint("prismatic", GROUND, "slider", (0, 7, 0), (1, 0, 0), drives=True)}
     crank = {"pin": Joint("revolute", GROUND, "slider", (70.0, 7.0, 0.0))}
     motion = Motion("x", {"x": Channel(angle, "")}, poses, joints=guide | crank)
-    links, size = links_of(motion)
+    links, _ = links_of(motion)
     ground = next(link for link in links if link.body == GROUND)
     (line,) = ground.strokes
     assert line[:, 1] == pytest.approx([7, 7])

@@ -25,15 +25,12 @@ from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
 from mechwright.designs.files import read_text, read_toml
 from mechwright.designs.hints import homes, placed
-from mechwright.designs.schema import FORMAT
+from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 
 V = TypeVar("V")
-
-HEAD = ("format", "family", "name")
-"""Keys of every file; what else it may hold are tables."""
 
 
 @dataclass(frozen=True)

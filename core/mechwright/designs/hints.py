@@ -6,7 +6,7 @@ from typing import Any
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
-from mechwright.designs.schema import table_schema
+from mechwright.designs.schema import HEAD, table_schema
 from mechwright.plugins.host import Host
 
 _TABLE = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]\s*(?:#.*)?$")
@@ -38,10 +38,13 @@ def placed(message: str, text: str, known: Mapping[str, list[str]]) -> str:
         at = f"line {number}: " if number else ""
         belongs = [table for table in known.get(key, ()) if table != where]
         if belongs:
-            inside = f"[{where}]" if where else "the head of the file"
-            rest = f"it stands in {inside} and belongs to {' or '.join(f'[{table}]' for table in belongs)}"
+            rest = f"it stands in {_named(where)} and belongs to {' or '.join(map(_named, belongs))}"
         said.append(f"{source}{at}{f'{where}: ' if where else ''}unknown key '{key}'; {rest}")
     return "\n".join(said)
+
+
+def _named(table: str) -> str:
+    return f"[{table}]" if table else "the head of the file"
 
 
 def _comma(line: str, text: str) -> str:
@@ -75,7 +78,7 @@ def homes(host: Host, content: Mapping[str, Any], own: str) -> dict[str, list[st
 
     ``own`` is ``parameters`` or ``requirement``.
     """
-    found: dict[str, list[str]] = {}
+    found: dict[str, list[str]] = {key: [""] for key in HEAD}
     schemas = {table.name: table.schema() for table in host.all(Table)}
     family = host.of(Family).get(str(content.get("family")))
     if family is not None:

@@ -25,8 +25,9 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.design import HEAD, read_head, read_tables, telling_places
+from mechwright.designs.design import read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
+from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host

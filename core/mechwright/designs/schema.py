@@ -18,6 +18,9 @@ from mechwright.plugins.host import Host
 FORMAT = 1
 """Version of the design file's own layout."""
 
+HEAD = ("format", "family", "name")
+"""Keys of every file; what else it may hold are tables."""
+
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 QUANTITY = {"type": "string", "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)"}
