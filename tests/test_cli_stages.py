@@ -81,7 +81,7 @@ def test_the_motion_is_written_where_parts_cannot_be_made(case: str, run: Run, t
     for line in err.splitlines():
         reason = line.partition("] ")[2]
         assert not reason or err.count(reason) == 1
-    assert "motion.html shows no bodies, which cannot be drawn" in err
+    assert "motion.html shows joints and lines, no bodies" in err
     page = data_of(out / "motion.html")
     assert page["channels"]
     rows = (out / "motion.csv").read_text().splitlines()

@@ -42,8 +42,8 @@ TOLD = {
         "line 4: cam: unknown key 'travel_x'; it stands in [cam] and belongs to [cam.machine]",
     ),
     "of several tables": (
-        "[parameters]\n\n[tolerances]\nthickness = 2\n",
-        "line 6: tolerances: unknown key 'thickness'; it stands in [tolerances] and belongs to [parameters] or [cam",
+        "[parameters]\n\n[tolerances]\nclearance = 2\nname = 2\n",
+        "line 7: tolerances: unknown key 'name'; it stands in [tolerances] and belongs to the head of the file or [cam.machine]",
     ),
     "of the head": (
         '[parameters]\nfamily = "geneva"\n',
