@@ -94,8 +94,9 @@ class SliderCrank:
 
     @property
     def at_limit(self) -> bool:
-        """Whether the crank only just turns, so that the linkage changes its assembly."""
-        return at_limit(self.crank, self.rod, self.offset)
+        """Whether the crank only just turns, so that the assembly changes; not asked of a sweep."""
+        single = not any(np.ndim(size) for size in (self.crank, self.rod, self.offset))
+        return single and at_limit(self.crank, self.rod, self.offset)
 
     def bodies(self, phi: ArrayLike, omega: float | Turning = 1.0) -> "Bodies":
         """Motion of crank, coupler and slider at crank angles (n,), rad.

@@ -17,7 +17,7 @@ class TestFourBars(FamilyContract):
         {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
     )
     refused = (
-        ({"crank": 70, "swing_from": -60, "swing_to": 100}, "swing_to"),
+        ({"crank": 70, "coupler": 60, "swing_from": -60, "swing_to": 150}, "swing_to"),
         ({"swing_from": 10}, "swing_to"),
         ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
