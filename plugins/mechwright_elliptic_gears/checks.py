@@ -212,7 +212,7 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
             angle,
             SHAFT_PRESSURE_ANGLE,
             "deg",
-            f"make eccentricity at most {math.floor(most * 1e3) / 1e3:g}, or let a coupler between the free "
+            f"make eccentricity at most {math.floor(round(most * 1e3, 6)) / 1e3:g}, or let a coupler between the free "
             "foci carry the steep part",
         )
 
