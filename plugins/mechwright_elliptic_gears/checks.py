@@ -212,8 +212,8 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
             angle,
             SHAFT_PRESSURE_ANGLE,
             "deg",
-            f"make eccentricity at most {math.floor(round(most * 1e3, 6)) / 1e3:g}, or let a coupler between the free "
-            "foci carry the steep part",
+            f"make eccentricity at most {math.floor(round(most * 1e3, 6)) / 1e3:g}, or let a coupler between "
+            "the free foci carry the steep part",
         )
 
 
