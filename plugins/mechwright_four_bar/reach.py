@@ -27,7 +27,7 @@ def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
     Examples
     --------
     >>> [[round(math.degrees(x), 6) for x in one] for one in reach(FourBar(70, 60, 75, 110))]
-    [[-94.562364, 94.562364]]
+    [[-94.562439, 94.562439]]
     >>> reach(FourBar(30, 80, 70, 90)) == ((0.0, math.tau),)
     True
     """

@@ -34,7 +34,7 @@ def reach(crank: float, rod: float, offset: float, least: float = 0.0) -> tuple[
     Examples
     --------
     >>> [round(math.degrees(x), 6) for x in reach(30, 35, 10)]
-    [-236.442690, 56.44269]
+    [-56.44269, 236.44269]
     """
     most = rod * math.cos(least)
     low, high = (offset - most) / crank, (offset + most) / crank
