@@ -9,6 +9,7 @@ from mechwright import Finding, Severity
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import KEYS, Opening, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
+from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -79,12 +80,12 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
     rim, blame = plain, "bore" if opening else "eccentricity"
     if opening and opening.has_keyway:
         rim = min(plain, room(params, opening.loop().flatten()))
-        if rim < plain:
+        if falls_short(rim, plain):
             blame = "keyway_relief" if opening.relief and rim < _without_relief(params) else "keyway_depth"
     full = FULL_RIM * (rack.addendum + rack.dedendum) / m
     least = LEAST_RIM
     rim /= m
-    if rim >= full:
+    if not falls_short(rim, full):
         return
     too_thin = rim < least
     if blame == "bore":

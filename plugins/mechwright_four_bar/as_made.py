@@ -18,7 +18,8 @@ from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bar_of, bosses_of
+from mechwright_four_bar.plates import bosses_of
+from mechwright_four_bar.reach import bar_of, course_of
 
 SAMPLES = 361
 DIRECTIONS = 32
@@ -78,7 +79,7 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
     pins = {name: one for name, one in joints.items() if one is not None}
     if len(sure) < len(links) or len(pins) < len(joints):
         return AsMade()
-    phi = np.linspace(0.0, 2 * np.pi, SAMPLES)
+    phi = np.sort(course_of(params).way(SAMPLES))
     bar = bar_of(params)
     rates = output_rates(bar, phi)
     figures, curves = [], []

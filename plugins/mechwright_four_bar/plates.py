@@ -10,10 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import GROUND, Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright import GROUND, Colour, Instance, Outline, Part, Poses, kept
 from mechwright import Joint as Held
 from mechwright.contracts.joint import fixed
-from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import (
     Boss,
     Plate,
@@ -28,9 +27,9 @@ from mechwright.mechanics.linkage import (
     web_link,
 )
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.reach import bar_of, course_of
 
 FILLET = 5.0
 """Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
@@ -54,18 +53,6 @@ COLOURS: Mapping[str, Colour] = {
     "coupler": (0.45, 0.58, 0.70),
     "follower": (0.80, 0.68, 0.42),
 }
-
-
-def bar_of(params: FourBarParams) -> FourBar:
-    """The dimensions."""
-    return FourBar(
-        params.crank,
-        params.coupler,
-        params.follower,
-        params.ground,
-        math.radians(params.ground_angle),
-        1 if params.branch == "open" else -1,
-    )
 
 
 def pivot_of(params: FourBarParams) -> complex:
@@ -208,11 +195,6 @@ def held_by(params: FourBarParams) -> dict[str, Held]:
     }
 
 
-def crank_angles(params: FourBarParams, samples: int) -> Array:
-    """Crank angles (samples,), rad, from X, over one turn in its sense."""
-    return travelled(math.tau if params.direction == "ccw" else -math.tau, samples)
-
-
 @kept
 def stack_of(params: FourBarParams) -> Stack:
     """The layers of plates and the heights of pins.
@@ -233,7 +215,7 @@ def stack_of(params: FourBarParams) -> Stack:
         )
         for name, outline in outlines.items()
     ]
-    bar, phi = bar_of(params), crank_angles(params, STACK_SAMPLES)
+    bar, phi = bar_of(params), course_of(params).way(STACK_SAMPLES)
     poses = frames_of(params, close(bar, phi).bodies(bar, 1.0))
     head = HEAD * params.pin_diameter / 2
     spindles = [

@@ -18,11 +18,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright import Array, Output, ToleranceModel, Tolerances
+from mechwright import Array, DesignError, Output, ToleranceModel, Tolerances
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.loop import directions
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bar_of
+from mechwright_four_bar.reach import bar_of, course_of
 
 FOLLOWER = Output("follower angle", "rad")
 POINT = Output("coupler point", "mm", 2)
@@ -31,7 +31,7 @@ LINKS = ("crank", "coupler", "follower", "ground")
 JOINTS = ("shaft", "pin-a", "pin-b", "pin-b0")
 
 _POSITIONS = 361
-"""Positions of the crank, both ends of the turn included."""
+"""Positions of the crank, both ends of the turn, or of the swing of a lever, included."""
 
 
 class FourBarTolerances(ToleranceModel):
@@ -41,8 +41,18 @@ class FourBarTolerances(ToleranceModel):
 
     def __init__(self, params: FourBarParams, tolerances: Tolerances) -> None:
         self.bar = bar_of(params)
+        if self.bar.lines_up and params.swing_from is None:
+            raise DesignError(
+                "crank: where all links line up, no error is in proportion to a tolerance; swing the crank "
+                "between its change points, or make the linkage a little different"
+            )
         self.place = params.coupler_point
-        self.positions = self.bar.ground_angle + np.linspace(0, 2 * np.pi, _POSITIONS)
+        way = course_of(params)
+        self.positions = (
+            np.sort(way.way(_POSITIONS))
+            if way.rocks
+            else self.bar.ground_angle + np.linspace(0, 2 * np.pi, _POSITIONS)
+        )
         sizes = [tolerances.length(name, getattr(params, name)) for name in LINKS]
         pins = [
             tolerances.pin(name, params.pin_diameter, params.running_fit, member=name in ("pin-a", "pin-b"))

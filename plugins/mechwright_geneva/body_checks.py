@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from mechwright import Finding, GeometryError
 from mechwright.contracts.finding import errors
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_geneva.counterbore import counterbore_findings
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
@@ -50,7 +51,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
     least = m.axes - m.rim + LEAST_BITE - params.lock_clearance
     most = m.greatest_lock
     horn = m.nearest - m.groove - m.arc
-    if most < least:
+    if falls_short(most, least):
         yield Finding.error(
             "geneva.lock",
             "lock_radius" if params.lock_radius else "least_wall",
@@ -62,7 +63,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             "make roller_radius or least_wall smaller, or change offset_angle or crank_half_angle",
         )
         return
-    if horn < params.least_wall - 1e-9:
+    if falls_short(horn, params.least_wall):
         yield Finding.error(
             "geneva.horn",
             "lock_radius",
@@ -73,7 +74,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             f"make lock_radius at most {math.floor(most * 100) / 100:g}, or leave it out",
         )
         return
-    if m.lock < least:
+    if falls_short(m.lock, least):
         yield Finding.error(
             "geneva.lock",
             "lock_radius",
@@ -113,7 +114,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
 def _hub(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     room = m.axes - m.arc - hub_radius(params)
-    if room < params.least_wall:
+    if falls_short(room, params.least_wall):
         yield Finding.error(
             "geneva.hub",
             "bore" if params.hub_diameter / 2 <= reach(wheel_opening(params)) else "hub_diameter",
@@ -126,7 +127,7 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
     if params.hub_diameter > 0:
         inside = params.hub_diameter / 2 - reach(wheel_opening(params))
         wanted = 2 * params.least_wall + params.fixing if params.fixing else params.least_wall
-        if inside < wanted:
+        if falls_short(inside, wanted):
             yield Finding.error(
                 "geneva.hub",
                 "hub_diameter",
@@ -157,7 +158,7 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
             else 'make least_wall smaller, or use construction = "blind"',
         )
     _, room = web_place(m)
-    if room < fixing / 2 + least:
+    if falls_short(room, fixing / 2 + least):
         yield Finding.error(
             "geneva.fixing",
             "fixing",
@@ -171,7 +172,7 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
 
 def _pin(m: Mechanism) -> Iterator[Finding]:
     most = 2 * m.roller * (1 - ROLLER_WALL)
-    if m.params.pin_diameter > most:
+    if exceeds(m.params.pin_diameter, most):
         yield Finding.error(
             "geneva.pin",
             "pin_diameter",
@@ -187,7 +188,7 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     inner, outer = driver_room(m)
     wanted = driver_radius(0.0, params.least_wall, params.fixing)
-    if outer - inner < wanted:
+    if falls_short(outer - inner, wanted):
         blame = "driver_bore" if params.fixing == 0 or outer - inner < params.least_wall else "fixing"
         bore = 2 * (outer - wanted)
         cures = ["make entry_radius larger"]

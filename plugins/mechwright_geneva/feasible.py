@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_geneva.mechanism import frame_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_LOCKED
@@ -77,7 +78,7 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
     entry, half = math.degrees(frame.entry_angle), math.degrees(frame.crank_half)
     reach = entry + half / 2
     limit = 90 - FLATTEST
-    if reach > limit:
+    if exceeds(reach, limit):
         wheel = math.degrees(frame.wheel_half)
         most, offset = 2 * (limit - entry), limit - half / 2 - wheel
         cures = []
@@ -94,8 +95,9 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
             limit,
             "deg",
             ", or ".join(cures),
+            Stage.MOTION if reach == 90 else Stage.PARTS,  # through the axis itself no force has a lever
         )
-    elif entry < FLATTEST:
+    elif falls_short(entry, FLATTEST):
         yield Finding.error(
             "geneva.angles",
             "offset_angle",
@@ -104,6 +106,7 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
             FLATTEST,
             "deg",
             f"make offset_angle at least {FLATTEST - 180 / params.slots:g}",
+            Stage.PARTS if entry > 0 else Stage.MOTION,
         )
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding, Severity
+from mechwright.tolerances import exceeds
 from mechwright_geneva.contact import loads, strength
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.motion import peaks_of, straight_peaks
@@ -19,7 +20,7 @@ def load_findings(m: Mechanism) -> Iterator[Finding]:
 
 def _against_straight(m: Mechanism) -> Iterator[Finding]:
     own, straight = peaks_of(m), straight_peaks(m.slots)
-    if own.a > straight.a:
+    if exceeds(own.a, straight.a):
         half = m.crank_half * math.sqrt(own.a / straight.a)
         yield Finding.warning(
             "geneva.acceleration",
@@ -75,7 +76,7 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
 
 def _pressure(m: Mechanism) -> Iterator[Finding]:
     load, limit = loads(m), strength(m.params.material, m.params.roller_material)
-    if load.pressure > limit:
+    if exceeds(load.pressure, limit):
         yield Finding.warning(
             "geneva.pressure",
             "load_inertia",

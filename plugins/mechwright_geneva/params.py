@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.contracts.fits import HoleClass
 from mechwright.units import Millimetres, RevPerMin, Unit
 
@@ -33,8 +33,16 @@ class GenevaParams(Parameters):
     'auto'
     """
 
-    slots: int = Field(4, ge=3, le=12, description="Number of slots n of the wheel, which turns by 360/n.")
-    law: LawName = Field("cycloidal", description="How the wheel goes from rest to rest.")
+    slots: int = Field(
+        4,
+        ge=3,
+        le=12,
+        description="Number of slots n of the wheel, which turns by 360/n.",
+        json_schema_extra=FIRST,
+    )
+    law: LawName = Field(
+        "cycloidal", description="How the wheel goes from rest to rest.", json_schema_extra=FIRST
+    )
     polynomial: Annotated[tuple[Coefficient, ...], Field(max_length=16)] | None = Field(
         None, description='Coefficients c0, c1, ... of s(u) for law = "polynomial"; s and u run from 0 to 1.'
     )
@@ -55,13 +63,21 @@ class GenevaParams(Parameters):
         ),
     )
     entry_radius: Millimetres = Field(
-        100.0, ge=5, le=1000, description="Radius of the wheel, where the roller's centre enters."
+        100.0,
+        ge=5,
+        le=1000,
+        description="Radius of the wheel, where the roller's centre enters.",
+        json_schema_extra=FIRST,
     )
-    roller_radius: Millimetres = Field(5.0, ge=0.5, le=100, description="Radius of the rollers.")
+    roller_radius: Millimetres = Field(
+        5.0, ge=0.5, le=100, description="Radius of the rollers.", json_schema_extra=FIRST
+    )
     groove_clearance: Millimetres = Field(
         0.08, ge=0, le=2, description="How much wider a slot is than the roller; 0.08 runs as made."
     )
-    rollers: int = Field(1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.")
+    rollers: int = Field(
+        1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.", json_schema_extra=FIRST
+    )
     lock_radius: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
         None, description="Radius of the locking disc; left out, the largest that leaves the least wall."
     )
@@ -71,7 +87,9 @@ class GenevaParams(Parameters):
     least_wall: Millimetres = Field(
         2.0, ge=0.2, le=50, description="Thinnest wall that may stay anywhere: webs, horns, islands, hubs."
     )
-    thickness: Millimetres = Field(10.0, ge=1, le=200, description="Thickness of the wheel, floor included.")
+    thickness: Millimetres = Field(
+        10.0, ge=1, le=200, description="Thickness of the wheel, floor included.", json_schema_extra=FIRST
+    )
     construction: Literal["auto", "through", "blind", "backed"] = Field(
         "auto",
         description=(
@@ -82,7 +100,9 @@ class GenevaParams(Parameters):
     floor: Millimetres = Field(
         3.0, ge=0.2, le=100, description="Thickness of the floor under the grooves, or of the backing plate."
     )
-    bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the wheel; 0 for none.")
+    bore: Millimetres = Field(
+        12.0, ge=0, le=300, description="Shaft bore of the wheel; 0 for none.", json_schema_extra=FIRST
+    )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
     )
@@ -100,7 +120,9 @@ class GenevaParams(Parameters):
         0.0, ge=0, le=500, description="Diameter of a hub plate under the wheel; 0 for none."
     )
     hub_height: Millimetres = Field(8.0, ge=1, le=200, description="Height of the hub plate.")
-    driver_bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the driver; 0 for none.")
+    driver_bore: Millimetres = Field(
+        12.0, ge=0, le=300, description="Shaft bore of the driver; 0 for none.", json_schema_extra=FIRST
+    )
     driver_keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the driver's keyway (DIN 6885-1); 0 for none."
     )
@@ -124,14 +146,18 @@ class GenevaParams(Parameters):
     axial_gap: Millimetres = Field(
         0.5, ge=0.05, le=10, description="Gap along the axes between wheel, crank plate and rollers."
     )
-    material: MaterialName = Field("steel", description="Material of the plates.")
+    material: MaterialName = Field("steel", description="Material of the plates.", json_schema_extra=FIRST)
     roller_material: MaterialName = Field("steel", description="Material of rollers and pins.")
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the driver.")
+    speed: RevPerMin = Field(
+        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+    )
     load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
-        0.01, description="Moment of inertia that turns with the wheel, the wheel's own included."
+        0.01,
+        description="Moment of inertia that turns with the wheel, the wheel's own included.",
+        json_schema_extra=FIRST,
     )
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
-        0.0, description="Constant torque against the wheel's turning."
+        0.0, description="Constant torque against the wheel's turning.", json_schema_extra=FIRST
     )
 
     @property

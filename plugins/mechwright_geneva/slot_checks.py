@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding
+from mechwright.tolerances import falls_short
 from mechwright_geneva.cures import greatest_roller, least_offset, walls_of
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.mechanism import Mechanism
@@ -21,7 +22,7 @@ def slot_findings(m: Mechanism) -> Iterator[Finding]:
 def _bottom(m: Mechanism) -> Iterator[Finding]:
     walls = walls_of(m)
     room, wanted = m.bottom - m.groove, walls.hub + walls.least
-    if room >= wanted:
+    if not falls_short(room, wanted):
         return
     most = m.bottom - wanted - m.params.groove_clearance / 2
     if most >= 0.5:
@@ -44,7 +45,7 @@ def _bottom(m: Mechanism) -> Iterator[Finding]:
 def _straight(m: Mechanism) -> Iterator[Finding]:
     """Two straight slots are nearest where their round bottoms begin, or at the bottoms themselves."""
     web = 2 * (m.bottom * math.sin(m.wheel_half) - m.groove)
-    if web < m.params.least_wall:
+    if falls_short(web, m.params.least_wall):
         yield _web(m, web, "make roller_radius smaller, or use fewer slots")
 
 
@@ -129,7 +130,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
         )
         return
     tip = limits["island's"] - m.groove
-    if tip < LEAST_TIP:
+    if falls_short(tip, LEAST_TIP):
         yield Finding.error(
             "geneva.island-tip",
             "roller_radius",
@@ -140,7 +141,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             _cure(m),
         )
     neck = 2 * float(found.neck[0])
-    if neck < walls.least:
+    if falls_short(neck, walls.least):
         yield Finding.error(
             "geneva.island",
             "offset_angle",
@@ -150,7 +151,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             "mm",
             _cure(m),
         )
-    if found.web[0] < walls.least:
+    if falls_short(float(found.web[0]), walls.least):
         yield _web(m, float(found.web[0]), _cure(m))
 
 

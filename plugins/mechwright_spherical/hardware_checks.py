@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage, of_stage
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
@@ -50,7 +51,7 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
 def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
     hardware = params.hardware
     least = hardware.pin_diameter + hardware.fit + 2 * WALL
-    if hardware.boss_diameter < least:
+    if falls_short(hardware.boss_diameter, least):
         yield Finding.error(
             "spherical.boss",
             "hardware.boss_diameter",
@@ -96,7 +97,7 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         pairs.append((f"tool and pin {name}", float(arc(point, seat)), bored, "coupler"))
     for said, angle, diameter, link in pairs:
         needed, there = clear_radius(diameter, angle), shells.links[link][0]
-        if needed > there:
+        if exceeds(needed, there):
             # The shells move outwards with the sphere.
             radius = math.ceil(10 * (params.radius + needed - there)) / 10
             yield Finding.error(
@@ -122,10 +123,10 @@ def _seats(linkage: Linkage) -> dict[str, Array]:
 def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
     found = list(approaches(params, linkage, shells))
     for near in found:
-        if near.room < AIR:
+        if falls_short(near.room, AIR):
             yield _collision(linkage, near)
     tightest = min(found, key=lambda near: near.room)
-    if tightest.room >= AIR:
+    if not falls_short(tightest.room, AIR):
         one, two = tightest.bodies
         yield Finding(
             "spherical.clearance",
@@ -176,7 +177,7 @@ def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     for (one, here), (two, there) in combinations(slots.items(), 2):
         nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
         apart = 2 * radius * math.tan(nearest / 2)
-        if apart < least:
+        if falls_short(apart, least):
             yield Finding.error(
                 "spherical.slot",
                 "five_bar.c1n",
@@ -235,7 +236,7 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
         cones["idler"] = train.idler
     for name, angle in cones.items():
         diameter = 2 * inner * math.sin(angle)
-        if diameter < least or angle >= math.pi / 2:
+        if falls_short(diameter, least) or angle >= math.pi / 2:
             yield Finding.error(
                 "spherical.drive",
                 "drive.idler" if name == "idler" else "drive.share",
@@ -250,7 +251,7 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
 def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
     stand = params.stand
     whole = math.degrees(link_arcs(linkage)["ground"]) + stand.arc
-    if whole > LONGEST_GROUND:
+    if exceeds(whole, LONGEST_GROUND):
         yield Finding.error(
             "spherical.stand",
             "stand.arc",
@@ -263,7 +264,7 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     yield from _post(params, linkage, shells)
     # Mounting holes, a screw's head of material around them, and the flange must all fit on the plate.
     rim = (0.5 - abs(MOUNTING_SCREWS[0][0])) * stand.plate
-    if rim < stand.screw or flange_diameter(stand) > stand.plate:
+    if falls_short(rim, stand.screw) or exceeds(flange_diameter(stand), stand.plate):
         most = min(rim, (stand.plate / 2 - (flange_diameter(stand) / 2 - 1.5 * stand.screw)) / 1.5)
         yield Finding.error(
             "spherical.stand",
@@ -274,7 +275,7 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
             "mm",
             f"use at most {math.floor(100 * most) / 100:g} mm, or a larger plate",
         )
-    if stand.height < params.hardware.link_thickness:
+    if falls_short(stand.height, params.hardware.link_thickness):
         yield Finding.error(
             "spherical.stand",
             "stand.height",
@@ -300,7 +301,7 @@ def _post(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator
     needed = math.atan2(hardware.boss_diameter / 2 + AIR, radius)
     if train is not None:
         needed = max(needed, train.pinion)
-    if math.radians(stand.arc) < needed + half:
+    if falls_short(math.radians(stand.arc), needed + half):
         least = math.degrees(needed + half)
         yield Finding.error(
             "spherical.stand",
@@ -323,7 +324,7 @@ def _strips(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
     for name, angle in arcs.items():
         link = "coupler" if name.startswith("coupler") else name
         found = strip(angle, shells.arc(link)[0], flat)
-        if found.leg < shortest:
+        if falls_short(found.leg, shortest):
             yield Finding.error(
                 "spherical.strip",
                 "flat.bend_radius",

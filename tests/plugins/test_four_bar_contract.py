@@ -14,9 +14,11 @@ class TestFourBars(FamilyContract):
     examples = (
         {},
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
+        {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
     )
     refused = (
-        ({"crank": 70}, "crank"),
+        ({"crank": 70, "coupler": 60, "swing_from": -60, "swing_to": 150}, "swing_to"),
+        ({"swing_from": 10}, "swing_to"),
         ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
         ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "ground"),

@@ -43,9 +43,10 @@ CASES = [
     ("spherical.pins", four(output_towards=[0, 0, 3]), "four_bar.output_towards"),
     ("spherical.assembly", {"five_bar": {"travel": 100}}, "five_bar.travel"),
     ("spherical.assembly", {"five_bar": {"start": 60}}, "five_bar.travel"),
-    ("spherical.assembly", four(input=100), "four_bar.travel"),
+    ("spherical.assembly", four(input=100, travel=360), "four_bar.travel"),
+    ("spherical.lever", four(input=100), "four_bar.travel"),
     ("spherical.assembly", four(ground=100, input=20, coupler=30, output=20), "four_bar.travel"),
-    ("spherical.assembly", four(ground=60, input=60, coupler=60, output=60), "four_bar.travel"),
+    ("spherical.assembly", four(ground=60, input=60, coupler=60, output=60, travel=360), "four_bar.travel"),
     ("spherical.assembly", {"five_bar": {"path": [[0, 2]], "path_angles": [100]}}, "five_bar.path_angles"),
     ("spherical.transmission", {"least_transmission": 85}, "five_bar.travel"),
     ("spherical.transmission", {**FOUR_BAR, "least_transmission": 60}, "four_bar.travel"),
@@ -157,7 +158,7 @@ def test_the_travel_that_is_named_can_be_travelled():
 
 
 def test_the_input_range_that_is_named_can_be_travelled():
-    (apart,) = found("spherical.assembly", **four(input=100))
+    (apart,) = found("spherical.assembly", **four(input=100, travel=360))
     low, high = map(float, re.findall(r"([\d.]+)° to ([\d.]+)°", apart.remedy)[0])
     table = four(input=100, start=low + 1, travel=high - low - 2)
     assert [one for one in found("spherical.assembly", **table) if "dead centre" not in one.message] == []

@@ -58,10 +58,15 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
     for finding in told:
         if finding.severity is not Severity.NOTE:
             tell(path, finding)
-    if errors(told):
-        tell(path, f"written up to the {stage}; the errors above forbid what follows")
     for fault in build.faults:
         tell(path, fault)
+    if errors(told) or build.missing:
+        said = ", ".join(build.missing)
+        tell(
+            path,
+            f"written up to the {stage}; the errors above forbid what follows"
+            + (f": {said}" if said else ""),
+        )
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
 
@@ -88,7 +93,7 @@ def _make(
             except MechwrightError as error:
                 if not _later(one.stage, stage):
                     raise
-                build.faults.append(f"it is not known what {one.doing} there is: {error}")
+                build.leave_out(f"{one.doing} is not looked for", error)
                 continue
             if _later(one.stage, stage):
                 told[one.name] = errors(told[one.name])

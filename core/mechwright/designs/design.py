@@ -13,7 +13,8 @@ A design file is data. It names a family, gives its parameters and says how the 
     work_offset = "G54"
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -22,18 +23,14 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
-from mechwright.designs.files import read_toml
+from mechwright.designs.files import read_text, read_toml
+from mechwright.designs.hints import homes, placed
+from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 
 V = TypeVar("V")
-
-FORMAT = 1
-"""Version of the design file's own layout."""
-
-HEAD = ("format", "family", "name")
-"""Keys of every file; what else it may hold are tables."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +80,24 @@ def load(path: Path, host: Host) -> Design:
     PluginError where its family is not installed.
     """
     content, digest = read_toml(path)
+    with telling_places(path, content, host, "parameters"):
+        return _load(path, content, digest, host)
+
+
+@contextmanager
+def telling_places(path: Path, content: Mapping[str, Any], host: Host, own: str) -> Iterator[None]:
+    """Tell of every unknown key on which line it stands, and to which table it belongs.
+
+    ``own`` is the table of the family: ``parameters`` or ``requirement``.
+    """
+    try:
+        yield
+    except DesignError as error:
+        said = placed(str(error), read_text(path)[0], homes(host, content, own))
+        raise DesignError(said) from error
+
+
+def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Design:
     tables = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")

@@ -25,8 +25,9 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.design import HEAD, read_head, read_tables
+from mechwright.designs.design import read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
+from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
@@ -68,6 +69,11 @@ class Requirement:
 def load_requirement(path: Path, host: Host) -> Requirement:
     """Read a requirement file; raises as ``load`` does, and DesignError for a family without synthesis."""
     content, digest = read_toml(path)
+    with telling_places(path, content, host, "requirement"):
+        return _load(path, content, digest, host)
+
+
+def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Requirement:
     registered = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
     require_synthesis(family, str(path))
