@@ -7,6 +7,8 @@ from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.released import released
 from mechwright_geneva.unmended import unmended
 
+_LAST = "choose another law, or the sizes that stand in the way smaller"
+
 
 @kept
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
@@ -15,12 +17,18 @@ def findings(params: GenevaParams) -> tuple[Finding, ...]:
 
 
 def _mended(params: GenevaParams, finding: Finding) -> Finding:
-    """An error that no change of one size cures, with the changes of several that do.
+    """An error about a size that the design gives, and not about what has been made of it.
 
-    It is about a size that the design gives, not about what has been made of it.
+    Where no change of one size cures it, the remedy is the change of several that does.
     """
-    if finding.severity is not Severity.ERROR or finding.remedy:
+    if finding.severity is not Severity.ERROR:
         return finding
-    remedy, key = released(params)
-    given = finding.parameter in params.model_fields_set
-    return replace(finding, remedy=remedy, parameter=finding.parameter if given else key)
+    given = [key for key in GenevaParams.model_fields if key in params.model_fields_set]
+    named = next((key for key in given if key in (finding.parameter, *finding.remedy.split())), "")
+    remedy = finding.remedy
+    if not (remedy and named):
+        other, key = released(params)
+        remedy, named = (other, key) if other else (remedy or _LAST, finding.parameter)
+    return replace(
+        finding, remedy=remedy, parameter=finding.parameter if finding.parameter in given else named
+    )

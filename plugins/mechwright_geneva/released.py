@@ -25,7 +25,7 @@ _TENTH, _CLOSE = 0.1, 0.01
 
 @kept
 def released(params: GenevaParams) -> tuple[str, str]:
-    """The change that makes a design sound, in words, and the first key of it; it has been tried."""
+    """The change that makes a design sound, in words, and the first key of it; tried. Empty if none does."""
     taken: set[str] = set()
     for group in GROUPS:
         given = {key for key in group if key in params.model_fields_set}
@@ -44,7 +44,7 @@ def released(params: GenevaParams) -> tuple[str, str]:
         return ", and ".join([f"use {said}"] * bool(said) + [f"leave out {gone}"] * bool(gone)), next(
             iter(values)
         )
-    return "choose another law", "law"
+    return "", ""
 
 
 def _sound(table: dict[str, Any]) -> bool:

@@ -24,7 +24,8 @@ def _bottom(m: Mechanism) -> Iterator[Finding]:
     if room >= wanted:
         return
     most = m.bottom - wanted - m.params.groove_clearance / 2
-    cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if most >= 0.5 else ""
+    given = "roller_radius" not in m.params.left_out
+    cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if given and most >= 0.5 else ""
     yield Finding.error(
         "geneva.slot-bottom",
         "roller_radius",

@@ -2,8 +2,9 @@
 
 What is given stands. With the usual angles the roller is the largest standard one, up to a tenth of l in
 diameter, with which the slots are sound. Where there is none, or where what is given asks for other angles (a
-time, a roller, several rollers), those nearest to the usual ones are taken with which they are. Where there
-are none either, the usual ones stay, and the checks say what is wrong with them.
+time, a roller, several rollers), those nearest to the usual ones are taken with which they are. A large
+roller has a large wheel. Where nothing helps, the usual ones stay, and the checks say what is wrong with
+them.
 """
 
 import math
@@ -12,11 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Array
+from mechwright_geneva.horns import clear
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.law import law_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.series import ROLLERS, largest, up_to
-from mechwright_geneva.sound import Walls, sound
+from mechwright_geneva.sound import LEAST_BITE, Walls, sound
 from mechwright_geneva.usual import (
     ANGLES,
     FAIR_SHAFT,
@@ -43,6 +45,9 @@ AXES = 1.25
 
 GROWN = 1.8
 """So much larger than usual a wheel may become for the driver's sake before other angles are taken."""
+
+_LOCKS = 40
+"""Sound slots of which it is looked whether a disc locks the wheel, nearest first."""
 
 MOST_WHEEL = 1000.0
 """Largest entry radius of the design table, mm."""
@@ -107,8 +112,8 @@ class _Tried:
             a = _half_between(params, b)
         return cls(a, b, _wheels(params, a, b))
 
-    def roller(self, params: GenevaParams, radius: float) -> tuple[float, int] | None:
-        """Which of them are sound with this roller, and nearest to the first: its place; None if none."""
+    def roller(self, params: GenevaParams, radius: float) -> int | None:
+        """The place of the one that is sound with this roller and nearest to the first; None if none is."""
         wheel = _about(params)
         wall = SPARE * (params.least_wall or wall_of(wheel))
         bore = params.bore if params.bore is not None else 0.05 * wheel
@@ -139,7 +144,15 @@ class _Tried:
         if not able.any():
             return None
         away = np.hypot(self.half - self.half[0], self.offset - self.offset[0])
-        return radius, int(np.argmin(np.where(able, away, np.inf)))
+        nearest = np.argsort(np.where(able, away, np.inf), kind="stable")[: min(int(able.sum()), _LOCKS)]
+        return next((int(row) for row in nearest if self._locks(params, int(row))), None)
+
+    def _locks(self, params: GenevaParams, row: int) -> bool:
+        """Whether the horns leave the ends of a small locking disc."""
+        half, offset = math.radians(self.half[row]), math.radians(self.offset[row])
+        frame = Frame.of(math.pi / params.slots, half, offset, self.wheel[row])
+        least = float(frame.axes - frame.entry_radius) + LEAST_BITE - params.lock_clearance
+        return bool(clear(frame, law_of(params), np.array([SPARE * least]), params.lock_clearance).all())
 
 
 def slot_of(params: GenevaParams) -> Slot:
@@ -153,7 +166,11 @@ def slot_of(params: GenevaParams) -> Slot:
         for radius in _radii(params, _about(params)):
             found = tried.roller(params, radius)
             if found is not None:
-                return _slot(params, tried, found[1], radius)
+                return _slot(params, tried, found, radius)
+    if params.entry_radius is None and params.centre_distance is None and params.roller_radius is not None:
+        wheel = min(MOST_WHEEL, math.ceil(2 * params.roller_radius / ROLLER / STEP) * STEP)
+        if wheel > WHEEL:
+            return slot_of(params.model_copy(update={"entry_radius": wheel}))
     return _slot(params, first, 0, _radii(params, float(first.wheel[0]))[0])
 
 

@@ -96,12 +96,12 @@ def test_values_that_stand_are_not_searched():
 
 
 def test_a_window_that_cannot_be_had_is_refused_with_the_longest_one():
-    table = {"window": 3.0, "eccentricity_min": 0.38, "eccentricity_max": 0.42, "designs": 1, "starts": 1}
+    table = {"window": 172.0, "eccentricity_min": 0.38, "eccentricity_max": 0.42, "designs": 1, "starts": 1}
     result, _ = synthesis("least-jerk", **table)
     assert result.candidates == ()
     (fault,) = errors(result.findings)
     assert (fault.code, fault.parameter) == ("synthesis.window", "window")
-    again, _ = synthesis("least-jerk", **table | {"window": math.floor(fault.limit * 100) / 100})
+    again, _ = synthesis("least-jerk", **table | {"window": math.floor(fault.limit * 10) / 10})
     assert again.candidates
 
 

@@ -84,20 +84,16 @@ def sifted(asked: Requirement, result: Synthesis[Any], found: Host, progress: Pr
 
 
 def _unbuildable(reason: Reason) -> Finding:
-    return Finding.error(
-        "synthesis.unbuildable",
-        "",
-        f"no design that meets it can be built as its tables say: {reason.message}",
-    )
+    said = f"no design that meets it can be built as its tables say: {reason.message}"
+    return Finding.error("synthesis.unbuildable", "", said, remedy="change the tables, or what is asked for")
 
 
 def _told(result: Synthesis[Any]) -> str:
     """How many designs were found and are given, and why the others are not."""
     given = len(result.candidates)
     found = given + sum(reason.count for reason in result.rejected)
-    return f"{found} found, {given} given" + (
-        f": {', '.join(map(str, result.rejected))}" if result.rejected else ""
-    )
+    why = ", ".join(map(str, result.rejected))
+    return f"{found} found, {given} given" + (f": {why}" if why else "")
 
 
 def _line(candidate: Candidate[object]) -> str:  # type: ignore[type-var]
