@@ -52,7 +52,7 @@ def opening_findings(params: Sizes) -> Iterator[Finding]:
     """What is wrong with bores and keyways by themselves."""
     for bore, width in (("bore", "keyway_width"), ("driver_bore", "driver_keyway_width")):
         yield from _one(params, bore, width)
-    yield from too_small({"keyway_relief": params.keyway_relief})
+    yield from too_small({"keyway_relief": params.keyway_relief, "fixing": params.fixing})
 
 
 def _one(params: Sizes, bore_name: str, width_name: str) -> Iterator[Finding]:

@@ -239,13 +239,18 @@ def test_the_acceleration_remedy_cures():
     table = {
         "slots": 6,
         "crank_half_angle": 60,
-        "offset_angle": 12,
-        "roller_radius": 3,
+        "offset_angle": 8,
+        "roller_radius": 2,
         "driver_bore": 4,
-        "pin_diameter": 4,
+        "pin_diameter": 2,
+        "fixing": 0,
     }
     ((name, value),) = cures(found("geneva.acceleration", **table))
-    assert "geneva.acceleration" not in [f.code for f in check(**{**table, name: value})]
+    after = check(**{**table, name: value})
+    assert "geneva.acceleration" not in [f.code for f in after]
+    assert errors(after) == []
+    # Where a longer stroke leaves no driver, no longer one is advised.
+    assert "crank_half_angle" not in found("geneva.acceleration", **{**table, "driver_bore": 12}).remedy
 
 
 def test_the_singular_middle_is_named_only_where_a_torque_acts_in_a_curved_slot():
