@@ -250,7 +250,7 @@ def test_the_acceleration_remedy_cures():
     assert "geneva.acceleration" not in [f.code for f in after]
     assert errors(after) == []
     # Where a longer stroke leaves no driver, no longer one is advised.
-    assert "crank_half_angle" not in found("geneva.acceleration", **{**table, "driver_bore": 12}).remedy
+    assert "crank_half_angle" not in found("geneva.acceleration", **{**table, "driver_bore": 20}).remedy
 
 
 def test_the_singular_middle_is_named_only_where_a_torque_acts_in_a_curved_slot():
