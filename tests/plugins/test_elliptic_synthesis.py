@@ -66,7 +66,7 @@ def test_designs_are_distinct_and_the_best_comes_first():
 
 @pytest.mark.parametrize(("kind", "rate"), [("least-acceleration", "acceleration"), ("least-jerk", "jerk")])
 def test_the_least_peak_with_the_wanted_window(kind, rate):
-    result, _ = synthesis(kind, designs=1, starts=1, window=2.4)
+    result, _ = synthesis(kind, designs=1, starts=1, window="2.4 rad")
     (best,) = result.candidates
     assert best.residual.value == 0
     assert point_window(best.params).length >= 2.4
