@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
-    from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+    from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
@@ -70,7 +70,7 @@ _HOMES = {
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
-    "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
+    "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
@@ -97,7 +97,7 @@ __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "ci
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
-__all__ += ["Candidate", "Progress", "Synthesis"]
+__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
 __all__ += ["Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]

@@ -15,6 +15,9 @@ from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.sound import LEAST_BITE
 from mechwright_geneva.wheel import Wheel
 
+SIZING = ("entry_radius", "centre_distance", "crank_half_angle", "offset_angle")
+"""Keys that tell how much room the driver has."""
+
 ROLLER_WALL = 0.1
 """Least wall of a roller about its pin, in roller radii: what the smallest needle rollers have."""
 
@@ -48,8 +51,7 @@ def _construction(m: Mechanism) -> Iterator[Finding]:
 
 def _lock(m: Mechanism) -> Iterator[Finding]:
     params = m.params
-    least = m.axes - m.rim + LEAST_BITE - params.lock_clearance
-    most = m.greatest_lock
+    least, most = m.least_lock, m.greatest_lock
     horn = m.nearest - m.groove - m.arc
     if falls_short(most, least):
         yield Finding.error(
@@ -60,7 +62,6 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             most,
             least,
             "mm",
-            "make roller_radius or least_wall smaller, or change offset_angle or crank_half_angle",
         )
         return
     if falls_short(horn, params.least_wall):
@@ -71,7 +72,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             horn,
             params.least_wall,
             "mm",
-            f"make lock_radius at most {math.floor(most * 100) / 100:g}, or leave it out",
+            f"make lock_radius at most {_down(most)}, or leave it out",
         )
         return
     if falls_short(m.lock, least):
@@ -94,7 +95,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             2 * bites * m.rim,
             params.least_wall,
             "mm",
-            "make lock_radius smaller, or leave it out",
+            "leave lock_radius out" if params.lock_radius else "",
         )
         return
     try:
@@ -107,7 +108,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             m.lock,
             most,
             "mm",
-            f"make lock_radius larger, up to {math.floor(most * 100) / 100:g}, or crank_half_angle larger",
+            f"make lock_radius at most {_down(most)}, or leave it out" if most < m.lock else "",
         )
 
 
@@ -180,7 +181,7 @@ def _pin(m: Mechanism) -> Iterator[Finding]:
             m.params.pin_diameter,
             most,
             "mm",
-            f"make pin_diameter at most {math.floor(most * 100) / 100:g}",
+            f"make pin_diameter at most {_down(most)}",
         )
 
 
@@ -190,17 +191,18 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
     wanted = driver_radius(0.0, params.least_wall, params.fixing)
     if falls_short(outer - inner, wanted):
         blame = "driver_bore" if params.fixing == 0 or outer - inner < params.least_wall else "fixing"
-        bore = 2 * (outer - wanted)
-        cures = ["make entry_radius larger"]
-        if bore >= 1 and params.driver_bore > 0 and params.driver_keyway_width == 0:
-            cures.insert(0, f"make driver_bore at most {math.floor(bore * 10) / 10:g}")
-        elif params.driver_bore > 0:
-            cures.insert(0, "make driver_bore smaller, or 0")
+        given = [key for key in SIZING if key not in params.left_out]
+        if blame in params.left_out and given:
+            blame = given[0]
+        cures = []
         dowel = outer - inner - 2 * params.least_wall
-        if params.fixing > 0:
-            cures.insert(
-                0, f"make fixing at most {math.floor(dowel * 10) / 10:g}" if dowel >= 1 else "set fixing to 0"
-            )
+        if params.fixing > 0 and dowel >= 1:
+            cures.append(f"make fixing at most {math.floor(dowel * 10) / 10:g}")
+        elif params.fixing > 0 and outer - inner >= params.least_wall:
+            cures.append("set fixing to 0")
+        bore = 2 * (outer - wanted)
+        if bore >= 1 and params.driver_keyway_width == 0 and "driver_bore" not in params.left_out:
+            cures.append(f"make driver_bore at most {math.floor(bore * 10) / 10:g}")
         yield Finding.error(
             "geneva.driver",
             blame,
@@ -220,3 +222,8 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
             overhang,
             "mm",
         )
+
+
+def _down(length: float) -> str:
+    """A length in hundredths, not rounded up."""
+    return f"{math.floor(length * 100) / 100:g}"

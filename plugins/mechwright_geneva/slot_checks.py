@@ -25,12 +25,8 @@ def _bottom(m: Mechanism) -> Iterator[Finding]:
     if not falls_short(room, wanted):
         return
     most = m.bottom - wanted - m.params.groove_clearance / 2
-    if most >= 0.5:
-        cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}, or bore or hub smaller"
-    elif m.straight:
-        cure = "make entry_radius larger, or bore or hub smaller"
-    else:
-        cure = "make crank_half_angle or offset_angle smaller, or entry_radius larger"
+    given = "roller_radius" not in m.params.left_out
+    cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if given and most >= 0.5 else ""
     yield Finding.error(
         "geneva.slot-bottom",
         "roller_radius",
@@ -46,7 +42,9 @@ def _straight(m: Mechanism) -> Iterator[Finding]:
     """Two straight slots are nearest where their round bottoms begin, or at the bottoms themselves."""
     web = 2 * (m.bottom * math.sin(m.wheel_half) - m.groove)
     if falls_short(web, m.params.least_wall):
-        yield _web(m, web, "make roller_radius smaller, or use fewer slots")
+        most = m.bottom * math.sin(m.wheel_half) - (m.params.least_wall + m.params.groove_clearance) / 2
+        cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if most >= 0.5 else ""
+        yield _web(m, web, cure)
 
 
 def _web(m: Mechanism, web: float, cure: str) -> Finding:
@@ -62,15 +60,13 @@ def _web(m: Mechanism, web: float, cure: str) -> Finding:
 
 
 def _cure(m: Mechanism) -> str:
-    """The least offset angle and the greatest roller that make the slot sound."""
+    """The least offset angle and the greatest roller that make the slot sound; empty if neither does."""
     offset, roller = least_offset(m), greatest_roller(m)
     cures = []
     if offset is not None:
         cures.append(f"use offset_angle = {offset:.2f}")
     if roller is not None:
         cures.append(f"make roller_radius at most {roller:.2f}")
-    if not cures:
-        return "no offset angle and no smaller roller cures it: change crank_half_angle or entry_radius"
     return ", or ".join(cures)
 
 

@@ -25,7 +25,7 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.design import read_head, read_tables, telling_places
+from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
 from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
@@ -47,6 +47,8 @@ class Requirement:
         The table ``[requirement]``, of the kind's model.
     tables
         Each registered table with its value for the designs.
+    given
+        Name to value of the same tables as the requirement file has them.
     files
         Name to the file that goes along with the designs.
     inputs
@@ -60,10 +62,16 @@ class Requirement:
     kind: str
     table: Parameters
     tables: tuple[tuple[Table[Any], Any], ...]
+    given: Mapping[str, Any]
     files: Mapping[str, Path]
     inputs: Mapping[str, Path]
     path: Path
     digest: str
+
+    def design(self, name: str, params: Parameters) -> Design:
+        """A design that meets it, as its file will be read."""
+        readers = tuple(reader for reader, _ in self.tables)
+        return Design(name, self.family, params, self.path, self.digest, self.given, readers)
 
 
 def load_requirement(path: Path, host: Host) -> Requirement:
@@ -91,7 +99,8 @@ def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Re
     tables: list[tuple[Table[Any], Any]] = []
     files: dict[str, Path] = {}
     inputs: dict[str, Path] = {}
-    for key, value in read_tables(content, path, host).items():
+    given = read_tables(content, path, host)
+    for key, value in given.items():
         reader = registered[key].item
         inputs |= reader.inputs(value, path)
         carried, along = reader.carried(value, path)
@@ -103,6 +112,7 @@ def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Re
         kind,
         read_table(family.requirements[kind], rest, str(path), "requirement"),
         tuple(tables),
+        given,
         files,
         inputs,
         path,
