@@ -10,9 +10,10 @@ from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
+from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, speed_of
-from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
+from mechwright_four_bar.plates import bar_of, bosses_of, hidden_point, layout_of, sides_of
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -112,10 +113,12 @@ def _above(value: float) -> str:
 
 
 def _transmission(params: FourBarParams) -> Iterator[Finding]:
-    angle = math.degrees(bar_of(params).least_transmission_angle())
+    bar = bar_of(params)
+    angle = math.degrees(bar.least_transmission_angle())
     if angle >= GOOD_TRANSMISSION:
         return
     jams = angle < LEAST_TRANSMISSION
+    shortest = "ground" if bar.kind is Kind.DOUBLE_CRANK else "crank"
     yield Finding(
         "four-bar.transmission",
         Severity.ERROR if jams else Severity.WARNING,
@@ -124,7 +127,7 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
         angle,
         LEAST_TRANSMISSION if jams else GOOD_TRANSMISSION,
         "deg",
-        "make the crank shorter, or change coupler and follower",
+        f"make the {shortest} shorter, or change coupler and follower",
     )
 
 
@@ -151,7 +154,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
                 else f"make {name} at least {_above(needed)}, or take smaller pins, bushings or rims",
             )
     try:
-        outlines_of(params)
+        link_outline(params, "coupler", bosses_of(params)["coupler"])
     except GeometryError as error:
         yield Finding.error(
             "four-bar.bend",
@@ -166,26 +169,38 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
 @of_stage(Stage.PARTS)
 def _layers(params: FourBarParams) -> Iterator[Finding]:
     try:
-        layers = stack_of(params)
+        layout = layout_of(params)
     except GeometryError as error:
+        other = params.model_copy(update={"frame": "two"})
         yield Finding.error(
             "four-bar.layers",
-            "clearance",
+            "frame",
             str(error),
-            params.clearance,
-            unit="mm",
-            remedy="make pins, rims, webs or clearance smaller, or bend the coupler",
+            remedy='set frame = "two"'
+            if sides_of(other) == 2
+            else "make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return
+    layers = layout.stack
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layers.spans.values())
     yield Finding.note(
         "four-bar.stack",
         f"{len(layers.layers)} layers, {height:.4g} mm high: "
-        + ", ".join(f"{name} in {number}" for name, number in order),
+        + ", ".join(f"{name} in {number}" for name, number in order)
+        + (f"; {len(layout.posts)} posts between two ground plates" if layout.posts else ""),
         height,
         "mm",
     )
+    hidden = hidden_point(params)
+    if hidden:
+        yield Finding.warning(
+            "four-bar.point",
+            "coupler_point_x",
+            f"over a turn the coupler point comes under the {hidden[0]} and over the {hidden[1]}: a tool in "
+            "it has no way out of its own layer",
+            remedy="work with it between the plates, or move it off them",
+        )
 
 
 def _figures(params: FourBarParams) -> Iterator[Finding]:
@@ -211,6 +226,8 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
     peaks = peaks_of(params, bar_of(params), speed_of(params))
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
+    if sides_of(params) == 2:
+        widths["B0"] = params.ground_thickness
     joint, pressure = max(
         (
             (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))
