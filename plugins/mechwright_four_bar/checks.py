@@ -199,7 +199,7 @@ def _layers(params: FourBarParams) -> Iterator[Finding]:
             "coupler_point_x",
             f"over a turn the coupler point comes under the {hidden[0]} and over the {hidden[1]}: a tool in "
             "it has no way out of its own layer",
-            remedy="work with it between the plates, or move it off them",
+            remedy="work with it between the plates, or cut a window along its path into one of them",
         )
 
 

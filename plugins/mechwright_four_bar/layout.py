@@ -83,11 +83,10 @@ def laid_out(params: FourBarParams, poses: Mapping[str, Poses], sides: int) -> L
     low, high = _corners(params, own)
     if sides == 2:
         _, y0, _, y1 = Closeness(plates, (), poses, params.clearance).swept(MOVING)
-        least = 2 * _corner(params)
-        low, high = (
-            complex(low.real, min(y0 - least, low.imag)),
-            complex(high.real, max(y1 + least, high.imag)),
-        )
+        # The posts stand on whole millimetres outside of it.
+        corner = _corner(params)
+        low = complex(low.real, math.floor(min(y0 - corner, low.imag + corner)) - corner)
+        high = complex(high.real, math.ceil(max(y1 + corner, high.imag - corner)) + corner)
     screws = _screws(params, low, high)
     holes = [Boss(at, _corner(params), params.pin_diameter, "screw") for at in screws]
     bodies = ("ground", "ground-2")[:sides]
