@@ -1,8 +1,8 @@
 """Random double cranks from check to proven programs: ``python benchmarks/bench_double_cranks.py``.
 
-Every design has links and arcs at random, all else by default, and a transmission angle above 20 degrees. All of
-them are checked, which finds their layers and compares the plates over the turn. Of the first ones all bodies are
-compared as solids, and the first of these are built: drawings, programs, and the proof of every program.
+Every design has links or arcs at random, all else by default, and a transmission angle above 20 degrees. All
+are checked, which finds their layers and compares the plates over the turn. Of the first ones all bodies are
+compared as solids, and the first are built: drawings, programs, and the proof of every program.
 
     python benchmarks/bench_double_cranks.py spherical --checked 150 --built 10 --first 40
 

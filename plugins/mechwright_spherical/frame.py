@@ -91,8 +91,10 @@ def bridge_rooms(params: SphericalParams, linkage: Linkage, shells: Shells, plac
 
 
 def _bridge(params: SphericalParams, linkage: Linkage, shells: Shells) -> float | None:
-    """The nearest whole degree for the bridge at which everything passes it."""
-    for degrees in range(1, _FARTHEST + 1):
+    """The nearest whole degree for the bridge where all passes it, and its boss that of the axis."""
+    boss, radius = params.hardware.boss_diameter + AIR, shells.links["ground-2"][0]
+    beside = math.degrees(2 * math.atan(boss / 2 / radius)) if radius > 0 else 0.0
+    for degrees in range(math.ceil(beside) + 1, _FARTHEST + 1):
         place = math.radians(degrees)
         if min(float(room.min()) for room in bridge_rooms(params, linkage, shells, place).values()) >= AIR:
             return place
