@@ -131,7 +131,7 @@ def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iter
     found = list(approaches(params, linkage, shells))
     for near in found:
         if near.room < AIR:
-            yield _collision(linkage, near)
+            yield _collision(params, linkage, near)
     tightest = min(found, key=lambda near: near.room)
     if tightest.room >= AIR:
         one, two = tightest.bodies
@@ -178,8 +178,9 @@ def _when(linkage: Linkage, near: Approach) -> str:
     return f", at the input angle {math.degrees(near.angle):.4g}°{phase}"
 
 
-def _collision(linkage: Linkage, near: Approach) -> Finding:
+def _collision(params: SphericalParams, linkage: Linkage, near: Approach) -> Finding:
     one, two = near.bodies
+    other = params.kind == "four-bar" and params.hardware.frame == "one"
     verb = (
         f"run into each other by {-near.room:.3g} mm"
         if near.room < 0
@@ -192,7 +193,8 @@ def _collision(linkage: Linkage, near: Approach) -> Finding:
         near.room,
         AIR,
         "mm",
-        "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
+        ('set hardware.frame = "auto", or ' if other else "")
+        + "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
     )
 
 
