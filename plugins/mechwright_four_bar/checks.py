@@ -13,7 +13,7 @@ from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, speed_of
-from mechwright_four_bar.plates import bar_of, bosses_of, hidden_point, layout_of, sides_of
+from mechwright_four_bar.plates import bar_of, bosses_of, hidden_point, layout_of, layout_or_none, sides_of
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -177,7 +177,7 @@ def _layers(params: FourBarParams) -> Iterator[Finding]:
             "frame",
             str(error),
             remedy='set frame = "two"'
-            if sides_of(other) == 2
+            if layout_or_none(other) is not None
             else "make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return

@@ -91,12 +91,18 @@ def hidden_point(params: FourBarParams) -> tuple[str, str] | None:
 
 
 @kept
+def layout_or_none(params: FourBarParams) -> Layout | None:
+    """As :func:`layout_of`; None where there is no layout."""
+    try:
+        return layout_of(params)
+    except GeometryError:
+        return None
+
+
 def sides_of(params: FourBarParams) -> int:
     """On how many sides of the links ground plates stand; without a layout, on those first asked for."""
-    try:
-        return layout_of(params).sides
-    except GeometryError:
-        return _TRIED[params.frame][0]
+    layout = layout_or_none(params)
+    return _TRIED[params.frame][0] if layout is None else layout.sides
 
 
 def joints_of(params: FourBarParams) -> dict[str, Joint]:
@@ -121,7 +127,8 @@ def stack_of(params: FourBarParams) -> Stack:
 
 def posts_of(params: FourBarParams) -> dict[str, complex]:
     """The frames of the posts between two ground plates, and where they stand on them, x + i y, mm."""
-    posts = layout_of(params).posts if sides_of(params) == 2 else ()
+    layout = layout_or_none(params)
+    posts = () if layout is None else layout.posts
     return {f"ground-post-{number}": at for number, at in enumerate(posts, start=1)}
 
 

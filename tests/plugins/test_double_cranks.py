@@ -145,6 +145,14 @@ def test_one_plate_is_refused_with_a_remedy_that_works():
     assert errors(FourBars().check(params.model_copy(update={"frame": "two"}))) == []
 
 
+@pytest.mark.parametrize("frame", ["auto", "one", "two"])
+def test_motion_needs_no_layout(frame):
+    """A coupler that cannot be bent has no plates; the linkage moves all the same."""
+    params = FourBarParams(**DRAG, coupler_bend=20, web_width=17, frame=frame)
+    assert {fault.code for fault in errors(FourBars().check(params))} == {"four-bar.bend"}
+    assert set(FourBars().solve(params, 13).poses) > {"crank", "coupler", "follower"}
+
+
 def test_a_crank_rocker_takes_one_plate_unless_two_are_asked_for():
     assert sides_of(FourBarParams()) == 1
     assert layout_of(FourBarParams(frame="two")).sides == 2
