@@ -10,10 +10,11 @@ from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.dimensions import FourBar, Kind
+from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
-from mechwright_four_bar.plates import bosses_of, outlines_of, stack_of
+from mechwright_four_bar.plates import bosses_of, hidden_point, layout_of, layout_or_none, sides_of
 from mechwright_four_bar.reach import (
     TURN_BACK,
     bar_of,
@@ -187,6 +188,7 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
     if not falls_short(angle, GOOD_TRANSMISSION):
         return
     jams = falls_short(angle, LEAST_TRANSMISSION)
+    shortest = "ground" if bar_of(params).kind is Kind.DOUBLE_CRANK else "crank"
     yield Finding(
         "four-bar.transmission",
         Severity.ERROR if jams else Severity.WARNING,
@@ -197,7 +199,7 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
         "deg",
         "give a shorter swing with swing_from and swing_to"
         if is_lever(params)
-        else "make the crank shorter, or change coupler and follower",
+        else f"make the {shortest} shorter, or change coupler and follower",
         Stage.PARTS,
     )
 
@@ -225,7 +227,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
                 else f"make {name} at least {_above(needed)}, or take smaller pins, bushings or rims",
             )
     try:
-        outlines_of(params)
+        link_outline(params, "coupler", bosses_of(params)["coupler"])
     except GeometryError as error:
         yield Finding.error(
             "four-bar.bend",
@@ -240,26 +242,38 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
 @of_stage(Stage.PARTS)
 def _layers(params: FourBarParams) -> Iterator[Finding]:
     try:
-        layers = stack_of(params)
+        layout = layout_of(params)
     except GeometryError as error:
+        other = params.model_copy(update={"frame": "two"})
         yield Finding.error(
             "four-bar.layers",
-            "clearance",
+            "frame",
             str(error),
-            params.clearance,
-            unit="mm",
-            remedy="make pins, rims, webs or clearance smaller, or bend the coupler",
+            remedy='set frame = "two"'
+            if layout_or_none(other) is not None
+            else "make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return
+    layers = layout.stack
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layers.spans.values())
     yield Finding.note(
         "four-bar.stack",
         f"{len(layers.layers)} layers, {height:.4g} mm high: "
-        + ", ".join(f"{name} in {number}" for name, number in order),
+        + ", ".join(f"{name} in {number}" for name, number in order)
+        + (f"; {len(layout.posts)} posts between two ground plates" if layout.posts else ""),
         height,
         "mm",
     )
+    hidden = hidden_point(params)
+    if hidden:
+        yield Finding.warning(
+            "four-bar.point",
+            "coupler_point_x",
+            f"over a turn the coupler point comes under the {hidden[0]} and over the {hidden[1]}: a tool in "
+            "it has no way out of its own layer",
+            remedy="work with it between the plates, or cut a window along its path into one of them",
+        )
 
 
 def _figures(params: FourBarParams) -> Iterator[Finding]:
@@ -299,6 +313,8 @@ def _swing(params: FourBarParams, bar: FourBar) -> Finding:
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
     peaks = peaks_of(params)
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
+    if sides_of(params) == 2:
+        widths["B0"] = params.ground_thickness
     joint, pressure = max(
         (
             (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))

@@ -104,6 +104,10 @@ class FourBarParams(Parameters):
         1.0, ge=0.1, le=50, description="Least distance in plan of what moves in one layer."
     )
     washer: Millimetres = Field(0.5, ge=0.05, le=20, description="Air between the layers of plates.")
+    frame: Literal["auto", "one", "two"] = Field(
+        "auto",
+        description="Ground plates: one below the links, two with the links between, or one where that goes.",
+    )
     material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     @model_validator(mode="after")

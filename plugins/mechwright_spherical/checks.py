@@ -12,12 +12,12 @@ import numpy as np
 from mechwright import Array, Finding, Severity, Stage, kept, until_error
 from mechwright.mechanics.planar import Turning
 from mechwright.tolerances import exceeds, falls_short
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.hardware_checks import hardware_findings
 from mechwright_spherical.linkage import TURN_BACK, Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import second_size
-from mechwright_spherical.shells import shells_of
 
 DEAD_CENTRE = math.degrees(TURN_BACK)
 """Transmission angle, degrees, below which a linkage counts as standing in a dead centre."""

@@ -11,13 +11,13 @@ from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.held import held_by
 from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import input_range, mobility
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import shells_of
 from mechwright_spherical.stand import base_pose
 from mechwright_spherical.vectors import norm
 

@@ -212,6 +212,10 @@ class HardwareTable(Parameters):
         0.05, ge=0, le=1, description="How much wider bores and slots are than their pins."
     )
     gap: Millimetres = Field(1.5, ge=0.05, le=50, description="Between the shells, radially.")
+    frame: Literal["auto", "one", "two"] = Field(
+        "auto",
+        description="Ground of a four-bar: outside the links, on both sides, or outside where that goes.",
+    )
     material: MaterialName = Field(
         "aluminium", description="Material of links and base.", json_schema_extra=FIRST
     )
@@ -305,6 +309,8 @@ class SphericalParams(Parameters):
             raise ValueError(f'{name} is not looked at with kind = "{self.kind}"; set kind, or leave it out')
         if self.kind == "four-bar" and self.drive != DriveTable():
             raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
+        if self.kind == "five-bar" and self.hardware.frame == "two":
+            raise ValueError('hardware.frame = "two" is for a four-bar; leave it out with a five-bar')
         if self.path_tolerance is not None and not self._has_path:
             raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
         return self

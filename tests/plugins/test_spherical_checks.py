@@ -12,10 +12,9 @@ from mechwright.errors import MechwrightError
 from mechwright_spherical.checks import findings, weakest
 from mechwright_spherical.clearances import approaches, arcs_apart, point_to_arc
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.hardware_checks import AIR
+from mechwright_spherical.frame import AIR, shells_of
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import shells_of
 from mechwright_spherical.vectors import rotate, vector
 
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
@@ -71,7 +70,12 @@ CASES = [
     ("spherical.boss", {"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
     ("spherical.gap", {"hardware": {"gap": 0.1}}, "hardware.gap"),
     ("spherical.clearance", {"hardware": {"boss_diameter": 19, "gap": 3}}, "hardware.boss_diameter"),
-    ("spherical.clearance", four(ground=30, input=80, coupler=70, output=60), "hardware.boss_diameter"),
+    (
+        "spherical.clearance",
+        {**four(ground=30, input=80, coupler=70, output=60), "hardware": {"frame": "one"}},
+        "hardware.boss_diameter",
+    ),
+    ("spherical.centre", {**four(ground=20, input=60, coupler=50, output=70), "radius": 25}, "radius"),
     (
         "spherical.slot",
         {"five_bar": {"a1n": [0.766, 0.643], "c1n": [0.891, -0.039], "travel_n": -1}},
@@ -342,7 +346,8 @@ def test_every_key_of_every_table_changes_a_result(table, key):
 def test_the_tables_above_have_every_key():
     for table, keys in NESTED.items():
         fields = set(SphericalParams.model_fields[table].annotation.model_fields)
-        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n"}
+        # The frame is that of a four-bar.
+        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n", "frame"}
     assert set(FOUR_BAR_KEYS) == set(SphericalParams.model_fields["four_bar"].annotation.model_fields)
 
 
