@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright import Finding, Severity
 from mechwright.contracts.finding import errors
-from mechwright.geometry.keyway import KEYS, Opening, key_of_width
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
@@ -37,6 +37,7 @@ def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
 def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
     standard = key_of_width(params.keyway_width)
     if params.keyway_depth is None and standard is None:
+        fitting = key_for_bore(params.bore)
         yield Finding.error(
             "bore.keyway-depth",
             "keyway_depth",
@@ -44,6 +45,7 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
             params.keyway_width,
             unit="mm",
             remedy=f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
+            proposed=({"parameters.keyway_width": fitting.width},) if fitting else (),
         )
         return
     opening = opening_of(params)
@@ -69,6 +71,7 @@ def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Fin
         key_height if too_shallow else standard,
         "mm",
         f"use keyway_depth = {standard:g}, or leave it out",
+        proposed=({"parameters.keyway_depth": None},),
     )
 
 

@@ -102,6 +102,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
                 params.tooth_offset,
                 nearest,
                 remedy=f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
+                proposed=({"parameters.tooth_offset": nearest},),
             )
     if params.tip_radius >= params.dedendum:
         yield Finding.error(
@@ -240,6 +241,7 @@ def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
         f"make backlash at least {least:g}, or leave it out"
         if _tip_width(better) >= LEAST_TIP
         else f"make module or semi_major larger: with a backlash of {least:g} the teeth are too thin",
+        proposed=({"parameters.backlash": least},),
     )
 
 

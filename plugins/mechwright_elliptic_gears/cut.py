@@ -33,6 +33,10 @@ def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]
     return tuple(dict.fromkeys(found))  # both pairs of a train have the same to say
 
 
+_SMALLER = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5})
+"""Lets smaller end mills be chosen, for the fillets."""
+
+
 def _ring(polygon: "shapely.Polygon") -> Array:
     import shapely
 
@@ -54,6 +58,7 @@ def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Po
             proof.allowance,
             "mm",
             "add a smaller end mill",
+            proposed=_SMALLER,
         )
     return Finding.note(
         "gear.cut-mesh",
@@ -79,6 +84,7 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
             opening.bore,
             unit="mm",
             remedy="add a smaller end mill",
+            proposed=_SMALLER,
         )
         return
     if gear.key is None:

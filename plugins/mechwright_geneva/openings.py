@@ -75,4 +75,5 @@ def _one(params: Sizes, bore_name: str, width_name: str) -> Iterator[Finding]:
         fitting.width if fitting else None,
         "mm",
         f"use one of {', '.join(f'{one.width:g}' for one in KEYS)}",
+        proposed=({f"parameters.{width_name}": fitting.width},) if fitting else (),
     )

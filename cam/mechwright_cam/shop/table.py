@@ -53,6 +53,7 @@ class CamTable(Table[JobSettings]):
     """Reads and writes ``[cam]``."""
 
     name = "cam"
+    settings = CamSettings
 
     def read(self, content: object, path: Path) -> JobSettings:
         """The settings, with the machine that they name."""

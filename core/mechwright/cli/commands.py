@@ -111,6 +111,33 @@ class Check(Command):
         check.check(design, as_json, tolerances)
 
 
+class Fix(Command):
+    """``mechwright fix``."""
+
+    name = "fix"
+    order = 35
+
+    def run(
+        self,
+        design: DesignFile,
+        to: Annotated[
+            str, typer.Option("--to", metavar="STAGE", help="How far it has to build: parts or machining.")
+        ] = "machining",
+        output: Annotated[
+            Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
+        ] = None,
+        write: Annotated[bool, typer.Option("--write", help="Change the design file itself.")] = False,
+        as_json: AsJson = False,
+    ) -> None:
+        """Find the smallest change with which a design builds.
+
+        It is shown, and written where that is asked for. The exit code is 1 if none is found.
+        """
+        from mechwright.cli import fixing
+
+        fixing.fix(design, to, output, write, as_json)
+
+
 class Solve(Command):
     """``mechwright solve``."""
 
@@ -178,4 +205,4 @@ class Synthesize(Command):
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Families, New, Schema, Check, Solve, Build, Synthesize]
+    return [Families, New, Schema, Check, Fix, Solve, Build, Synthesize]

@@ -7,6 +7,7 @@ from typing import NoReturn
 import typer
 
 from mechwright.build import Build, Inspection, Page, Wanted
+from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import Step, progress
 from mechwright.cli.provenance import facts
@@ -79,7 +80,9 @@ def _make(
     step("checking")
     told: dict[str, list[Finding]] = {"": list(build.findings)}
     if stopping := errors(build.findings, stage):
-        raise Refused(stopping)
+        from mechwright.remedies import tried
+
+        raise Refused(tried(build.design, stopping))
     for page in pages:
         page.begin(build)
     asked = sorted(asked, key=lambda one: one.order)
@@ -142,4 +145,7 @@ def refuse(findings: Iterable[Finding], path: Path) -> NoReturn:
 
 def tell(path: Path, words: object) -> None:
     """Say something of a design on standard error."""
-    typer.echo(f"mechwright: {path}: {words}", err=True)
+    if isinstance(words, Finding):
+        telling.tell(words, err=True, path=path)
+    else:
+        typer.echo(f"mechwright: {path}: {words}", err=True)

@@ -3,8 +3,9 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
+from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 
@@ -20,6 +21,8 @@ class Table(Plugin, Generic[V]):
 
     kind = "table"
     plural = "tables"
+    settings: ClassVar[type[Parameters] | None] = None
+    """The model of its keys, whose bounds and choices a search for remedies keeps to; None if it has none."""
 
     @abstractmethod
     def read(self, content: object, path: Path) -> V:

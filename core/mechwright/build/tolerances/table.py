@@ -25,6 +25,7 @@ class TolerancesTable(Table[Tolerances]):
     """Reads and writes ``[tolerances]``."""
 
     name = "tolerances"
+    settings = ToleranceSettings
 
     def read(self, content: object, path: Path) -> Tolerances:
         """The settings, and what single contributors have of their own."""

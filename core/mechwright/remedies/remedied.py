@@ -1,0 +1,72 @@
+"""Findings with remedies that were tried: what ``check`` prints."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.designs.design import Design
+from mechwright.remedies.bench import Bench, Limits
+from mechwright.remedies.nearest import MOST_CHANGES, nearest
+from mechwright.remedies.search import Worth, best_step, refined, related, worth
+from mechwright.remedies.words import said
+
+CHECKED = Limits()
+"""For ``check`` and for what is refused."""
+
+
+def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
+    """The findings that a bench's judge has of its design, each with the change that removes it.
+
+    An error that no change of one key removes without a new error gets the nearest design that builds.
+    ``remedy`` then says the change, or what was tried where nothing helped.
+    """
+    findings = list(findings)
+    grave = [finding for finding in findings if _grave(finding)]
+    # What removes several errors at once is sought first, before the tries are spent on each by itself.
+    whole = nearest(bench) if len(grave) > 1 else None
+    alone = [_alone(bench, finding) for finding in findings]
+    if whole is None and any(
+        _grave(one) and change is None for one, change in zip(findings, alone, strict=True)
+    ):
+        whole = nearest(bench)
+    if whole is not None and len(whole) > MOST_CHANGES:
+        whole = None
+    return [
+        _with(bench, finding, alone[number] or (whole if _grave(finding) else None))
+        for number, finding in enumerate(findings)
+    ]
+
+
+def tried(design: Design, findings: Iterable[Finding], limits: Limits = CHECKED) -> list[Finding]:
+    """What the family finds of a design, with remedies that the family was asked about.
+
+    Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
+    """
+    return remedied(Bench(design, lambda one: one.family.check(one.params), limits=limits), findings)
+
+
+def _grave(finding: Finding) -> bool:
+    return finding.severity is Severity.ERROR
+
+
+def _alone(bench: Bench, finding: Finding) -> Change | None:
+    """The smallest change of one key, or the first proposed, that removes a finding and spoils nothing."""
+    if finding.severity is Severity.NOTE:
+        return None
+    before = bench.errors({}) or []
+    best = best_step(bench, finding, {}, before)
+    if best is None or best.worth > Worth.HELPS:
+        return None
+    if best.change in finding.proposed:
+        return best.change
+    return refined(bench, finding, before, best.change)
+
+
+def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
+    if finding.severity is Severity.NOTE:
+        return finding
+    if change is not None and worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS:
+        return replace(finding, fix=change, remedy=said(bench, change))
+    tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
+    ended = f" in {bench.tries} tries" if bench.spent else ""
+    return replace(finding, remedy=f"no remedy found by changing {tried}{ended}")
