@@ -46,9 +46,21 @@ HIDDEN = {
         "slider-crank.crank-web",
     ),
     "no order of layers": ("slider-crank", {"crank": 30, "rod": 41, "offset": 10}, "slider-crank.layers"),
-    "driver of eight straight slots": ("geneva", {"law": "straight", "slots": 8}, "geneva.driver"),
-    "undercut slots": ("geneva", {"offset_angle": -10, "roller_radius": 10}, "geneva.undercut"),
-    "mouths that overlap": ("geneva", {"roller_radius": 20}, "geneva.mouth"),
+    "driver of eight straight slots": (
+        "geneva",
+        {"law": "straight", "slots": 8, "entry_radius": 100, "driver_bore": 30},
+        "geneva.driver",
+    ),
+    "undercut slots": (
+        "geneva",
+        {"entry_radius": 100, "crank_half_angle": 50, "offset_angle": -10, "roller_radius": 10},
+        "geneva.undercut",
+    ),
+    "mouths that overlap": (
+        "geneva",
+        {"entry_radius": 100, "crank_half_angle": 50, "offset_angle": 5, "roller_radius": 20},
+        "geneva.mouth",
+    ),
     "no length of the rollers": ("geneva", {"thickness": 2, "floor": 1.8}, "geneva.floor"),
     "pins too near on a small sphere": ("spherical", {"radius": 10}, "spherical.shafts"),
 }

@@ -105,6 +105,7 @@ def test_every_slot_of_the_geneva(case):
         "crank_half_angle": half,
         "offset_angle": offset,
         "roller_radius": roller,
+        "entry_radius": 100,
     }
     motion = moving("geneva", **parameters)
     assert motion.scalars["index_angle"].value == pytest.approx(2 * math.pi / slots)

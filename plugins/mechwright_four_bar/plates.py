@@ -63,7 +63,10 @@ def layout_of(params: FourBarParams) -> Layout:
 
 def _turn(params: FourBarParams) -> dict[str, Poses]:
     """Poses of all bodies over the motion, seen from the ground."""
-    bar, phi = bar_of(params), course_of(params).way(STACK_SAMPLES)
+    bar, course = bar_of(params), course_of(params)
+    if bar.lines_up and not course.rocks:
+        raise GeometryError("ground: all links line up, and nothing decides which way they go on")
+    phi = course.way(STACK_SAMPLES)
     still = replace(bar, ground_angle=0.0)
     bodies = close(still, phi - bar.ground_angle).bodies(still, 1.0)
     ground = BodyMotion.about(0j, Turning.of(np.zeros_like(phi)))

@@ -29,7 +29,6 @@ class TestSpherical(FamilyContract):
         ({"five_bar": {"projection_length": 0}}, "five_bar.projection_length"),
         ({"four_bar": {"ground": 70}}, "four_bar"),
         ({**FOUR_BAR, "four_bar": {"ground": 180}}, "four_bar.ground"),
-        ({**FOUR_BAR, "four_bar": {"ground": 20}}, "hardware.boss_diameter"),
         ({**FOUR_BAR, "four_bar": {"input": 100, "travel": 360}}, "four_bar.travel"),
         ({**FOUR_BAR, "four_bar": {"ground": 170, "input": 20, "output": 20}}, "four_bar.travel"),
         ({**FOUR_BAR, "drive": {"gears": False}, "flat": {"make": False}}, "drive"),
