@@ -44,7 +44,7 @@ def test_fix_shows_the_difference_and_writes_nothing(run: Run, short: Path) -> N
     assert changes
     assert all(" = " in line and "(now " in line for line in changes)
     assert f"--- {short}" in lines
-    assert any(line.startswith("+rim = ") for line in lines)
+    assert any(line.startswith("+") and " = " in line for line in lines)
     assert "nothing was written" in lines[-1]
     assert short.read_text(encoding="utf-8") == SHORT
     assert list(short.parent.iterdir()) == [short]
