@@ -10,16 +10,22 @@ import pytest
 Run = Callable[..., tuple[int, str, str]]
 
 SHORT = """\
-# a small linkage
+# a short crank
 format = 1
 family = "four-bar"
 
 [parameters]
-ground = 9  # between the shafts
+ground = 90  # between the shafts
+crank = 9.0
+coupler = "80 mm"
+"""
+SMALL = """\
+family = "four-bar"
+[parameters]
+ground = 9
 crank = 3.0
 coupler = 8
 follower = 7
-pin_diameter = "1/16 in"
 """
 
 
@@ -55,7 +61,7 @@ def test_what_fix_writes_passes_its_check_and_keeps_the_comments(run: Run, short
     assert code == 0
     assert short.read_text(encoding="utf-8") == SHORT
     new = short.with_name("new.toml").read_text(encoding="utf-8")
-    assert new.startswith("# a small linkage\n")
+    assert new.startswith("# a short crank\n")
     assert tomllib.loads(new) != tomllib.loads(SHORT)
     code, out, _ = run("fix", short.with_name("new.toml"), "--to", "parts")
     assert (code, out) == (0, f"{short.with_name('new.toml')}: can be built as it is\n")
@@ -135,7 +141,7 @@ def test_fix_as_json(run: Run, short: Path) -> None:
 
 def test_a_small_linkage_comes_to_build_up_to_its_programs(run: Run, short: Path) -> None:
     """The nearest for its parts alone has walls that no tab holds while they are cut: another is taken."""
-    short.write_text(SHORT.replace('pin_diameter = "1/16 in"\n', ""), encoding="utf-8")
+    short.write_text(SMALL, encoding="utf-8")
     target = short.with_name("new.toml")
     code, out, _ = run("fix", short, "-o", target)
     assert code == 0, out
