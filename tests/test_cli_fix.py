@@ -179,3 +179,40 @@ def test_what_is_refused_tells_them_too(run: Run, short: Path) -> None:
     assert code == 1
     assert "; set " in err
     assert all(line.startswith(f"mechwright: {short}: error [four-bar.bores]") for line in err.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("parameters", "code"),
+    [
+        ("keyway_width = 3\n", "gear.cut-key"),
+        ("eccentricity = 0.5\nsemi_major = 40\nteeth = 50\n", "gear.cut-mesh"),
+    ],
+)
+def test_what_cutters_leave_is_told_with_a_proposal_that_works(
+    run: Run, tmp_path: Path, parameters: str, code: str
+) -> None:
+    path = tmp_path / "gear.toml"
+    path.write_text(f'family = "elliptic-gears"\n[parameters]\n{parameters}', encoding="utf-8")
+    found = json.loads(run("check", path, "--json")[1])["findings"]
+    (wrong,) = [one for one in found if one["severity"] == "error"]
+    assert wrong["code"] == code
+    ((key, value),) = wrong["fix"].items()
+    assert wrong["remedy"].startswith(f"set {key.removeprefix('parameters.')} = {value}")
+    table, _, name = key.rpartition(".")
+    line = f"{name} = {value}\n"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text + (line if table == "parameters" else f"[{table}]\n{line}"), encoding="utf-8")
+    assert run("check", path)[0] == 0
+
+
+def test_a_thin_plate_has_lower_tabs_unless_their_height_is_given(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "thin.toml"
+    thin = 'family = "elliptic-gears"\n[parameters]\nthickness = 1\n'
+    path.write_text(thin, encoding="utf-8")
+    assert run("cam", path, "-o", tmp_path / "out")[0] == 0
+    path.write_text(thin + "[cam.hold]\ntab_height = 1.0\n", encoding="utf-8")
+    code, out, _ = run("check", path)
+    assert code == 1
+    assert (
+        "cam.hold.tab_height: 1 mm is not below the thickness of 1 mm; set it to 0.5, or leave it out" in out
+    )

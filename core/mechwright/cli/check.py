@@ -10,7 +10,7 @@ from mechwright.build.tolerances import KEYS, as_data, as_text, required_analysi
 from mechwright.cli.hosting import open_host
 from mechwright.cli.telling import tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
-from mechwright.remedies import tried
+from mechwright.remedies import proposed_tried, tried
 
 
 def findings_of(build: Build) -> list[Finding]:
@@ -20,7 +20,7 @@ def findings_of(build: Build) -> list[Finding]:
         asked = sorted(build.host.all(Inspection), key=lambda one: one.order)
         for one in asked:
             if build.wanted.command in one.commands:
-                found += one.findings(build)
+                found += proposed_tried(build, one, one.findings(build))
     return found
 
 

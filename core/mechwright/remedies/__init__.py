@@ -20,7 +20,17 @@ from the present one outwards; the nearest design that builds. A search ends aft
 
 from mechwright.remedies.bench import Bench, Limits
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
-from mechwright.remedies.remedied import remedied, tried
+from mechwright.remedies.remedied import proposed_tried, remedied, tried
 from mechwright.remedies.repair import Repair, repaired
 
-__all__ = ["MOST_CHANGES", "Bench", "Limits", "Repair", "nearest", "remedied", "repaired", "tried"]
+__all__ = [
+    "MOST_CHANGES",
+    "Bench",
+    "Limits",
+    "Repair",
+    "nearest",
+    "proposed_tried",
+    "remedied",
+    "repaired",
+    "tried",
+]

@@ -1,12 +1,14 @@
 """Findings with remedies that were tried: what ``check`` prints."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.build import Build, Inspection
+from mechwright.contracts.finding import Change, Finding, Severity, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.bench import Bench, Limits
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
+from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import Worth, best_step, refined, related, worth
 from mechwright.remedies.words import said
 
@@ -43,6 +45,27 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits = CHECKED)
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
     return remedied(Bench(design, lambda one: one.family.check(one.params), limits=limits), findings)
+
+
+def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
+    """What an inspection finds of a build, with the first of what each finding proposes that removes it.
+
+    Nothing else is tried: a design takes an inspection a second or so. A finding whose proposals all fail
+    keeps its words.
+    """
+
+    def ask(one: Build) -> Sequence[Finding]:
+        return () if errors(one.findings) else inspection.findings(one)
+
+    judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
+    bench = Bench(build.design, judge, inspection.stage, INSPECTED)
+    told = []
+    for finding in findings:
+        before = errors([finding])
+        held = (one for one in finding.proposed if worth(bench, finding, before, one) <= Worth.HELPS)
+        change = next(held, None)
+        told.append(finding if change is None else replace(finding, fix=change, remedy=said(bench, change)))
+    return told
 
 
 def _grave(finding: Finding) -> bool:
