@@ -3,7 +3,6 @@
 import importlib.util
 import os
 import shutil
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -43,21 +42,12 @@ def pytest_configure() -> None:
 
 
 @pytest.fixture
-def command_line(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> Callable[..., tuple[int, str, str]]:
+def command_line() -> Callable[..., tuple[int, str, str]]:
     """Call the command line in this process: exit code, standard output, standard error."""
-    from mechwright.cli import main
+    from mechwright.testing import commands
 
     def call(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["mechwright", *map(str, arguments)])
-        capsys.readouterr()
-        try:
-            main()
-            code = 0
-        except SystemExit as stop:
-            code = int(stop.code or 0)
-        said = capsys.readouterr()
-        return code, said.out, said.err
+        done = commands.run(*arguments)
+        return done.returncode, done.stdout, done.stderr
 
     return call

@@ -13,6 +13,7 @@ import pytest
 from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage, until_error
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
+from mechwright.remedies import Limits, tried
 
 Run = Callable[..., tuple[int, str, str]]
 TRAIN = tomllib.loads((Path(__file__).parents[1] / "examples" / "figure-eight-train.toml").read_text())[
@@ -21,7 +22,9 @@ TRAIN = tomllib.loads((Path(__file__).parents[1] / "examples" / "figure-eight-tr
 
 
 @pytest.fixture
-def run(command_line: Run) -> Run:
+def run(command_line: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """The command line, which here looks for remedies but shortly: they are the subject of other tests."""
+    monkeypatch.setattr(tried, "__defaults__", (Limits(tries=5),))
     return command_line
 
 

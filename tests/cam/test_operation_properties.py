@@ -4,14 +4,14 @@ import re
 
 import numpy as np
 import pytest
+from by_night import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from random_parts import OPERATIONS, Outcome, named, run, without
 
 from mechwright_cam.plane.contour import LEFT
 
-EXAMPLES = {"adaptive": 2, "slot": 3}
-"""The slow ones; every other operation has five."""
+SLOW = {"adaptive", "slot"}
 REASON = re.compile(r"(error \[cam\.[a-z-]+\] )?(cam\.[a-z_.]+: |part plate)")
 """How the reasons of planning begin: with the key of the design file, or with the part."""
 
@@ -38,7 +38,7 @@ def check(outcome: Outcome) -> None:
 
 @pytest.mark.parametrize("operation", OPERATIONS)
 def test_any_part_is_proven_or_refused(operation: str) -> None:
-    @settings(max_examples=EXAMPLES.get(operation, 5))
+    @settings(max_examples=examples(1 if operation in SLOW else 2, 10))
     @given(seed=st.integers(0, 10**9))
     def every(seed: int) -> None:
         check(run(operation, seed))
@@ -71,7 +71,7 @@ TABLES = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=12)
+@settings(max_examples=examples(4, 24))
 @given(
     operation=st.sampled_from(sorted(OPERATIONS)),
     seed=st.integers(0, 10**9),

@@ -2,8 +2,6 @@
 
 import importlib.util
 import json
-import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -13,6 +11,7 @@ from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Pocket
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
+from mechwright.testing.commands import run
 from mechwright.tolerances import TOLERANCES
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
@@ -29,16 +28,6 @@ def rs274():
     sys.modules["rs274"] = module
     spec.loader.exec_module(module)
     return module
-
-
-def run(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "mechwright", *map(str, arguments)],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module", params=list(EXAMPLES))

@@ -2,13 +2,13 @@
 
 import importlib.util
 import re
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
+from mechwright.testing.commands import run
 from mechwright_slider_crank.__main__ import main
 from mechwright_slider_crank.family import SliderCrankFamily
 
@@ -72,11 +72,6 @@ def test_lengths_without_a_locus_are_one_line(arguments, words, capsys):
 
 
 EXAMPLES = sorted((ROOT / "examples").glob("slider-crank-*.toml"))
-
-
-def run(*arguments):
-    command = [sys.executable, "-m", "mechwright", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize("path", [p for p in EXAMPLES if "requirement" not in p.name], ids=lambda p: p.stem)

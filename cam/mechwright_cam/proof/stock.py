@@ -35,6 +35,8 @@ ASKED, COMPARED, GROWN = 500, 20, 25
 """What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs."""
 MOST_WORK = 10_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
+NEARBY = 64
+"""Cuts within this part of the widest mill's room are asked first whether they have made it."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -146,23 +148,33 @@ class Stock:
         at = np.flatnonzero(flat & (paths.run.kind[steps] != Kind.ARC))
         if not at.size or not self.cuts.size:
             return found
-        of, tree = self._cut_lines
         widest = max(float(np.nanmax(paths.radius)) - radius, 0.0)
+        for within in (widest / NEARBY, widest):  # mostly, what is close by has made the room
+            left = at[~found[at]]
+            found[left] = self._roomy(steps[left], within, lift, radius)
+        return found
+
+    def _roomy(self, steps: Ints, within: float, lift: float, radius: float) -> NDArray[np.bool_]:
+        """Which of the steps (k,), straight down, have their room of one cut that passes so near."""
+        paths, found = self.paths, np.zeros(steps.size, dtype=np.bool_)
+        of, tree = self._cut_lines
         # Passes go down at the same places: each is asked for once.
-        places, where = np.unique(np.round(paths.end[steps[at], :2], 9), axis=0, return_inverse=True)
+        places, where = np.unique(np.round(paths.end[steps, :2], 9), axis=0, return_inverse=True)
         middles, where = shapely.points(places), where.ravel()
-        asked, line = tree.query(middles, predicate="dwithin", distance=widest)
+        asked, line = tree.query(middles, predicate="dwithin", distance=within)
         order = np.argsort(asked, kind="stable")
         asked, line = asked[order], line[order]
         first, last = np.searchsorted(asked, where), np.searchsorted(asked, where, side="right")
-        place = np.repeat(np.arange(at.size), last - first)
+        place = np.repeat(np.arange(steps.size), last - first)
         line = line[np.arange(place.size) - np.repeat(np.cumsum(last - first) - last, last - first)]
-        step, cut = steps[at[place]], of[line]
+        before = of[line] < steps[place]
+        place, line = place[before], line[before]
+        step, cut = steps[place], of[line]
         above = paths.low[step] + lift - np.maximum(paths.start[cut, 2], paths.end[cut, 2])
         spare = paths.cutters(cut).radius_at(above + NEAR) - radius
-        sure = np.flatnonzero((cut < step) & (above > -NEAR) & (spare > 0))
+        sure = np.flatnonzero((above > -NEAR) & (spare > 0))
         place, line, spare = place[sure], line[sure], spare[sure]
-        found[at[place[shapely.dwithin(tree.geometries[line], middles[where[place]], spare)]]] = True
+        found[place[shapely.dwithin(tree.geometries[line], middles[where[place]], spare)]] = True
         return found
 
     def meets(

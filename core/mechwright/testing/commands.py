@@ -1,19 +1,51 @@
-"""What a fresh interpreter sees: the command line as a user would call it, and what an import brings in."""
+"""What the command line says of a design file, and what an import brings into a fresh interpreter."""
 
+import contextlib
+import io
 import json
 import os
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mechwright.cli import main
 from mechwright.designs.text import toml
 
 _COLLISION = "interference.collision"
 """Code of the finding that two bodies collide."""
 HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
 """Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a command has ended with."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+def run(*arguments: object) -> Done:
+    """Run the whole command line in this process: a new one would import again all that is here.
+
+    >>> run("--version").returncode
+    0
+    """
+    out, err, given = io.StringIO(), io.StringIO(), sys.argv
+    code: object = 0
+    try:
+        sys.argv = ["mechwright", *map(str, arguments)]
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            main()
+    except SystemExit as stop:
+        code = stop.code
+    finally:
+        sys.argv = given
+    return Done(code if isinstance(code, int) else int(code is not None), out.getvalue(), err.getvalue())
 
 
 def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]]:
@@ -53,12 +85,10 @@ def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list
     return [finding["message"] for finding in findings if finding["code"] == _COLLISION]
 
 
-def _run(
-    design: Mapping[str, Any], folder: Path, command: str, *options: str | Path
-) -> subprocess.CompletedProcess[str]:
+def _run(design: Mapping[str, Any], folder: Path, command: str, *options: str | Path) -> Done:
     file = folder / "design.toml"
     file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
-    return _python("-m", "mechwright", command, file, *options)
+    return run(command, file, *options)
 
 
 def heavy_imports(module: str) -> list[str]:
@@ -68,17 +98,13 @@ def heavy_imports(module: str) -> list[str]:
     []
     """
     words = f"import sys, importlib; importlib.import_module({module!r}); print(*sorted(sys.modules))"
-    done = _python("-c", words)
-    if done.returncode:
-        raise AssertionError(f"import {module} fails:\n{done.stderr}")
-    return sorted(set(done.stdout.split()) & set(HEAVY))
-
-
-def _python(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(  # noqa: S603 - our own interpreter and our own words
-        [sys.executable, *words],
+    done = subprocess.run(  # noqa: S603 - our own interpreter and our own words
+        [sys.executable, "-c", words],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,
         check=False,
     )
+    if done.returncode:
+        raise AssertionError(f"import {module} fails:\n{done.stderr}")
+    return sorted(set(done.stdout.split()) & set(HEAVY))
