@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
@@ -223,7 +224,7 @@ def example(name):
     return load(EXAMPLES / f"{name}.toml", host())
 
 
-@settings(deadline=None, max_examples=8, suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, max_examples=examples(3, 16), suppress_health_check=[HealthCheck.too_slow])
 @given(
     place=st.sampled_from(
         [

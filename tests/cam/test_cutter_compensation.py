@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import BY_NAME, LINUXCNC, prove, read, setup_html, summary_html
+from by_night import examples
 from golden_compensation import CONTROLS, FOLDER, WAYS, made, texts
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
@@ -232,7 +233,7 @@ def test_a_wear_as_large_as_the_cutter_is_refused() -> None:
     st.booleans(),
     st.sampled_from(["linuxcnc", "fanuc"]),
 )
-@settings(max_examples=10)
+@settings(max_examples=examples(4, 20))
 def test_random_plates_are_proven_or_refused(loop, way, mill, wear, climb, control) -> None:
     """Corners of both kinds, sharp or round, narrower than the cutter or not."""
     try:
@@ -254,7 +255,7 @@ def test_random_plates_are_proven_or_refused(loop, way, mill, wear, climb, contr
 
 
 @given(plates(), st.sampled_from([(3.0, 0.0), (3.0, 3.0), (1.5, 0.0)]), st.sampled_from([1, -1]))
-@settings(max_examples=16)
+@settings(max_examples=examples(6, 30))
 def test_a_contour_is_the_parallel_of_its_ring(loop, sizes: tuple[float, float], side: int) -> None:
     """Moved back by the inset, it is the ring again, all along; and no inside arc is narrower than that."""
     radius, base = sizes

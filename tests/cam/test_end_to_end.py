@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import interpret, prove
+from by_night import examples
 from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
@@ -261,7 +262,7 @@ WIDE_CLAMP = {
 }
 
 
-@settings(max_examples=15)
+@settings(max_examples=examples(5, 25))
 @known_design(**WEDGES)
 @known_design(**WIDE_CLAMP)
 @given(parameters=DESIGNS, cam=SETTINGS)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove, steps
+from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -254,7 +255,7 @@ def test_the_sheet_says_where_the_jaws_are():
 
 
 @settings(
-    max_examples=8,
+    max_examples=examples(3, 12),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],

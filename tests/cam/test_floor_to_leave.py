@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from by_control import prove
+from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -122,7 +123,7 @@ def test_the_floor_pass_meets_what_was_left_and_no_more():
 
 
 @settings(
-    max_examples=8,
+    max_examples=examples(3, 12),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, rounded_box
@@ -45,7 +46,7 @@ def box(name, width, height, count=1):
 sizes = st.tuples(st.floats(5, 80), st.floats(5, 80), st.integers(1, 4))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(15, 60), deadline=None)
 @given(boxes=st.lists(sizes, min_size=1, max_size=7), gap=st.floats(1, 30), turn=st.booleans())
 def test_every_copy_lies_once_and_keeps_its_distance(boxes, gap, turn):
     parts = [box(f"part-{i}", *size) for i, size in enumerate(boxes)]
@@ -60,7 +61,7 @@ def test_every_copy_lies_once_and_keeps_its_distance(boxes, gap, turn):
     assert turn or all(one.angle == 0 for one in nest.placed)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(10, 40), deadline=None)
 @given(boxes=st.lists(sizes, min_size=1, max_size=6), length=st.floats(60, 400), width=st.floats(60, 400))
 def test_on_a_given_plate_all_lie_inside_or_the_plate_that_would_do_is_named(boxes, length, width):
     parts = [box(f"part-{i}", *size) for i, size in enumerate(boxes)]
@@ -102,7 +103,7 @@ def random_plate(rng, name):
     return Part(name, Outline(outer, (hole,)), 3.0, "aluminium", instances, machined=machined)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(examples(2, 8)))
 def test_random_nests_are_planned_and_proven(seed):
     rng = np.random.default_rng(seed)
     parts = [random_plate(rng, f"p{i}") for i in range(int(rng.integers(2, 4)))]

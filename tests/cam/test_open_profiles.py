@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -171,7 +172,7 @@ def test_turned_over_and_nested_it_is_the_same_strip():
 
 
 @settings(
-    max_examples=8,
+    max_examples=examples(3, 12),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],

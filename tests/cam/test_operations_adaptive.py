@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from engagement import engagements
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -57,7 +58,7 @@ def test_engagement_stays_below_the_angle(area, angle, climb):
         assert found.max() > angle / 2  # and is used
 
 
-@settings(max_examples=4, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(2, 8), deadline=None, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 10**6), angle=st.sampled_from([60, 80, 100]))
 def test_engagement_in_random_areas(seed, angle):
     rng = np.random.default_rng(seed)

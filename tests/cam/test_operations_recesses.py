@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
@@ -275,7 +276,7 @@ def random_recess(rng):
     return loop
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(5, 30), deadline=None, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 10**9))
 def test_any_recesses_are_cut_or_refused(seed):
     rng = np.random.default_rng(seed)

@@ -3,6 +3,7 @@ import re
 
 import pytest
 import shapely
+from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, keyed_bore, lobes, part, plate
@@ -123,7 +124,7 @@ def test_findings():
     assert [f.code for f in note] == ["cam.slender", "cam.deflection"]
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(8, 40), deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     count=st.integers(3, 12),
     radius=st.floats(8, 30),

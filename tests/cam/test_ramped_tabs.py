@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
+from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -192,7 +193,7 @@ def test_tab_sites_without_room_for_slopes_are_refused():
 
 
 @settings(
-    max_examples=4,
+    max_examples=examples(2, 8),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.explicit, Phase.reuse, Phase.generate],

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import BY_NAME, interpret, prove, setup_html, steps
+from by_night import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
@@ -333,7 +334,7 @@ def test_second_sides_on_every_control(control) -> None:
     depth=st.floats(0.5, 5),
     flip=st.sampled_from(["x", "y"]),
 )
-@settings(max_examples=6)
+@settings(max_examples=examples(2, 12))
 def test_random_underside_pockets_are_proven_or_refused(x, y, width, depth, flip) -> None:
     pocket = Pocket("pocket", rounded_box(width, 6.0, 2.2).moved(x, y), (), THICKNESS - depth, depth)
     jobs, found = lay_out_setups(part(pocket), cam(second_side={"flip": flip}), LIBRARY)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import interpret
+from by_night import by_night
 from rs274 import needs_rs274, run_rs274
 from step_read import parts_from_step, read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
@@ -41,7 +42,7 @@ class Built:
     findings: tuple[object, ...]
 
 
-@pytest.fixture(scope="module", params=["train", "best"])
+@pytest.fixture(scope="module", params=["train", pytest.param("best", marks=by_night)])
 def built(request: pytest.FixtureRequest) -> Built:
     design = load(EXAMPLES / f"figure-eight-{request.param}.toml", host())
     parts = tuple(design.family.parts(design.params))

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from by_night import by_night
 
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Pocket
@@ -19,6 +20,8 @@ from mechwright_geneva.params import GenevaParams
 ROOT = Path(__file__).parents[2]
 EXAMPLES = {"cycloidal": "build", "prototype": "build", "straight": "cam", "twelve-stops": "cam"}
 """How much of each is made here; the contract models a straight wheel, whose roller takes long to compare."""
+LIKE = {"prototype", "twelve-stops"}
+"""Those that are like another one are made by night."""
 
 
 def rs274():
@@ -30,7 +33,9 @@ def rs274():
     return module
 
 
-@pytest.fixture(scope="module", params=list(EXAMPLES))
+@pytest.fixture(
+    scope="module", params=[pytest.param(name, marks=by_night if name in LIKE else ()) for name in EXAMPLES]
+)
 def built(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param) / "out"
     done = run(EXAMPLES[request.param], ROOT / "examples" / f"geneva-{request.param}.toml", "-o", folder)
@@ -121,7 +126,7 @@ def test_a_straight_wheel_is_cut_through():
     assert len([s for s in wheel.outline.outer.segments if s.tag == "slot"]) == 3 * 6
 
 
-@pytest.mark.parametrize(("slots", "law"), [(3, "cycloidal"), (12, "4-5-6-7")])
+@pytest.mark.parametrize(("slots", "law"), [pytest.param(3, "cycloidal", marks=by_night), (12, "4-5-6-7")])
 def test_a_number_of_slots_builds_end_to_end(tmp_path, slots, law):
     """The widest and the narrowest curved slots: solids without interference, programs proven, as made it runs."""
     table = f'slots = {slots}\nlaw = "{law}"\nmaterial = "aluminium"\n'

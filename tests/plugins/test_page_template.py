@@ -21,10 +21,13 @@ def installed(copy, tmp_path_factory):
     return installed_into(tmp_path_factory.mktemp("installed"), copy)
 
 
-def made(command, cwd, *installed):
-    done = run(["-m", "mechwright", command, DESIGN, "-o", command], *installed, cwd=cwd)
+MAKE = """
+import sys
+from mechwright.testing.commands import run
+for command in sys.argv[2:]:
+    done = run(command, sys.argv[1], "-o", command)
     assert done.returncode == 0, done.stderr
-    return {path.name: path for path in (cwd / command).iterdir()}
+"""
 
 
 def test_the_page_is_one_file_and_a_registration(copy):
@@ -32,14 +35,19 @@ def test_the_page_is_one_file_and_a_registration(copy):
 
 
 def test_the_listing_names_it(installed, tmp_path):
-    done = run(["-m", "mechwright", "families", "--json"], installed, cwd=tmp_path)
-    told = json.loads(done.stdout)
+    command = ["-m", "mechwright", "families", "--json"]
+    told = json.loads(run(command, installed, cwd=tmp_path).stdout)
     assert "bill-of-materials" in told["pages"]
     assert told["broken"] == []
+    assert "bill-of-materials" not in json.loads(run(command, cwd=tmp_path).stdout)["pages"]
 
 
 def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
-    model, build = made("model", tmp_path, installed), made("build", tmp_path, installed)
+    done = run(["-c", MAKE, DESIGN, "model", "cam", "build"], installed, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    model, cam, build = (
+        {path.name: path for path in (tmp_path / command).iterdir()} for command in ("model", "cam", "build")
+    )
     assert model.keys() >= NAMES <= build.keys()
     assert [build[name].read_bytes() for name in NAMES] == [model[name].read_bytes() for name in NAMES]
     lines = list(csv.DictReader(io.StringIO(model["bill-of-materials.csv"].read_text(encoding="utf-8"))))
@@ -49,8 +57,7 @@ def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
     assert all(float(line["mass_g"]) > 0 for line in lines)
     manifest = json.loads(model["manifest.json"].read_text(encoding="utf-8"))
     assert set(manifest["outputs"]) >= NAMES
-    assert not made("cam", tmp_path, installed).keys() & NAMES
-    assert not made("model", tmp_path).keys() & NAMES, "it is not installed"
+    assert not cam.keys() & NAMES
 
 
 def test_its_own_tests_pass(installed, copy):
