@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
@@ -36,7 +37,9 @@ def twisted(family, params, samples, solve):
     return Motion(motion.input_name, motion.channels, poses, motion.scalars)
 
 
-@pytest.mark.parametrize("command", ["check", "cam", "model", "build"])
+@pytest.mark.parametrize(
+    "command", ["check", pytest.param("cam", marks=by_night), pytest.param("model", marks=by_night), "build"]
+)
 def test_a_collision_stops_every_command_and_names_the_bodies(command, design, tmp_path, monkeypatch):
     family = type(host().family("elliptic-gears"))
     solve = family.solve

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from as_made_builds import ROOT, built, example, facts, table
+from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.made_part import MadePart
@@ -112,6 +113,7 @@ def test_the_least_backlash_is_the_reference():
         assert 0 < jamming_backlash(params) < least_backlash(params) / 4
 
 
+@by_night
 def test_a_train_needs_its_play_on_each_flank():
     parts, said, params = example("figure-eight-train")
     made = {part.name: [part] for part in parts}
