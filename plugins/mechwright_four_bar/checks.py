@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.planar import swing
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
@@ -94,20 +96,17 @@ def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
             remedy,
         )
     one, two = params.swing_from, params.swing_to
-    middles = [math.degrees((low + high) / 2 + bar.ground_angle) for low, high in ways]
-    apart = [abs(math.remainder((one + two) / 2 - middle, 360)) for middle in middles]
-    low, high = (math.degrees(end + bar.ground_angle) for end in ways[apart.index(min(apart))])
-    turn = 360 * round(((one + two) - (low + high)) / 720)
-    worse = max(
-        ("swing_from", one), ("swing_to", two), key=lambda end: max(end[1] - high, low - end[1]) - turn
-    )
+    turned = [
+        (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
+    ]
+    key, value, limit = swing.past(turned, one, two)
     return Finding.error(
         "four-bar.swing",
-        worse[0],
+        key,
         f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
         f"{math.degrees(TURN_BACK):g} degree of transmission angle before its toggles",
-        worse[1],
-        (high if worse[1] > (low + high) / 2 + turn else low) + turn,
+        value,
+        limit,
         "deg",
         f"keep swing_from and swing_to within {said}",
     )
@@ -201,7 +200,19 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
         if is_lever(params)
         else f"make the {shortest} shorter, or change coupler and follower",
         Stage.PARTS,
+        _shorter_swing(params) if is_lever(params) else (),
     )
+
+
+def _shorter_swing(params: FourBarParams) -> tuple[Change, ...]:
+    """As much of a lever's swing as keeps a good transmission angle."""
+    bar, course = bar_of(params), course_of(params)
+    start, end = math.degrees(course.start), math.degrees(course.start + course.travel)
+    ways = reach(bar, math.radians(GOOD_TRANSMISSION))
+    turned = [
+        (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
+    ]
+    return swing.shortened(turned, start, end)
 
 
 @of_stage(Stage.PARTS)

@@ -6,9 +6,22 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_slider_crank.course import TURN_BACK, course_of, ends_of, least_of, period_of, reach, turns
+from mechwright_slider_crank.course import (
+    TURN_BACK,
+    course_of,
+    ends_of,
+    is_lever,
+    least_of,
+    period_of,
+    toggles,
+    turns,
+    ways,
+    within,
+)
 from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
@@ -43,7 +56,10 @@ def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether crank, rod and slider can be put together and move: all that a motion needs."""
-    if turns(params) or reach(params.crank, params.rod, params.offset, TURN_BACK) is not None:
+    if not is_lever(params) or within(params) is not None:
+        return
+    if ways(params, TURN_BACK):
+        yield _out_of_reach(params)
         return
     limit = params.crank + params.rod
     yield Finding.error(
@@ -58,10 +74,29 @@ def _joined(params: SliderCrankParams) -> Iterator[Finding]:
     )
 
 
+def _out_of_reach(params: SliderCrankParams) -> Finding:
+    """A swing that the links do not reach."""
+    found = [(math.degrees(low), math.degrees(high)) for low, high in ways(params, TURN_BACK)]
+    said = " or ".join(f"{low:.3f} to {high:.3f}" for low, high in found)
+    assert params.swing_from is not None  # noqa: S101 - left to itself a lever goes within its way
+    assert params.swing_to is not None  # noqa: S101
+    key, value, limit = swing.past(found, params.swing_from, params.swing_to)
+    return Finding.error(
+        "slider-crank.swing",
+        key,
+        f"the crank cannot swing from {params.swing_from:g} to {params.swing_to:g} degrees: it reaches "
+        f"{said} degrees, {math.degrees(TURN_BACK):g} degree before the rod stands across the slide",
+        value,
+        limit,
+        "deg",
+        f"keep swing_from and swing_to within {said}",
+    )
+
+
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:
     span = params.crank + abs(params.offset)
     limit = span * (1 + TURN_MARGIN)
-    if falls_short(params.rod, limit):
+    if params.swing_from is None and falls_short(params.rod, limit):
         yield _blocked(params, span, limit)
         if turns(params):
             return
@@ -78,7 +113,16 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
             "deg",
             f"make rod {wanted:.5g} mm or longer, or crank or offset smaller",
             Stage.PARTS,
+            _shorter_swing(params) if is_lever(params) else (),
         )
+
+
+def _shorter_swing(params: SliderCrankParams) -> tuple[Change, ...]:
+    """As much of a lever's swing as keeps the transmission angle."""
+    course = course_of(params)
+    start, end = math.degrees(course.start), math.degrees(course.start + course.travel)
+    found = ways(params, math.radians(LEAST_TRANSMISSION))
+    return swing.shortened([(math.degrees(low), math.degrees(high)) for low, high in found], start, end)
 
 
 def _blocked(params: SliderCrankParams, span: float, limit: float) -> Finding:
@@ -104,15 +148,17 @@ def _blocked(params: SliderCrankParams, span: float, limit: float) -> Finding:
         )
     course = course_of(params)
     low, high = (math.degrees(end) for end in sorted((course.start, course.start + course.travel)))
+    said = " and ".join(f"{math.degrees(end):.3f}" for end in toggles(params) or ())
     return Finding.warning(
         "slider-crank.crank-turn",
         "rod",
         f"the crank cannot turn fully, as a rod of {params.rod:g} mm does not span crank and offset, "
-        f"{span:.6g} mm: it is a lever that swings from {low:.3f} to {high:.3f} degrees",
+        f"{span:.6g} mm: it is a lever that swings from {low:.3f} to {high:.3f} degrees, its toggles at "
+        f"{said} degrees",
         params.rod,
         limit,
         "mm",
-        remedy,
+        f"say where it turns back with swing_from and swing_to, or {remedy}",
     )
 
 
