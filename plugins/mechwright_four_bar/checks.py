@@ -38,6 +38,9 @@ GOOD_TRANSMISSION = 40.0
 LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 """Degrees below which play and bending let the linkage change its branch."""
 
+SLOWEST = 1.0
+"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
+
 BEARING_PRESSURE = 10.0
 """N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
 
@@ -320,6 +323,36 @@ def _swing(params: FourBarParams, bar: FourBar) -> Finding:
     )
 
 
+def _stronger(params: FourBarParams, over: float) -> tuple[Change, ...]:
+    """Larger bearings, or less of what they carry, which is so many times ``over`` its limit.
+
+    Larger ones make heavier plates, so that more than the first may be needed.
+    """
+    pin, plate = params.pin_diameter, params.thickness
+    found: list[Change] = []
+    for share in (1.05, 1.2, 1.5):
+        much = over * share
+        found += [
+            {"parameters.pin_diameter": _half(much * pin)},
+            {"parameters.thickness": _half(much * plate)},
+            {
+                "parameters.pin_diameter": _half(math.sqrt(much) * pin),
+                "parameters.thickness": _half(math.sqrt(much) * plate),
+            },
+        ]
+    for share in (1.05, 1.2):
+        if params.load_torque != 0:
+            found.append({"parameters.load_torque": float(f"{params.load_torque / over / share:.2g}")})
+        if (speed := params.speed / math.sqrt(over) / share) >= SLOWEST:
+            found.append({"parameters.speed": float(f"{speed:.2g}")})
+    return tuple(found)
+
+
+def _half(size: float) -> float:
+    """The next half millimetre."""
+    return math.ceil(2 * size) / 2
+
+
 @of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
     peaks = peaks_of(params)
@@ -343,6 +376,7 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
             BEARING_PRESSURE,
             "N/mm^2",
             "take thicker pins or plates, a smaller load or a lower speed",
+            proposed=_stronger(params, pressure / BEARING_PRESSURE),
         )
     yield Finding.note(
         "four-bar.forces",

@@ -41,6 +41,9 @@ LEAST_WEB = 1.0
 MAX_PRESSURE = 20.0
 """Pressure of a pin on the plate it turns in, MPa: usual for greased bronze at low speed."""
 
+SLOWEST = 1.0
+"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
+
 MAX_BENDING = 250.0
 """Bending stress of a pin, MPa: a quarter of a hardened dowel's strength, since the load alternates."""
 
@@ -276,8 +279,8 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
             pressure,
             MAX_PRESSURE,
             "MPa",
-            f"use pins of {force / (MAX_PRESSURE * params.thickness):.3g} mm, a thicker plate, or less load "
-            "or speed",
+            "thicker pins, a thicker plate, or less load or speed",
+            proposed=_stronger(params, force / (MAX_PRESSURE * params.thickness), pressure / MAX_PRESSURE),
         )
     # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
     lever = params.gap + params.thickness / 2
@@ -290,8 +293,23 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
             bending,
             MAX_BENDING,
             "MPa",
-            f"use pins of {sizes.pin * (bending / MAX_BENDING) ** (1 / 3):.3g} mm, or less load or speed",
+            "thicker pins, or less load or speed",
+            proposed=_stronger(params, sizes.pin * (bending / MAX_BENDING) ** (1 / 3), bending / MAX_BENDING),
         )
+
+
+def _stronger(params: SliderCrankParams, pin: float, over: float) -> tuple[Change, ...]:
+    """Thicker pins, mm, or less of what they carry, which is so many times ``over`` its limit.
+
+    Thicker pins make heavier plates, so that more than the first may be needed.
+    """
+    found: list[Change] = [{"parameters.pin": math.ceil(2 * share * pin) / 2} for share in (1.0, 1.15, 1.4)]
+    for share in (1.05, 1.2):
+        if params.load != 0:
+            found.append({"parameters.load": float(f"{params.load / over / share:.2g}")})
+        if (speed := params.speed / math.sqrt(over) / share) >= SLOWEST:
+            found.append({"parameters.speed": float(f"{speed:.2g}")})
+    return tuple(found)
 
 
 def _figures(params: SliderCrankParams) -> Iterator[Finding]:

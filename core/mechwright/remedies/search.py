@@ -160,7 +160,7 @@ def drawn_back(bench: Bench, change: Change, keeps: Callable[[Change], bool]) ->
 
         return typed(key, closest(key, now, value, passes))
 
-    for path, value in change.items():
+    for path, value in sorted(change.items(), key=lambda item: -bench.weight(item[0])):
         key = bench.keys.get(path)
         now = bench.now(key) if key is not None else None
         if key is not None and key.numeric and value is not None and now is not None and not bench.spent:
