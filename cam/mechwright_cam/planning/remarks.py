@@ -49,13 +49,13 @@ def lay_out(
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
     except MechwrightError as error:
-        return None, [refusal(error)]
+        return None, [refusal(error, listed=settings.tools)]
     refused = list(assigned.refused)
     try:
         check_clamp(job)
     except DesignError as error:
         refused.append(error)
-    found = [refusal(error) for error in refused]
+    found = [refusal(error, listed=settings.tools) for error in refused]
     if not found:
         for task in assigned.tasks:
             found += task.operation.remarks(task, job)
@@ -76,13 +76,17 @@ def _idle(job: Job, tasks: Sequence[Task]) -> list[Tool]:
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
 
 
-def refusal(error: MechwrightError, code: str = "cam.cannot-cut") -> Finding:
-    """An error that names its parameter in front, as a finding."""
+def refusal(error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Sequence[str] = ()) -> Finding:
+    """An error that names its parameter in front, as a finding.
+
+    Where the design has ``listed`` its cutters the program may choose others, if it is let.
+    """
     text = str(error)
     parameter, _, message = text.partition(": ")
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
-    return Finding.error(code, parameter, message)
+    proposed = ({"cam.tools": None},) if parameter == "cam.tools" and listed else ()
+    return Finding.error(code, parameter, message, proposed=proposed)
 
 
 def _idling(job: Job, mill: Tool) -> Finding:

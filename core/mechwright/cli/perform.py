@@ -97,7 +97,7 @@ def _make(
             step(one.doing)
             try:
                 told[one.name] = list(one.findings(build))
-                if any(finding.proposed for finding in told[one.name]):
+                if any(finding.severity is not Severity.NOTE for finding in told[one.name]):
                     from mechwright.remedies import proposed_tried
 
                     told[one.name] = proposed_tried(build, one, told[one.name])
