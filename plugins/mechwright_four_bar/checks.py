@@ -112,6 +112,7 @@ def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
         limit,
         "deg",
         f"keep swing_from and swing_to within {said}",
+        proposed=(*swing.shortened(turned, one, two), swing.LEFT_OUT),
     )
 
 

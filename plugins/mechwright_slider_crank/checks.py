@@ -93,6 +93,7 @@ def _out_of_reach(params: SliderCrankParams) -> Finding:
         limit,
         "deg",
         f"keep swing_from and swing_to within {said}",
+        proposed=(*swing.shortened(found, params.swing_from, params.swing_to), swing.LEFT_OUT),
     )
 
 

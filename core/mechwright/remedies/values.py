@@ -19,7 +19,10 @@ _ROUNDING = 0.02
 _HALVINGS = 5
 """Times that the gap between a value that fails and one that passes is halved."""
 _OTHER = 0.7
-"""Distance of another choice, and of a value from none: as a number that doubles."""
+"""Distance of another choice, and of none from a value: as a number that doubles."""
+_NEW = 1.4
+"""Distance of a value from none, as a number that is four times as large: what is left out follows from other
+sizes, and is in proportion to them."""
 
 
 def round_to(value: float, digits: int = _DIGITS) -> float:
@@ -109,7 +112,7 @@ def distance(key: Key, old: Any, new: Any) -> float:
     if old == new:
         return 0.0
     if not key.numeric or old is None or new is None:
-        return _OTHER
+        return _NEW if key.numeric and old is None else _OTHER
     if old > 0 and new > 0:
         return abs(math.log(new / old))
     if key.unit == "deg":

@@ -20,6 +20,9 @@ LEAST = 1.0
 """Degrees. A swing that is shorter is not proposed."""
 _KEYS = ("parameters.swing_from", "parameters.swing_to")
 
+LEFT_OUT: Change = dict.fromkeys(_KEYS)
+"""The change to a lever that goes as far as it can."""
+
 
 def within(ways: Sequence[Way], one: float, two: float) -> Way | None:
     """The swing from ``one`` to ``two`` on the way that has room for it; None where none has. All in rad.
