@@ -19,7 +19,7 @@ class TestSliderCrank(FamilyContract):
             "crank_shape": "arm",
             "slide_direction": 30,
         },
-        {"rod": 35, "swing_from": -20, "swing_to": 200},
+        {"swing_from": 10, "swing_to": 100},
     )
     refused = (
         ({"rod": 40.01}, "rod"),
