@@ -216,3 +216,34 @@ def test_a_thin_plate_has_lower_tabs_unless_their_height_is_given(run: Run, tmp_
     assert (
         "cam.hold.tab_height: 1 mm is not below the thickness of 1 mm; set it to 0.5, or leave it out" in out
     )
+
+
+@pytest.mark.parametrize(
+    ("family", "table", "fix"),
+    [
+        ("four-bar", 'tools = ["mill-16"]', {"cam.tools": None}),
+        ("elliptic-gears", "hold.tabs = 24\nhold.tab_width = 30", "cam.hold.tab_width"),
+        ("elliptic-gears", 'compensation = "wear"\nhold.tab_shape = "ramped"', "cam.hold.tab_shape"),
+    ],
+)
+def test_what_a_refusal_of_machining_advises_was_tried(
+    run: Run, tmp_path: Path, family: str, table: str, fix: str | dict[str, object]
+) -> None:
+    path = tmp_path / "refused.toml"
+    path.write_text(f'family = "{family}"\n[cam]\n{table}\n', encoding="utf-8")
+    found = json.loads(run("check", path, "--json")[1])["findings"]
+    wrong = [one for one in found if one["severity"] == "error"]
+    assert wrong
+    for one in wrong:
+        assert one["fix"] == fix if isinstance(fix, dict) else list(one["fix"]) == [fix]
+        assert one["remedy"].startswith(("set ", "leave out "))
+        assert "use " not in one["message"]
+
+
+def test_warnings_of_a_command_have_remedies_that_were_tried(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "lever.toml"
+    swing = "crank = 70\ncoupler = 60\nfollower = 75\nground = 110\nswing_from = -90\nswing_to = 20\n"
+    path.write_text(f'family = "four-bar"\n[parameters]\n{swing}', encoding="utf-8")
+    status, _, said = run("solve", path, "-o", tmp_path / "out", "--samples", "9")
+    assert (status, said.count("warning [four-bar.transmission]")) == (0, 1)
+    assert said.endswith("degrees; set swing_from = -86.7 (now -90), swing_to = -17.8 (now 20)\n")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechwright import TOLERANCES, Array, Finding
+from mechwright.contracts.finding import Change
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.gear_parts import Gear, gears_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -33,8 +34,8 @@ def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]
     return tuple(dict.fromkeys(found))  # both pairs of a train have the same to say
 
 
-_SMALLER = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5})
-"""Lets smaller end mills be chosen, for the fillets."""
+_SMALLER: tuple[Change, ...] = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5}, {"cam.tools": None})
+"""Lets smaller end mills be chosen, for the fillets, or all of the library."""
 
 
 RELIEF = 0.7

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.planar import swing
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
@@ -35,6 +37,9 @@ GOOD_TRANSMISSION = 40.0
 
 LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 """Degrees below which play and bending let the linkage change its branch."""
+
+SLOWEST = 1.0
+"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
 
 BEARING_PRESSURE = 10.0
 """N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
@@ -94,22 +99,20 @@ def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
             remedy,
         )
     one, two = params.swing_from, params.swing_to
-    middles = [math.degrees((low + high) / 2 + bar.ground_angle) for low, high in ways]
-    apart = [abs(math.remainder((one + two) / 2 - middle, 360)) for middle in middles]
-    low, high = (math.degrees(end + bar.ground_angle) for end in ways[apart.index(min(apart))])
-    turn = 360 * round(((one + two) - (low + high)) / 720)
-    worse = max(
-        ("swing_from", one), ("swing_to", two), key=lambda end: max(end[1] - high, low - end[1]) - turn
-    )
+    turned = [
+        (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
+    ]
+    key, value, limit = swing.past(turned, one, two)
     return Finding.error(
         "four-bar.swing",
-        worse[0],
+        key,
         f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
         f"{math.degrees(TURN_BACK):g} degree of transmission angle before its toggles",
-        worse[1],
-        (high if worse[1] > (low + high) / 2 + turn else low) + turn,
+        value,
+        limit,
         "deg",
         f"keep swing_from and swing_to within {said}",
+        proposed=(*swing.shortened(turned, one, two), swing.LEFT_OUT),
     )
 
 
@@ -201,7 +204,19 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
         if is_lever(params)
         else f"make the {shortest} shorter, or change coupler and follower",
         Stage.PARTS,
+        _shorter_swing(params) if is_lever(params) else (),
     )
+
+
+def _shorter_swing(params: FourBarParams) -> tuple[Change, ...]:
+    """As much of a lever's swing as keeps a good transmission angle."""
+    bar, course = bar_of(params), course_of(params)
+    start, end = math.degrees(course.start), math.degrees(course.start + course.travel)
+    ways = reach(bar, math.radians(GOOD_TRANSMISSION))
+    turned = [
+        (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
+    ]
+    return swing.shortened(turned, start, end)
 
 
 @of_stage(Stage.PARTS)
@@ -309,6 +324,36 @@ def _swing(params: FourBarParams, bar: FourBar) -> Finding:
     )
 
 
+def _stronger(params: FourBarParams, over: float) -> tuple[Change, ...]:
+    """Larger bearings, or less of what they carry, which is so many times ``over`` its limit.
+
+    Larger ones make heavier plates, so that more than the first may be needed.
+    """
+    pin, plate = params.pin_diameter, params.thickness
+    found: list[Change] = []
+    for share in (1.05, 1.2, 1.5):
+        much = over * share
+        found += [
+            {"parameters.pin_diameter": _half(much * pin)},
+            {"parameters.thickness": _half(much * plate)},
+            {
+                "parameters.pin_diameter": _half(math.sqrt(much) * pin),
+                "parameters.thickness": _half(math.sqrt(much) * plate),
+            },
+        ]
+    for share in (1.05, 1.2):
+        if params.load_torque != 0:
+            found.append({"parameters.load_torque": float(f"{params.load_torque / over / share:.2g}")})
+        if (speed := params.speed / math.sqrt(over) / share) >= SLOWEST:
+            found.append({"parameters.speed": float(f"{speed:.2g}")})
+    return tuple(found)
+
+
+def _half(size: float) -> float:
+    """The next half millimetre."""
+    return math.ceil(2 * size) / 2
+
+
 @of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
     peaks = peaks_of(params)
@@ -332,6 +377,7 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
             BEARING_PRESSURE,
             "N/mm^2",
             "take thicker pins or plates, a smaller load or a lower speed",
+            proposed=_stronger(params, pressure / BEARING_PRESSURE),
         )
     yield Finding.note(
         "four-bar.forces",

@@ -3,7 +3,7 @@
 import math
 
 from mechwright import kept
-from mechwright.mechanics.planar import Course
+from mechwright.mechanics.planar import Course, swing
 from mechwright_four_bar.change_point import turns_to_close
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.params import FourBarParams
@@ -70,28 +70,17 @@ def within(params: FourBarParams) -> Interval | None:
     ways = reach(bar, TURN_BACK) if bar.rocks or bar.lines_up else reach(bar)
     if params.swing_from is None or params.swing_to is None:
         return (ways[0][0] + bar.ground_angle, ways[0][1] + bar.ground_angle) if ways else None
-    one, two = math.radians(params.swing_from), math.radians(params.swing_to)
-    if ways == ((0.0, math.tau),):
-        return one, two
-    for low, high in ways:
-        turn = math.tau * round(((one + two - low - high) / 2 - bar.ground_angle) / math.tau)
-        low, high = low + bar.ground_angle + turn, high + bar.ground_angle + turn
-        if low - SLACK <= min(one, two) and max(one, two) <= high + SLACK:
-            return min(max(one, low), high), min(max(two, low), high)
-    return None
+    turned = [(low + bar.ground_angle, high + bar.ground_angle) for low, high in ways]
+    return swing.within(turned, math.radians(params.swing_from), math.radians(params.swing_to))
 
 
 def toggles(params: FourBarParams) -> Interval | None:
     """Crank angles, rad from X, at which coupler and follower are in line, about the swing; None for none."""
     bar, course = bar_of(params), course_of(params)
-    middle = course.start + course.travel / 2 - bar.ground_angle
-    ways = reach(bar)
+    ways = [(low + bar.ground_angle, high + bar.ground_angle) for low, high in reach(bar)]
     if not bar.rocks or not ways:
         return None
-    gaps = [(math.remainder(middle - (low + high) / 2, math.tau), low, high) for low, high in ways]
-    gap, low, high = min(gaps, key=lambda one: abs(one[0]))
-    turn = middle - gap - (low + high) / 2 + bar.ground_angle
-    return low + turn, high + turn
+    return swing.nearest(ways, course.start + course.travel / 2, math.tau)
 
 
 def transmission_of(params: FourBarParams) -> Interval:
@@ -101,19 +90,15 @@ def transmission_of(params: FourBarParams) -> Interval:
     return bar.transmission_range(one, one + course.travel) if course.rocks else bar.transmission_range()
 
 
-SLACK = 1e-9
-"""rad. A lever that shall go this much beyond its range goes to its end: rounding of degrees."""
-
-
 @kept
 def course_of(params: FourBarParams) -> Course:
     """One period of the crank; its links can be joined, and reach what the design says."""
     bar = bar_of(params)
     sense = 1.0 if params.direction == "ccw" else -1.0
     if is_lever(params):
-        swing = within(params)
-        assert swing is not None  # noqa: S101 - the checks come first
-        one, two = swing if params.swing_from is not None or sense > 0 else swing[::-1]
+        ends = within(params)
+        assert ends is not None  # noqa: S101 - the checks come first
+        one, two = ends if params.swing_from is not None or sense > 0 else ends[::-1]
         return Course(one, two - one, rocks=True)
     turns = turns_to_close(bar) if bar.lines_up else 1
     return Course(0.0, sense * turns * math.tau)

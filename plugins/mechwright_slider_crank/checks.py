@@ -6,9 +6,22 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
+from mechwright.contracts.finding import Change
+from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright.tolerances import exceeds, falls_short
-from mechwright_slider_crank.course import TURN_BACK, course_of, ends_of, least_of, period_of, reach, turns
+from mechwright_slider_crank.course import (
+    TURN_BACK,
+    course_of,
+    ends_of,
+    is_lever,
+    least_of,
+    period_of,
+    toggles,
+    turns,
+    ways,
+    within,
+)
 from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
@@ -28,6 +41,9 @@ LEAST_WEB = 1.0
 MAX_PRESSURE = 20.0
 """Pressure of a pin on the plate it turns in, MPa: usual for greased bronze at low speed."""
 
+SLOWEST = 1.0
+"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
+
 MAX_BENDING = 250.0
 """Bending stress of a pin, MPa: a quarter of a hardened dowel's strength, since the load alternates."""
 
@@ -43,7 +59,10 @@ def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether crank, rod and slider can be put together and move: all that a motion needs."""
-    if turns(params) or reach(params.crank, params.rod, params.offset, TURN_BACK) is not None:
+    if not is_lever(params) or within(params) is not None:
+        return
+    if ways(params, TURN_BACK):
+        yield _out_of_reach(params)
         return
     limit = params.crank + params.rod
     yield Finding.error(
@@ -58,10 +77,30 @@ def _joined(params: SliderCrankParams) -> Iterator[Finding]:
     )
 
 
+def _out_of_reach(params: SliderCrankParams) -> Finding:
+    """A swing that the links do not reach."""
+    found = [(math.degrees(low), math.degrees(high)) for low, high in ways(params, TURN_BACK)]
+    said = " or ".join(f"{low:.3f} to {high:.3f}" for low, high in found)
+    assert params.swing_from is not None  # noqa: S101 - left to itself a lever goes within its way
+    assert params.swing_to is not None  # noqa: S101
+    key, value, limit = swing.past(found, params.swing_from, params.swing_to)
+    return Finding.error(
+        "slider-crank.swing",
+        key,
+        f"the crank cannot swing from {params.swing_from:g} to {params.swing_to:g} degrees: it reaches "
+        f"{said} degrees, {math.degrees(TURN_BACK):g} degree before the rod stands across the slide",
+        value,
+        limit,
+        "deg",
+        f"keep swing_from and swing_to within {said}",
+        proposed=(*swing.shortened(found, params.swing_from, params.swing_to), swing.LEFT_OUT),
+    )
+
+
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:
     span = params.crank + abs(params.offset)
     limit = span * (1 + TURN_MARGIN)
-    if falls_short(params.rod, limit):
+    if params.swing_from is None and falls_short(params.rod, limit):
         yield _blocked(params, span, limit)
         if turns(params):
             return
@@ -78,7 +117,16 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
             "deg",
             f"make rod {wanted:.5g} mm or longer, or crank or offset smaller",
             Stage.PARTS,
+            _shorter_swing(params) if is_lever(params) else (),
         )
+
+
+def _shorter_swing(params: SliderCrankParams) -> tuple[Change, ...]:
+    """As much of a lever's swing as keeps the transmission angle."""
+    course = course_of(params)
+    start, end = math.degrees(course.start), math.degrees(course.start + course.travel)
+    found = ways(params, math.radians(LEAST_TRANSMISSION))
+    return swing.shortened([(math.degrees(low), math.degrees(high)) for low, high in found], start, end)
 
 
 def _blocked(params: SliderCrankParams, span: float, limit: float) -> Finding:
@@ -104,15 +152,17 @@ def _blocked(params: SliderCrankParams, span: float, limit: float) -> Finding:
         )
     course = course_of(params)
     low, high = (math.degrees(end) for end in sorted((course.start, course.start + course.travel)))
+    said = " and ".join(f"{math.degrees(end):.3f}" for end in toggles(params) or ())
     return Finding.warning(
         "slider-crank.crank-turn",
         "rod",
         f"the crank cannot turn fully, as a rod of {params.rod:g} mm does not span crank and offset, "
-        f"{span:.6g} mm: it is a lever that swings from {low:.3f} to {high:.3f} degrees",
+        f"{span:.6g} mm: it is a lever that swings from {low:.3f} to {high:.3f} degrees, its toggles at "
+        f"{said} degrees",
         params.rod,
         limit,
         "mm",
-        remedy,
+        f"say where it turns back with swing_from and swing_to, or {remedy}",
     )
 
 
@@ -230,8 +280,8 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
             pressure,
             MAX_PRESSURE,
             "MPa",
-            f"use pins of {force / (MAX_PRESSURE * params.thickness):.3g} mm, a thicker plate, or less load "
-            "or speed",
+            "thicker pins, a thicker plate, or less load or speed",
+            proposed=_stronger(params, force / (MAX_PRESSURE * params.thickness), pressure / MAX_PRESSURE),
         )
     # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
     lever = params.gap + params.thickness / 2
@@ -244,8 +294,23 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
             bending,
             MAX_BENDING,
             "MPa",
-            f"use pins of {sizes.pin * (bending / MAX_BENDING) ** (1 / 3):.3g} mm, or less load or speed",
+            "thicker pins, or less load or speed",
+            proposed=_stronger(params, sizes.pin * (bending / MAX_BENDING) ** (1 / 3), bending / MAX_BENDING),
         )
+
+
+def _stronger(params: SliderCrankParams, pin: float, over: float) -> tuple[Change, ...]:
+    """Thicker pins, mm, or less of what they carry, which is so many times ``over`` its limit.
+
+    Thicker pins make heavier plates, so that more than the first may be needed.
+    """
+    found: list[Change] = [{"parameters.pin": math.ceil(2 * share * pin) / 2} for share in (1.0, 1.15, 1.4)]
+    for share in (1.05, 1.2):
+        if params.load != 0:
+            found.append({"parameters.load": float(f"{params.load / over / share:.2g}")})
+        if (speed := params.speed / math.sqrt(over) / share) >= SLOWEST:
+            found.append({"parameters.speed": float(f"{speed:.2g}")})
+    return tuple(found)
 
 
 def _figures(params: SliderCrankParams) -> Iterator[Finding]:

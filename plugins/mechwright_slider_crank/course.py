@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mechwright import Array, kept
-from mechwright.mechanics.planar import Course
+from mechwright.mechanics.planar import Course, swing
 from mechwright_slider_crank.figures import (
     Limits,
     crank_turns,
@@ -50,22 +50,62 @@ def reach(crank: float, rod: float, offset: float, least: float = 0.0) -> tuple[
 
 
 def turns(params: SliderCrankParams) -> bool:
-    """Whether the crank goes all the way round, if only just."""
+    """Whether the crank can go all the way round, if only just."""
     return crank_turns(params.crank, params.rod, params.offset) or params.linkage.at_limit
+
+
+def is_lever(params: SliderCrankParams) -> bool:
+    """Whether the crank swings, because it cannot turn fully or because the design says between where."""
+    return params.swing_from is not None or not turns(params)
+
+
+def ways(params: SliderCrankParams, least: float = 0.0) -> list[swing.Way]:
+    """Crank angles, rad from X, between which the rod keeps ``least``, rad, from the normal of the slide.
+
+    Of two ways the one with the crank along the slide comes first; there is none where crank and rod do not
+    meet so.
+    """
+    found = reach(params.crank, params.rod, params.offset, least)
+    if found is None:
+        return []
+    low, high = found
+    both = [found]
+    if -math.pi / 2 < low < high < math.pi / 2:
+        both.append((math.pi - high, math.pi - low))
+    direction = params.linkage.direction
+    return [(low + direction, high + direction) for low, high in both]
+
+
+def within(params: SliderCrankParams) -> swing.Way | None:
+    """The swing of a lever, rad from X, its first end first; None where the links cannot reach it.
+
+    Left to itself a lever goes as far as it can.
+    """
+    whole = crank_turns(params.crank, params.rod, params.offset) and not params.linkage.at_limit
+    found = ways(params, 0.0 if whole else TURN_BACK)
+    if params.swing_from is None or params.swing_to is None:
+        return (found[0][::-1] if params.clockwise else found[0]) if found else None
+    return swing.within(found, math.radians(params.swing_from), math.radians(params.swing_to))
+
+
+def toggles(params: SliderCrankParams) -> swing.Way | None:
+    """Crank angles, rad from X, at which the rod stands across the slide, about the swing; None for none."""
+    found, course = ways(params), course_of(params)
+    if turns(params) or not found:
+        return None
+    return swing.nearest(found, course.start + course.travel / 2, math.tau)
 
 
 @kept
 def course_of(params: SliderCrankParams) -> Course:
     """One period of the crank of a design that can be put together."""
+    if is_lever(params):
+        ends = within(params)
+        assert ends is not None  # noqa: S101 - the checks come first
+        return Course(ends[0], ends[1] - ends[0], rocks=True)
     sense = -1.0 if params.clockwise else 1.0
-    if params.linkage.at_limit:
-        return Course(0.0, sense * turns_to_close(params.offset) * math.tau)
-    if turns(params):
-        return Course(0.0, sense * math.tau)
-    swing = reach(params.crank, params.rod, params.offset, TURN_BACK)
-    assert swing is not None  # noqa: S101 - the checks come first
-    low, high = (end + params.linkage.direction for end in swing)
-    return Course(low, high - low, rocks=True) if sense > 0 else Course(high, low - high, rocks=True)
+    count = turns_to_close(params.offset) if params.linkage.at_limit else 1
+    return Course(0.0, sense * count * math.tau)
 
 
 def period_of(params: SliderCrankParams, samples: int = _SAMPLES) -> tuple[Array, Array, Bodies]:
@@ -77,7 +117,7 @@ def period_of(params: SliderCrankParams, samples: int = _SAMPLES) -> tuple[Array
 @kept
 def ends_of(params: SliderCrankParams) -> Limits:
     """The ends of the slider's way, in closed form for a crank that turns."""
-    if crank_turns(params.crank, params.rod, params.offset) and not params.linkage.at_limit:
+    if not is_lever(params) and not params.linkage.at_limit:
         return limits(params.linkage)
     _, phi, bodies = period_of(params)
     positions = bodies.position
@@ -96,8 +136,12 @@ def ends_of(params: SliderCrankParams) -> Limits:
 
 def least_of(params: SliderCrankParams) -> float:
     """The least angle of the rod to the normal of the slide over a period, rad."""
-    if turns(params):
+    if not is_lever(params):
         return least_transmission_angle(params.crank, params.rod, params.offset)
-    course = course_of(params)
-    ends = np.array([course.start, course.start + course.travel])
-    return float(transmission_angle(params.linkage, ends).min())
+    course, direction = course_of(params), params.linkage.direction
+    low, high = sorted((course.start - direction, course.start + course.travel - direction))
+    # Beside its ends, with the crank across the slide.
+    first = math.ceil((low - math.pi / 2) / math.pi)
+    across = math.pi / 2 + math.pi * np.arange(first, math.floor((high - math.pi / 2) / math.pi) + 1)
+    angles = np.concatenate(([low, high], across)) + direction
+    return float(transmission_angle(params.linkage, angles).min())

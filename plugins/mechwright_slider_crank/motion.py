@@ -12,7 +12,7 @@ from mechwright.mechanics.planar import Turning, acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.checks import findings
-from mechwright_slider_crank.course import course_of, ends_of, least_of, reach, turns
+from mechwright_slider_crank.course import course_of, ends_of, is_lever, least_of, toggles
 from mechwright_slider_crank.figures import Limits, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
@@ -126,7 +126,7 @@ def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[
         "s_far": Scalar(ends.far_position, "mm"),
         "s_near": Scalar(ends.near_position, "mm"),
         "least_transmission_angle": Scalar(least_of(params), "rad"),
-        **({} if turns(params) else _lever(params)),
+        **(_lever(params) if is_lever(params) else {}),
         **({} if kept is None else _in_one_assembly(kept)),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
         **({} if masses is None else _mass_figures(params, masses)),
@@ -153,11 +153,11 @@ def _in_one_assembly(ends: Limits) -> dict[str, Scalar]:
 
 def _lever(params: SliderCrankParams) -> dict[str, Scalar]:
     """Where a lever turns back, and where the rod would stand across the slide: crank angles, in degrees."""
-    course, direction = course_of(params), params.linkage.direction
+    course = course_of(params)
     low, high = sorted((course.start, course.start + course.travel))
     angles = {"swing_from": low, "swing_to": high, "input_range": high - low}
-    if (found := reach(params.crank, params.rod, params.offset)) is not None:
-        angles |= {"toggle_low": found[0] + direction, "toggle_high": found[1] + direction}
+    if (found := toggles(params)) is not None:
+        angles |= {"toggle_low": found[0], "toggle_high": found[1]}
     return {name: Scalar(math.degrees(angle), "deg") for name, angle in angles.items()}
 
 

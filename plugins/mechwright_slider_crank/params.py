@@ -1,9 +1,9 @@
 """The design table of a slider-crank."""
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
@@ -49,6 +49,14 @@ class SliderCrankParams(Parameters):
         json_schema_extra=FIRST,
     )
     clockwise: bool = Field(False, description="Whether the crank turns clockwise, or a lever begins so.")
+    swing_from: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None,
+        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
+        "turns fully, or goes as far as it can.",
+    )
+    swing_to: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None, description="The other end of that swing."
+    )
     load: Newtons = Field(
         0.0,
         ge=-1e6,
@@ -107,6 +115,16 @@ class SliderCrankParams(Parameters):
     clearance: Millimetres = Field(
         1.0, ge=0, le=100, description="Least distance of moving plates of one layer in plan."
     )
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        if (self.swing_from is None) != (self.swing_to is None):
+            raise ValueError("give both swing_from and swing_to, or neither")
+        if self.swing_from is not None and self.swing_from == self.swing_to:
+            raise ValueError("swing_from and swing_to are the same angle, so nothing moves; give two")
+        if self.swing_from is not None and self.clockwise:
+            raise ValueError("clockwise is for a crank without a swing; exchange swing_from and swing_to")
+        return self
 
     @property
     def linkage(self) -> SliderCrank:

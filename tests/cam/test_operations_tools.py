@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.part import Pocket, Profile
-from mechwright_cam.operations.bending import deflection
+from mechwright_cam.operations.bending import MOST, deflection, pass_depth
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.pages.setup_sheet.facts import describe
 from mechwright_cam.planning import lay_out, plan
@@ -40,14 +40,42 @@ def test_deflection_of_a_plain_rod_is_the_closed_form():
     depth = data.step_down * diameter
     force = stuff.force * chip**-stuff.force_exponent * depth * chip * teeth
     inertia = math.pi * diameter**4 / 64
-    assert deflection(rod, "steel", depth) == pytest.approx(
+    assert deflection(rod, "steel", 4 * depth, depth) == pytest.approx(
         force * length**3 / (3 * 6.0e5 * inertia), rel=1e-6
     )
 
 
-def test_a_2_mm_cutter_5_diameters_deep_is_a_warning():
-    assert "cam.deflection" in codes(MILL, DEEP, material="steel")
-    assert "cam.deflection" not in codes(LIBRARY.get("mill-6"), DEEP, material="steel")
+def test_passes_of_a_slender_cutter_bend_it_no_more_than_the_rule_allows():
+    pocket = Pocket("deep", rounded_box(8, 6, 1.5), (), 0.0, 10.8)
+    of = job(part(rounded_box(20, 16, 3), thickness=12.0, material="steel", machined=(pocket,)), "mill-2")
+    usual = MILL.cutting["steel"].step_down * MILL.diameter
+    assert pass_depth(of, MILL, DEEP) == usual
+    step = pass_depth(of, MILL, pocket.depth)
+    assert step < usual
+    assert deflection(MILL, "steel", pocket.depth, step) == pytest.approx(MOST)
+    rough = next(one for section in plan(of).sections for one in section.operations if "rough" in one.name)
+    heights = {getattr(move, "z", None) for move in rough.moves}
+    deep = pocket.depth - of.settings.floor_to_leave
+    passes = math.ceil(deep / step)
+    assert passes > math.ceil(deep / usual)
+    assert {round(-deep * (number + 1) / passes, 3) for number in range(passes)} <= heights
+    found = lay_out(of.part, CamSettings(tools=("mill-2",)), LIBRARY)[1]
+    assert [f.code for f in found if f.code.startswith("cam.s") or "def" in f.code] == ["cam.slender"]
+    assert "in passes of 0.27 mm instead of 0.5 mm" in found[0].message
+
+
+def test_a_step_down_that_the_design_says_stays_and_is_warned_of():
+    said = CamSettings.model_validate({"tools": ["mill-2"], "cutting": {"mill-2": {"step_down": 0.25}}})
+    found = lay_out(plate(thickness=11.0, material="steel"), said, LIBRARY.cutting(said.cutting))[1]
+    (warning,) = [f for f in found if f.code == "cam.deflection"]
+    assert (warning.parameter, warning.value > warning.limit) == ("cam.cutting.mill-2.step_down", True)
+    assert warning.proposed == ({"cam.cutting.mill-2.step_down": None},)
+
+
+def test_a_cutter_that_bends_whatever_its_passes_is_a_warning():
+    weak = changed(MILL, stick_out=60, substrate="hss", flute_length=12)
+    assert "cam.deflection" in codes(weak, 11.0, material="steel")
+    assert "cam.deflection" not in codes(MILL, 11.0, material="steel")
 
 
 def test_a_fine_cutter_is_slender_only_where_it_cuts():
@@ -60,7 +88,7 @@ def test_a_fine_cutter_is_slender_only_where_it_cuts():
         return [f.message for f in chosen if f.code in {"cam.slender", "cam.deflection"}]
 
     assert said(1.0) == [], "it marks the top face, and does not cut through 12 mm of plate"
-    assert said(11.0)[0] == "mill-2 cuts 11 mm deep, 5.5 diameters"
+    assert said(11.0)[0].startswith("mill-2 cuts 11 mm deep, 5.5 diameters")
 
 
 @pytest.mark.parametrize(
@@ -74,7 +102,7 @@ def test_a_fine_cutter_is_slender_only_where_it_cuts():
 )
 def test_what_stiffens_a_cutter(fields, more):
     base = changed(MILL, stick_out=20)
-    bent, usual = (deflection(tool, "steel", DEEP) for tool in (changed(base, **fields), base))
+    bent, usual = (deflection(tool, "steel", DEEP, 0.5) for tool in (changed(base, **fields), base))
     assert bent != pytest.approx(usual)
     assert (bent > usual) == more
 

@@ -18,6 +18,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Severity, errors, until_error
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.design import Design
+from mechwright.plugins.host import host
 from mechwright.remedies import MOST_CHANGES, Bench, Limits, nearest, remedied, tried
 from mechwright.remedies.keys import Key, keys_of
 from mechwright.remedies.values import closest, distance, ladder
@@ -343,3 +344,27 @@ def test_remedied_keeps_the_order_and_the_notes():
     of = design(length=437.5, kind='"forked"')
     found = list(Beam().check(of.params))
     assert [one.code for one in remedied(bench(of), found)] == [one.code for one in found]
+
+
+def test_what_is_asked_for_is_changed_last():
+    """The width that the file does not say, and not the length that it does."""
+    free, both = design(length=437.5), design(length=437.5, width=20.0)
+    assert nearest(bench(free)) == {"parameters.width": 44}
+    length, width = ({"parameters.length": 200}, {"parameters.width": 44})
+    assert bench(free).size(width) < bench(both).size(width)
+    assert bench(free).size(length) == bench(both).size(length)
+    crank = host().family("four-bar")
+    said = Design(
+        "a", crank, crank.Params(), Path("a.toml"), "", content={"parameters": {"crank": 30, "rim": 4}}
+    )
+    weigh = Bench(said, lambda _: ()).weight
+    assert weigh("parameters.crank") > weigh("parameters.rim") > weigh("parameters.washer")
+
+
+@pytest.mark.parametrize("now", [400.0, -400.0])
+def test_a_number_with_a_sign_is_lowered_by_ratios(now):
+    values = ladder(Key("parameters.load", "number", -1e6, 1e6), now)
+    assert {now / 40, now / 5, now * 40, 0, -now} <= set(values)
+    assert closest(Key("parameters.load", "number", -1e6, 1e6), now, now / 600, lambda x: abs(x) < 7.3) == (
+        pytest.approx(math.copysign(7.0, now))
+    )

@@ -182,6 +182,76 @@ def test_an_unknown_family_and_one_without_synthesis_are_named(monkeypatch):
         file_schema(host(), "six-bar")
 
 
+NODES = {"properties": dict, "$defs": dict}
+LISTS = {"anyOf", "allOf", "prefixItems"}
+VALUES: dict[str, tuple[type, ...]] = {
+    **dict.fromkeys(("$schema", "$ref", "title", "description", "unit", "pattern", "format"), (str,)),
+    **dict.fromkeys(("minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"), (int, float)),
+    **dict.fromkeys(("minLength", "maxLength", "minItems", "maxItems"), (int,)),
+    **dict.fromkeys(("first", "uniqueItems"), (bool,)),
+    **dict.fromkeys(("required", "enum", "examples"), (list,)),
+    **dict.fromkeys(("items", "if", "then"), (dict,)),
+    **dict.fromkeys(("additionalProperties",), (dict, bool)),
+}
+
+
+def ill_formed(schema: Any, where: str) -> Iterator[str]:
+    """What the meta-schema of draft 2020-12 forbids, and what a reader of draft 7 would take otherwise."""
+    if not isinstance(schema, dict):
+        yield f"{where} is no schema: {schema!r}"
+        return
+    for key, value in schema.items():
+        if key not in KNOWN:
+            yield f"{where}: {key}"
+        if key in VALUES and (
+            not isinstance(value, VALUES[key]) or (isinstance(value, bool) and bool not in VALUES[key])
+        ):
+            yield f"{where}.{key}: {value!r}"
+        if key == "type" and value not in {"object", "array", "string", "boolean", "number", "integer"}:
+            yield f"{where}.type: {value!r}"
+        if key in {"enum", *LISTS} and not value:
+            yield f"{where}.{key} is empty"
+        if key in {"required", "enum"} and len({repr(one) for one in value}) < len(value):
+            yield f"{where}.{key} says one twice"
+        if key == "pattern":
+            re.compile(value)
+        if key in NODES:
+            for name, one in value.items():
+                yield from ill_formed(one, f"{where}.{name}")
+        if key in LISTS:
+            for number, one in enumerate(value):
+                yield from ill_formed(one, f"{where}.{key}[{number}]")
+        if key in {"items", "if", "then"} or (key == "additionalProperties" and not isinstance(value, bool)):
+            yield from ill_formed(value, f"{where}.{key}")
+    if "prefixItems" in schema and "items" in schema:
+        yield f"{where}: items are the rest in draft 2020-12, and all of them in draft 7"
+    if "$ref" in schema and not schema.keys() <= {"$ref", "title", "description", "default"}:
+        yield f"{where}: beside a reference draft 7 reads nothing"
+
+
+FAMILIES = ["four-bar", "slider-crank", "geneva", "elliptic-gears", "spherical"]
+
+
+@pytest.mark.parametrize("requirement", [False, True])
+@pytest.mark.parametrize("family", ["", *FAMILIES])
+def test_a_schema_is_well_formed(family, requirement):
+    assert list(ill_formed(file_schema(host(), family, requirement=requirement), "")) == []
+
+
+@pytest.mark.parametrize("requirement", [False, True])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_editors_find_the_keys_of_a_family_without_conditions(family, requirement):
+    """They follow properties and references, and neither if nor then."""
+    schema = file_schema(host(), family, requirement=requirement)
+    assert "allOf" not in schema
+    table = schema["properties"]["requirement" if requirement else "parameters"]
+    if requirement:
+        kinds = [one["properties"]["kind"]["const"] for one in table.get("anyOf", [table])]
+        assert kinds == list(host().family(family).requirements)
+    else:
+        assert list(table["properties"]) == list(host().family(family).Params.model_fields)
+
+
 def test_no_reference_leads_nowhere():
     for asked in (False, True):
         schema = file_schema(host(), requirement=asked)
@@ -191,7 +261,7 @@ def test_no_reference_leads_nowhere():
 
 
 @pytest.mark.parametrize("whole", [False, True])
-@pytest.mark.parametrize("family", ["four-bar", "slider-crank", "geneva", "elliptic-gears", "spherical"])
+@pytest.mark.parametrize("family", FAMILIES)
 def test_a_new_file_is_accepted_and_names_its_schema(family, whole, command_line: Run, tmp_path):
     path = tmp_path / "d.toml"
     status, said, _ = command_line("new", family, "-o", path, *(["--all"] if whole else []))

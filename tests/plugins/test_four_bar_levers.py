@@ -134,6 +134,15 @@ def test_a_swing_out_of_reach_names_its_end_and_the_limit(ends, key):
     assert errors(FourBars().check(mended), Stage.MOTION) == []
 
 
+def test_a_lever_near_its_toggles_is_shown_a_swing_that_is_not():
+    for design in (params(70, 60, 75, 110), params(70, 30, 75, 90, swing_from=-80, swing_to=-30)):
+        (found,) = (one for one in FourBars().check(design) if one.code == "four-bar.transmission")
+        (change,) = found.proposed
+        ends = {key.removeprefix("parameters."): end for key, end in change.items()}
+        shorter = design.model_copy(update=ends)
+        assert "four-bar.transmission" not in {one.code for one in FourBars().check(shorter)}
+
+
 @pytest.mark.parametrize("branch", ["open", "crossed"])
 def test_the_range_of_transmission_is_that_of_the_motion(branch):
     design = params(70, 60, 75, 110, swing_from=-80, swing_to=15, branch=branch)

@@ -19,6 +19,7 @@ class TestSliderCrank(FamilyContract):
             "crank_shape": "arm",
             "slide_direction": 30,
         },
+        {"swing_from": 10, "swing_to": 100},
     )
     refused = (
         ({"rod": 40.01}, "rod"),
@@ -26,6 +27,8 @@ class TestSliderCrank(FamilyContract):
         ({"crank": 6, "rod": 60, "pin": 8}, "crank"),
         ({"rod": 110, "rod_width": 30}, "rod_width"),
         ({"rod_bend": 60}, "rod_bend"),
+        ({"rod": 35, "swing_from": -60, "swing_to": 90}, "swing_from"),
+        ({"swing_from": 10}, "swing_to"),
     )
     derivatives = (
         ("phi", "omega_a"),

@@ -91,6 +91,55 @@ def test_a_lever_can_be_built():
     assert "rail" in {part.name for part in FAMILY.parts(design)}
 
 
+@pytest.mark.parametrize(
+    ("sizes", "ends", "direction"),
+    [
+        ((30, 35, 10), (-20, 80), 40),
+        ((30, 100, 10), (100, 10), 0),
+        ((100, 30, 10), (-10, 15), -30),
+        ((100, 30, 10), (190, 170), 0),
+        ((100, 30, 10), (-200, -180), 40),
+    ],
+)
+def test_a_lever_swings_as_its_design_says(sizes, ends, direction):
+    one, two = (end + direction for end in ends)
+    design = params(*sizes, swing_from=one, swing_to=two, slide_direction=direction)
+    motion = FAMILY.solve(design, 1441)
+    sound(motion)
+    phi = np.degrees(motion.channels["phi"].values)
+    assert phi[[0, 720, 1440]] == pytest.approx([one, two, one])
+    said = {name: scalar.value for name, scalar in motion.scalars.items()}
+    assert said["input_range"] == pytest.approx(abs(one - two))
+    assert said["stroke"] == pytest.approx(np.ptp(motion.channels["s"].values), rel=1e-5)
+    least = motion.channels["transmission_angle"].values.min()
+    assert said["least_transmission_angle"] == pytest.approx(least, abs=1e-6)
+    assert ("toggle_low" in said) == (sizes != (30, 100, 10))
+    if "toggle_low" in said:
+        assert said["toggle_low"] < min(one, two) < max(one, two) < said["toggle_high"]
+    assert "slider-crank.crank-turn" not in {one.code for one in FAMILY.check(design)}
+
+
+@pytest.mark.parametrize(("ends", "key"), [((-50, 240), "swing_to"), ((-60, 200), "swing_from")])
+def test_a_swing_out_of_reach_names_its_end_and_the_limit(ends, key):
+    design = params(30, 35, 10, swing_from=ends[0], swing_to=ends[1])
+    (found,) = errors(FAMILY.check(design), Stage.MOTION)
+    assert (found.code, found.parameter) == ("slider-crank.swing", key)
+    with pytest.raises(KinematicsError, match="cannot swing"):
+        FAMILY.solve(design, 9)
+    mended = design.model_copy(update={key: math.trunc(found.limit * 1e3) / 1e3})
+    assert errors(FAMILY.check(mended), Stage.MOTION) == []
+
+
+def test_a_lever_near_its_toggles_is_shown_a_swing_that_is_not():
+    design = params(30, 35, 10)
+    (found,) = (one for one in FAMILY.check(design) if one.code == "slider-crank.transmission")
+    (change,) = found.proposed
+    shorter = params(30, 35, 10, **{key.removeprefix("parameters."): end for key, end in change.items()})
+    codes = {one.code for one in FAMILY.check(shorter)}
+    assert not codes & {"slider-crank.transmission", "slider-crank.crank-turn"}
+    assert shorter.swing_to - shorter.swing_from > 200
+
+
 def test_what_does_not_reach_the_slide_line_does_not_move():
     design = params(20, 30, 60)
     (found,) = errors(FAMILY.check(design), Stage.MOTION)

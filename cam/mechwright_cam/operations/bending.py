@@ -1,4 +1,6 @@
-"""How far a slender cutter bends under its roughing cut: a cantilever with a force at its tip.
+"""How far a slender cutter bends under its roughing cut, and how deep its passes are for that.
+
+It is a cantilever with a force at its tip.
 
 The tangential force of a tooth is k_c a_p h with Kienzle's k_c = k_c1.1 h^-m and the mean chip thickness
 h = f_z sqrt(a_e / d) (common workshop formulas), times the teeth in the cut, at least one. Deflection is
@@ -8,8 +10,14 @@ F l³ / (3 E I) with I = π d_e⁴ / 64 of the equivalent diameter that the flut
 import math
 
 from mechwright.contracts.materials import material
-from mechwright.tolerances import TOLERANCES
+from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+
+SLENDER = 5.0
+"""Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
+THINNEST = 0.05
+"""Passes of fewer diameters than this are not planned, however far the mill bends: time goes up and its edge
+is worn in one place. No cutter that comes with the program asks for them."""
 
 CORE = 0.75
 """Equivalent diameter of a fluted cutter in its diameter: flutes take a quarter to a third of the section."""
@@ -21,18 +29,36 @@ MOST = 0.02
 """Deflection from which on a cutter is worth a warning, mm: a tenth of the usual allowance for finishing."""
 
 
-def deflection(tool: Tool, workpiece: str, depth: float) -> float:
-    """Deflection, mm, of an end mill that roughs with its own cutting data for the workpiece's material.
+def pass_depth(job: Job, tool: Tool, deep: float) -> float:
+    """Deepest pass, mm, of a mill that cuts with its whole width and ``deep`` mm below the top of the stock.
 
-    It goes to ``depth`` below the top of the stock, mm; a stick-out of the tool's own counts instead.
+    It is the ``step_down`` of its cutting data; of a slender mill no more than bends it by :data:`MOST`,
+    unless the design itself says its ``step_down``.
+    """
+    planned = tool.cutting[job.part.material].step_down * tool.diameter
+    if deep <= SLENDER * tool.diameter or says_step_down(job, tool):
+        return planned
+    bending = MOST / deflection(tool, job.part.material, deep, 1.0)
+    return min(planned, max(bending, THINNEST * tool.diameter))
+
+
+def says_step_down(job: Job, tool: Tool) -> bool:
+    """Whether the design says how deep the passes of a mill are."""
+    said = job.settings.cutting.get(tool.name)
+    return said is not None and said.step_down is not None
+
+
+def deflection(tool: Tool, workpiece: str, deep: float, step: float) -> float:
+    """Deflection, mm, of an end mill in passes of ``step`` mm, with its cutting data for a material.
+
+    It goes to ``deep`` mm below the top of the stock; a stick-out of the tool's own counts instead.
     """
     data, stuff = tool.cutting[workpiece], material(workpiece)
     wide = data.step_over
     chip = data.chip_load * math.sqrt(wide)
     teeth = max(1.0, tool.flutes * math.acos(1 - 2 * wide) / math.tau)
-    passes = max(1, math.ceil(depth / (data.step_down * tool.diameter) - TOLERANCES.noise))
-    force = stuff.force * chip ** (1 - stuff.force_exponent) * (depth / passes) * teeth
-    length = depth + NECK * tool.diameter if tool.stick_out is None else tool.stick_out
+    force = stuff.force * chip ** (1 - stuff.force_exponent) * step * teeth
+    length = deep + NECK * tool.diameter if tool.stick_out is None else tool.stick_out
     fluted = min(tool.flute_length, length)
     cut, shank = _inertia(CORE * tool.diameter), _inertia(tool.shank_diameter or tool.diameter)
     # Mohr's integral of the two parts: the flutes, and the shank behind them.

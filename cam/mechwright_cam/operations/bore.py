@@ -78,7 +78,9 @@ class BoreOperation(Operation):
         bore, job, drill = task.feature, steps.job, task.hole.drill if task.hole else None
         for mill in task.tools:
             air = stock.air_below(task.top)
-            steps.add(f"{bore.name}: bore", mill, partial(rough_bore, job, bore, drill, air))
+            steps.add(
+                f"{bore.name}: bore", mill, partial(rough_bore, job, bore, drill, air, steps.step_down(mill))
+            )
             plain = job.settings.compensation == "computer"
             finish = finish_bore if plain else finish_bore_compensated
             steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
@@ -141,13 +143,14 @@ def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
 
 def boring_time(job: Job, bore: Bore, drill: Tool | None, mill: Tool) -> float:
     """Time in which a mill roughs and finishes a bore, s; rapids and corners do not count."""
+    steps = Steps(job, job.settings.clearance, {mill.name: -_bottom(job, bore, mill)})
 
     def write(pen: Pen) -> None:
-        rough_bore(job, bore, drill, shapely.Polygon(), pen)
+        rough_bore(job, bore, drill, shapely.Polygon(), steps.step_down(mill), pen)
         finish_bore(job, bore, pen)
 
     minutes, x, y = 0.0, *bore.centre
-    for move in Steps(job, job.settings.clearance).moves(mill, write):
+    for move in steps.moves(mill, write):
         if isinstance(move, FeedArc):
             begin, end = math.atan2(-move.j, -move.i), math.atan2(move.y - y - move.j, move.x - x - move.i)
             turn = ((end - begin) * (1 if move.ccw else -1)) % math.tau or math.tau
@@ -162,8 +165,13 @@ def _open_radius(air: shapely.Geometry, middle: shapely.Point) -> float:
     return float(air.boundary.distance(middle)) if shapely.contains(air, middle) else 0.0
 
 
-def rough_bore(job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, pen: Pen) -> None:
-    """Write helices out to the finishing allowance, from what a drill or earlier setups have opened."""
+def rough_bore(
+    job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, step_down: float, pen: Pen
+) -> None:
+    """Write helices out to the finishing allowance, from what a drill or earlier setups have opened.
+
+    No turn is deeper than ``step_down``, mm.
+    """
     mill = pen.tool
     data = mill.cutting[job.part.material]
     widest = bore.diameter / 2 - mill.radius - max(job.settings.stock_to_leave, CIRCLE_BIAS)
@@ -186,7 +194,7 @@ def rough_bore(job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, 
     leave = floor_allowance(job, -bore.top, bottom)
     for radius in radii:
         turn = round_from_right(bore.centre, radius, job.settings.climb)
-        feed, step_down = pen.rates.inside(radius, mill.radius), data.step_down * mill.diameter
+        feed = pen.rates.inside(radius, mill.radius)
         pen.helix(turn, radius, -bore.top, bottom + leave, step_down, feed)
         pen.straight(bore.centre)
     if leave > 0:

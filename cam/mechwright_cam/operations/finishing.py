@@ -57,12 +57,15 @@ def finish_heights(job: Job, tool: Tool, top: float, bottom: float, fillet: floa
 
 
 class Finishing:
-    """The finishing of one zone, whose stock is only what roughing left on walls."""
+    """The finishing of one zone, whose stock is only what roughing left on walls.
 
-    def __init__(self, zone: Zone, stock: Stock, job: Job, tool: Tool) -> None:
+    Where nothing has roughed, it goes down by ``step_down`` at a time, mm.
+    """
+
+    def __init__(self, zone: Zone, stock: Stock, job: Job, tool: Tool, step_down: float) -> None:
         self.zone, self.tool, self.settings = zone, tool, job.settings
         self.heights = finish_heights(job, tool, zone.top, zone.bottom_for(tool), stock.fillet)
-        self.step_down = tool.cutting[job.part.material].step_down * tool.diameter
+        self.step_down = step_down
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)
         room = zone.room(radius, finishing=True)

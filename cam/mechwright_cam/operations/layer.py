@@ -139,8 +139,11 @@ class Layer:
         """Along the wall."""
         settings, job, zone = self.settings, self.steps.job, self.zone
         deep = self.pass_depth(mill, finish_depth(settings, mill, job.part.material))
-        finishing = Finishing if settings.compensation == "computer" else CompensatedFinishing
-        self.add("finish", mill, finishing(zone, self.stock, job, mill).write, depth=deep)
+        if settings.compensation == "computer":
+            write = Finishing(zone, self.stock, job, mill, self.steps.step_down(mill)).write
+        else:
+            write = CompensatedFinishing(zone, self.stock, job, mill).write
+        self.add("finish", mill, write, depth=deep)
         if not self.cuts[-1].moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "

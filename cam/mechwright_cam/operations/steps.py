@@ -1,9 +1,10 @@
 """The cuts of a program, as operations add them."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from mechwright_cam.operations.bending import pass_depth
 from mechwright_cam.operations.congruent import Copies
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import rates
@@ -28,16 +29,20 @@ class Cut(NamedTuple):
 
 
 class Steps:
-    """The cuts of a job so far, in the order in which they were added."""
+    """The cuts of a job so far, in the order in which they were added.
 
-    def __init__(self, job: Job, clearance: float) -> None:
-        self.job, self.clearance = job, clearance
+    ``depths`` says how deep below the top of the stock its mills cut, mm, by their names: a mill that cuts
+    deep somewhere stands out of its holder everywhere.
+    """
+
+    def __init__(self, job: Job, clearance: float, depths: Mapping[str, float] | None = None) -> None:
+        self.job, self.clearance, self.depths = job, clearance, depths or {}
         self.copies = Copies()
         self.cuts: list[Cut] = []
 
     def step_down(self, tool: Tool) -> float:
         """Deepest pass of a mill that cuts with its whole width, mm."""
-        return tool.cutting[self.job.part.material].step_down * tool.diameter
+        return pass_depth(self.job, tool, self.depths.get(tool.name, 0.0))
 
     def moves(
         self,

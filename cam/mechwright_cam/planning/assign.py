@@ -24,6 +24,14 @@ class Assigned:
             raise self.refused[0]
         return self.tasks
 
+    def depths(self) -> dict[str, float]:
+        """How deep below the top of the stock each mill cuts, mm, by its name."""
+        deep: dict[str, float] = {}
+        for task in self.tasks:
+            for mill in task.tools:
+                deep[mill.name] = max(deep.get(mill.name, 0.0), -task.operation.deepest(task, mill))
+        return deep
+
 
 def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
     """Ask the operations in turn, until one claims, for every feature and detail of a job."""

@@ -43,9 +43,10 @@ class _Planner:
         self.job = job
         self.steps: list[Step] = []
         self.clearance = clearance_height(job)
-        self.tasks = assignments.of(job).every()
+        assigned = assignments.of(job)
+        self.tasks = assigned.every()
         self.operations = assignments.operations(job.settings)
-        self.cuts = Steps(job, self.clearance)
+        self.cuts = Steps(job, self.clearance, assigned.depths())
 
     def program(self) -> Program:
         job = self.job

@@ -4,12 +4,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.contracts.materials import HSS_SPEED
 from mechwright.contracts.materials import material as material_of
 from mechwright.contracts.part import Feature, Part
 from mechwright.errors import DesignError, MechwrightError, ToolError
-from mechwright_cam.operations.bending import MOST, deflection
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.operations.bending import MOST, SLENDER, deflection, pass_depth, says_step_down
 from mechwright_cam.operations.choice import long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
@@ -23,8 +24,6 @@ from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
-SLENDER = 5.0
-"""Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
 RUBS = 0.5
 """Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
 
@@ -50,13 +49,13 @@ def lay_out(
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
     except MechwrightError as error:
-        return None, [refusal(error)]
+        return None, [refusal(error, listed=settings.tools)]
     refused = list(assigned.refused)
     try:
         check_clamp(job)
     except DesignError as error:
         refused.append(error)
-    found = [refusal(error) for error in refused]
+    found = [refusal(error, listed=settings.tools) for error in refused]
     if not found:
         for task in assigned.tasks:
             found += task.operation.remarks(task, job)
@@ -67,7 +66,7 @@ def lay_out(
             # Of the chosen cutters a wider one has turned out to be as good.
             used = tuple(tool for tool in job.tools if tool not in idle)
             job = assignments.carry(job, replace(job, tools=used))
-    depths = {} if refused else _depths(assigned.tasks)
+    depths = {} if refused else assigned.depths()
     return job, [*found, *check_travel(job), *_remarks(job, depths)]
 
 
@@ -77,22 +76,17 @@ def _idle(job: Job, tasks: Sequence[Task]) -> list[Tool]:
     return [mill for mill in job.mills if mill.name not in used and job.part.material in mill.cutting]
 
 
-def _depths(tasks: Sequence[Task]) -> dict[str, float]:
-    """How deep below the top of the stock each mill cuts, mm, by its name."""
-    deep: dict[str, float] = {}
-    for task in tasks:
-        for mill in task.tools:
-            deep[mill.name] = max(deep.get(mill.name, 0.0), -task.operation.deepest(task, mill))
-    return deep
+def refusal(error: MechwrightError, code: str = "cam.cannot-cut", *, listed: Sequence[str] = ()) -> Finding:
+    """An error that names its parameter in front, as a finding.
 
-
-def refusal(error: MechwrightError, code: str = "cam.cannot-cut") -> Finding:
-    """An error that names its parameter in front, as a finding."""
+    Where the design has ``listed`` its cutters the program may choose others, if it is let.
+    """
     text = str(error)
     parameter, _, message = text.partition(": ")
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
-    return Finding.error(code, parameter, message)
+    proposed = ({"cam.tools": None},) if parameter == "cam.tools" and listed else ()
+    return Finding.error(code, parameter, message, proposed=proposed)
 
 
 def _idling(job: Job, mill: Tool) -> Finding:
@@ -147,17 +141,30 @@ def _speeds(job: Job, tool: Tool) -> Iterator[Finding]:
 
 
 def _bending(job: Job, tool: Tool, deep: float) -> Iterator[Finding]:
-    """Whether a mill is slender, and then bends too much in its deepest cut."""
+    """Whether a mill is slender, what its passes are for that, and whether it bends too much all the same."""
     slender = deep / tool.diameter
-    if deep <= SLENDER * tool.diameter:
+    if slender <= SLENDER:
         return
+    material, step = job.part.material, pass_depth(job, tool, deep)
     message = f"{tool.name} cuts {deep:g} mm deep, {slender:.1f} diameters"
+    usual = tool.cutting[material].step_down * tool.diameter
+    if step < usual:
+        message += f", in passes of {step:.2g} mm instead of {usual:.2g} mm, so that it bends less"
     yield Finding("cam.slender", Severity.NOTE, "cam.tools", message, slender, SLENDER)
-    bent = deflection(tool, job.part.material, deep)
-    if bent > MOST:
-        message = f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}"
-        remedy = "take less step_down in the tool library, or a thicker cutter"
-        yield Finding.warning("cam.deflection", "cam.tools", message, bent, MOST, "mm", remedy)
+    bent = deflection(tool, material, deep, step)
+    if bent <= MOST + TOLERANCES.noise:
+        return
+    message = (
+        f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}, "
+        f"{step:.2g} mm in a pass"
+    )
+    where, remedy = "cam.tools", "take a cutter that is thicker, shorter or of carbide"
+    proposed: tuple[Change, ...] = ()
+    if says_step_down(job, tool):
+        where = f"cam.cutting.{tool.name}.step_down"
+        remedy = "leave it out, and passes are as deep as the cutter bears"
+        proposed = () if "." in tool.name else ({where: None},)
+    yield Finding.warning("cam.deflection", where, message, bent, MOST, "mm", remedy, proposed=proposed)
 
 
 def _figures(tool: Tool, workpiece: str) -> Iterator[Finding]:

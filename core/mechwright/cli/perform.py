@@ -58,9 +58,9 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
         step("writing")
         write_folder(folder, output, wanted.command, facts(build.design, found))
     later = [finding for finding in errors(told) if _later(finding.stage, stage)]
-    for finding in told:
+    for finding in _advised(build, told):
         if finding.severity is not Severity.NOTE:
-            # What a family advises has not been tried here, and stops nothing.
+            # Against what stops nothing nothing was sought, and words alone are no remedy.
             tell(path, replace(finding, remedy="") if finding in later else finding)
     for fault in build.faults:
         tell(path, fault)
@@ -97,6 +97,10 @@ def _make(
             step(one.doing)
             try:
                 told[one.name] = list(one.findings(build))
+                if any(finding.severity is not Severity.NOTE for finding in told[one.name]):
+                    from mechwright.remedies import proposed_tried
+
+                    told[one.name] = proposed_tried(build, one, told[one.name])
             except MechwrightError as error:
                 if not _later(one.stage, stage):
                     raise
@@ -125,6 +129,17 @@ def _make(
     write(page for page in pages if page.late(build))
     order = ["", *(one.name for one in asked)]
     return [finding for name in order for finding in told.get(name, ())]
+
+
+def _advised(build: Build, told: list[Finding]) -> list[Finding]:
+    """The findings, warnings of the family with remedies that were tried."""
+    mine = [one for one in told if one.severity is Severity.WARNING and one in build.findings]
+    if not mine:
+        return told
+    from mechwright.remedies import tried
+
+    known = dict(zip(map(id, mine), tried(build.design, mine), strict=True))
+    return [known.get(id(one), one) for one in told]
 
 
 def _later(one: Stage, than: Stage) -> bool:

@@ -61,15 +61,18 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
     tables = {one.name: _placed(one.schema(), f"table.{one.name}", defs) for one in host.all(Table)}
     names = sorted(one.name for one in families)
     own = "requirement" if requirement else "parameters"
-    cases = []
-    for one in sorted(families, key=lambda one: one.name):
-        asked = _asked(one, defs) if requirement else _model(one.Params, one.name, defs)
-        cases.append(
-            {
-                "if": {"properties": {"family": {"const": one.name}}, "required": ["family"]},
-                "then": {"properties": {own: asked}},
-            }
-        )
+    asked = {
+        one.name: _asked(one, defs) if requirement else _model(one.Params, one.name, defs)
+        for one in sorted(families, key=lambda one: one.name)
+    }
+    # Editors complete what stands under properties; what depends on the family they can only check.
+    cases = [
+        {
+            "if": {"properties": {"family": {"const": name}}, "required": ["family"]},
+            "then": {"properties": {own: table}},
+        }
+        for name, table in asked.items()
+    ]
     return {
         "$schema": DIALECT,
         "title": f"mechwright {own if requirement else 'design'}" + (f", {family}" if family else ""),
@@ -82,12 +85,12 @@ def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> d
                 "pattern": f"^(?:{NAME_PATTERN})$",
                 "description": "Name of the files.",
             },
-            own: {"type": "object"},
+            own: asked[family] if family else {"type": "object"},
             **tables,
         },
         "required": ["family"],
         "additionalProperties": False,
-        "allOf": cases,
+        **({} if family else {"allOf": cases}),
         "$defs": defs,
     }
 

@@ -16,6 +16,9 @@ Judge = Callable[[Design], Sequence[Finding]]
 
 KEY = 0.5
 """What one more key adds to the size of a change: as much as a number that grows by two thirds."""
+SAID, ASKED = 1.5, 3.0
+"""How many times as much a change counts of a key that the file says, and of one that people set first
+besides: what somebody has asked for is changed last."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +96,20 @@ class Bench:
         return self.errors(change) == []
 
     def size(self, change: Change) -> float:
-        """How much a change is: how far its keys go, and how many they are."""
-        keys = [self.keys[path] for path in change if path in self.keys]
-        return KEY * len(change) + sum(distance(key, self.now(key), change[key.path]) for key in keys)
+        """How much a change is: how far its keys go, how many they are, and how much they are meant."""
+        sizes = (
+            self.weight(path) * (KEY + distance(self.keys[path], self.now(self.keys[path]), value))
+            for path, value in change.items()
+            if path in self.keys
+        )
+        return sum(sizes) + KEY * len(change.keys() - self.keys.keys())
+
+    def weight(self, path: str) -> float:
+        """How much the design means a key: whether its file says it, and whether people set it first."""
+        key = self.keys.get(path)
+        if key is None or not key.stands_in(self.design.content):
+            return 1.0
+        return ASKED if key.first else SAID
 
     def _judged(self, change: Change) -> tuple[Finding, ...] | None:
         try:

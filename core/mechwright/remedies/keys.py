@@ -35,6 +35,8 @@ class Key:
         The value where the file leaves the key out; None where that means that there is none.
     unit
         Of a number.
+    first
+        Whether it is one that people set first: what the mechanism is for, and not how it is made.
     """
 
     path: str
@@ -44,6 +46,7 @@ class Key:
     choices: tuple[Any, ...] = ()
     default: Any = None
     unit: str = ""
+    first: bool = False
 
     @property
     def name(self) -> str:
@@ -55,12 +58,21 @@ class Key:
         """Whether its values are numbers."""
         return self.kind in {"number", "integer"}
 
-    def now(self, content: Mapping[str, Any]) -> Any:
-        """Its value in the content of a design file: of a number the magnitude in its unit."""
+    def stands_in(self, content: Mapping[str, Any]) -> bool:
+        """Whether the content of a design file says it."""
         value: Any = content
         for name in self.path.split("."):
             if not isinstance(value, Mapping) or name not in value:
-                return self.default
+                return False
+            value = value[name]
+        return True
+
+    def now(self, content: Mapping[str, Any]) -> Any:
+        """Its value in the content of a design file: of a number the magnitude in its unit."""
+        if not self.stands_in(content):
+            return self.default
+        value: Any = content
+        for name in self.path.split("."):
             value = value[name]
         if self.numeric and isinstance(value, str):
             return convert(value, self.unit)
@@ -112,14 +124,15 @@ def _key(path: str, field: Mapping[str, Any]) -> Key:
         if option.get("type") != "null":
             facts = {**option, **facts}
     kind = facts.get("type")
+    first = bool(field.get("first"))
     if "enum" in facts:
-        return Key(path, "choice", choices=tuple(facts["enum"]), default=default)
+        return Key(path, "choice", choices=tuple(facts["enum"]), default=default, first=first)
     if kind == "boolean":
-        return Key(path, "choice", choices=(True, False), default=default)
+        return Key(path, "choice", choices=(True, False), default=default, first=first)
     if kind not in {"number", "integer"}:
-        return Key(path, "other", default=default)
+        return Key(path, "other", default=default, first=first)
     low, high = _bound(facts, _LEAST, _ABOVE, -math.inf), _bound(facts, _GREATEST, _BELOW, math.inf)
-    return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")))
+    return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")), first=first)
 
 
 def _bound(

@@ -95,7 +95,10 @@ def _scaled(key: Key, scale: float) -> object:
 
 
 def _given_back(bench: Bench, known: Change) -> Change:
-    """A design that builds, with as many keys as possible as the file has them: halves, then single ones."""
+    """A design that builds, with as many keys as possible as the file has them: halves, then single ones.
+
+    What the file asks for is given back first.
+    """
     kept = dict(known)
 
     def give(paths: list[str]) -> None:
@@ -108,7 +111,7 @@ def _given_back(bench: Bench, known: Change) -> Change:
             give(paths[:half])
             give(paths[half:])
 
-    give(list(kept))
+    give(sorted(kept, key=bench.weight, reverse=True))
     return kept
 
 

@@ -6,11 +6,14 @@ from dataclasses import replace
 from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Change, Finding, Severity, errors
 from mechwright.designs.design import Design
+from mechwright.remedies.advice import advised
 from mechwright.remedies.bench import Bench, Limits
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
-from mechwright.remedies.search import Worth, best_step, refined, related, worth
+from mechwright.remedies.search import Worth, best_step, path_of, refined, related, worth, written
 from mechwright.remedies.words import said
+
+NOT_ENOUGH = "that was tried, and is not enough by itself"
 
 CHECKED = Limits()
 """For ``check`` and for what is refused."""
@@ -50,22 +53,37 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits = CHECKED)
 def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
     """What an inspection finds of a build, with the first of what each finding proposes that removes it.
 
-    Nothing else is tried: a design takes an inspection a second or so. A finding whose proposals all fail
-    keeps its words.
+    Values that its words advise count as proposals. Nothing else is tried: a design takes an inspection a
+    second or so. A finding whose proposals all fail keeps its words, and says so.
     """
+    findings = list(findings)
+    if all(finding.severity is Severity.NOTE for finding in findings):
+        return findings
 
     def ask(one: Build) -> Sequence[Finding]:
         return () if errors(one.findings) else inspection.findings(one)
 
     judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
     bench = Bench(build.design, judge, inspection.stage, INSPECTED)
-    told = []
-    for finding in findings:
-        before = errors([finding])
-        held = (one for one in finding.proposed if worth(bench, finding, before, one) <= Worth.HELPS)
-        change = next(held, None)
-        told.append(finding if change is None else replace(finding, fix=change, remedy=said(bench, change)))
-    return told
+    return [_with_proposed(bench, finding) for finding in findings]
+
+
+def _with_proposed(bench: Bench, finding: Finding) -> Finding:
+    if finding.severity is Severity.NOTE:
+        return finding
+    # An error that was raised has its advice behind its last semicolon.
+    message, _, words = ("", "", finding.remedy) if finding.remedy else finding.message.rpartition("; ")
+    own = bench.keys.get(path_of(bench, finding.parameter))
+    said_so = list(advised(words, own, bench.keys))
+    before = errors([finding])
+    proposed = [written(bench, one, {}) for one in (*finding.proposed, *said_so)]
+    change = next((one for one in proposed if worth(bench, finding, before, one) <= Worth.HELPS), None)
+    if change is not None:
+        fixed = replace(finding, fix=change, remedy=said(bench, change))
+        return replace(fixed, message=message) if message else fixed
+    if said_so:
+        return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
+    return finding
 
 
 def _grave(finding: Finding) -> bool:
@@ -80,7 +98,7 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
     best = best_step(bench, finding, {}, before)
     if best is None or best.worth > Worth.HELPS:
         return None
-    if best.change in finding.proposed:
+    if best.change in [written(bench, one, {}) for one in finding.proposed]:
         return best.change
     return refined(bench, finding, before, best.change)
 

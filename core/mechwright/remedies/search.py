@@ -76,7 +76,7 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
     proposed = [
         step
         for proposal in finding.proposed
-        if (step := _step(bench, finding, decided, before, _written(bench, proposal))) is not None
+        if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
     ]
     best = min(proposed, key=lambda step: step.worth, default=None)
     if best is not None and best.worth <= Worth.HELPS:
@@ -90,13 +90,14 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
     return best
 
 
-def _written(bench: Bench, change: Change) -> Change:
-    """A proposal with its numbers as a person writes them."""
+def written(bench: Bench, change: Change, decided: Change) -> Change:
+    """A proposal with its numbers as a person writes them, without what is so already."""
     return {
         path: typed(bench.keys[path], value)
         if isinstance(value, float) and path in bench.keys and bench.keys[path].numeric
         else value
         for path, value in change.items()
+        if path not in bench.keys or value is None or bench.now(bench.keys[path], decided) != value
     }
 
 
@@ -160,7 +161,7 @@ def drawn_back(bench: Bench, change: Change, keeps: Callable[[Change], bool]) ->
 
         return typed(key, closest(key, now, value, passes))
 
-    for path, value in change.items():
+    for path, value in sorted(change.items(), key=lambda item: -bench.weight(item[0])):
         key = bench.keys.get(path)
         now = bench.now(key) if key is not None else None
         if key is not None and key.numeric and value is not None and now is not None and not bench.spent:

@@ -19,7 +19,10 @@ _ROUNDING = 0.02
 _HALVINGS = 5
 """Times that the gap between a value that fails and one that passes is halved."""
 _OTHER = 0.7
-"""Distance of another choice, and of a value from none: as a number that doubles."""
+"""Distance of another choice, and of none from a value: as a number that doubles."""
+_NEW = 1.4
+"""Distance of a value from none, as a number that is four times as large: what is left out follows from other
+sizes, and is in proportion to them."""
 
 
 def round_to(value: float, digits: int = _DIGITS) -> float:
@@ -92,10 +95,16 @@ def _raw(key: Key, now: float, sign: int) -> Iterator[float]:
         yield from (now * factor**sign for factor in _FACTORS)
     elif key.low == now == 0 and key.unit == "mm":
         yield from _SIZES
-    else:
+    elif now == 0:
         span = key.high - key.low
-        scale = abs(now) or (span * 1e-3 if math.isfinite(span) else 1.0)
-        yield from (now + sign * scale * (factor - 1) for factor in _FACTORS)
+        scale = span * 1e-3 if math.isfinite(span) else 1.0
+        yield from (sign * scale * (factor - 1) for factor in _FACTORS)
+    elif now * sign > 0:
+        yield from (now * factor for factor in _FACTORS)
+    else:  # towards zero, and on to the other side
+        yield from (now / factor for factor in _FACTORS)
+        yield 0.0
+        yield -now
 
 
 def distance(key: Key, old: Any, new: Any) -> float:
@@ -103,11 +112,13 @@ def distance(key: Key, old: Any, new: Any) -> float:
     if old == new:
         return 0.0
     if not key.numeric or old is None or new is None:
-        return _OTHER
+        return _NEW if key.numeric and old is None else _OTHER
     if old > 0 and new > 0:
         return abs(math.log(new / old))
     if key.unit == "deg":
         return float(abs(new - old)) / 45.0
+    if old * new > 0:
+        return abs(math.log(new / old))
     return _OTHER + abs(math.log(max(abs(new), 1e-6) / max(abs(old), 1e-6))) / 10
 
 
@@ -121,7 +132,9 @@ def closest(key: Key, now: float, good: float, passes: Callable[[float], bool]) 
     for _ in range(_HALVINGS):
         if abs(good - bad) <= max(0.01 * max(abs(good), abs(bad)), key.kind == "integer"):
             break
-        between = math.sqrt(bad * good) if key.low >= 0 and bad > 0 and good > 0 else (bad + good) / 2
+        between = (bad + good) / 2
+        if bad * good > 0 and (key.low >= 0 or key.unit != "deg"):
+            between = math.copysign(math.sqrt(bad * good), good)
         middle = float(round(between)) if key.kind == "integer" else round_to(between)
         if middle in {good, bad}:
             break

@@ -1,0 +1,88 @@
+"""The swing that a design asks of a lever, and the ways on which its links can be joined.
+
+Glossary
+--------
+way
+    Angles of the input, the lower one first, between which the links reach; one of a whole turn has no ends.
+"""
+
+import math
+from collections.abc import Sequence
+
+from mechwright.contracts.finding import Change
+
+SLACK = 1e-9
+"""rad. A lever that shall go this much beyond its way goes to the end of it: rounding of degrees."""
+
+Way = tuple[float, float]
+
+LEAST = 1.0
+"""Degrees. A swing that is shorter is not proposed."""
+_KEYS = ("parameters.swing_from", "parameters.swing_to")
+
+LEFT_OUT: Change = dict.fromkeys(_KEYS)
+"""The change to a lever that goes as far as it can."""
+
+
+def within(ways: Sequence[Way], one: float, two: float) -> Way | None:
+    """The swing from ``one`` to ``two`` on the way that has room for it; None where none has. All in rad.
+
+    Angles that differ by turns are the same.
+
+    Examples
+    --------
+    >>> within([(-1.0, 1.0), (2.0, 4.0)], 3.5, 2.5)
+    (3.5, 2.5)
+    >>> within([(-1.0, 1.0)], 0.5, 1.5)
+    """
+    for low, high in ways:
+        if high - low >= math.tau - SLACK:
+            return one, two
+        low, high = beside((low, high), (one + two) / 2, math.tau)
+        if low - SLACK <= min(one, two) and max(one, two) <= high + SLACK:
+            return min(max(one, low), high), min(max(two, low), high)
+    return None
+
+
+def beside(way: Way, angle: float, turn: float) -> Way:
+    """The same way, by whole turns as near to an angle as it can be."""
+    low, high = way
+    off = turn * round((angle - (low + high) / 2) / turn)
+    return low + off, high + off
+
+
+def nearest(ways: Sequence[Way], angle: float, turn: float) -> Way:
+    """Of some ways the one whose middle is nearest to an angle, with the turns of that."""
+    return min((beside(way, angle, turn) for way in ways), key=lambda way: abs((way[0] + way[1]) / 2 - angle))
+
+
+def past(ways: Sequence[Way], one: float, two: float) -> tuple[str, float, float]:
+    """Which end of a swing lies further out of its way, the angle it has, and the last it may have; degrees.
+
+    Examples
+    --------
+    >>> past([(-60.0, 60.0)], -50.0, 100.0)
+    ('swing_to', 100.0, 60.0)
+    """
+    low, high = nearest(ways, (one + two) / 2, 360.0)
+    over = {"swing_from": max(one - high, low - one), "swing_to": max(two - high, low - two)}
+    name = max(over, key=lambda end: over[end])
+    value = one if name == "swing_from" else two
+    return name, value, high if value > (low + high) / 2 else low
+
+
+def shortened(ways: Sequence[Way], one: float, two: float) -> tuple[Change, ...]:
+    """The change to as much of a swing as one of the ways has room for, degrees; empty where none has any.
+
+    Examples
+    --------
+    >>> shortened([(-60.123, 60.123)], 100.0, -50.0)
+    ({'parameters.swing_from': 60.1, 'parameters.swing_to': -50.0},)
+    """
+    if not ways:
+        return ()
+    low, high = nearest(ways, (one + two) / 2, 360.0)
+    low, high = math.ceil(low * 10) / 10, math.floor(high * 10) / 10
+    ends = [min(max(end, low), high) for end in (one, two)]
+    fits = abs(ends[0] - ends[1]) >= LEAST and all(-360 <= end <= 360 for end in ends)
+    return (dict(zip(_KEYS, ends, strict=True)),) if fits else ()
