@@ -214,7 +214,6 @@ def test_teeth_lie_between_their_tolerances(compensation, inner, outer):
     assert proof.leftover_reachable_max_mm <= outer + TOLERANCES.flatten + three_decimals
 
 
-@pytest.mark.xfail(strict=True, reason="a larger D throws the path off at some corner of these teeth")
 def test_teeth_with_play_under_compensation_at_the_control():
     proof = proof_of_teeth("control", path(0.0, 0.004), None)
     assert proof.ok, [check.message for check in proof.failures]
