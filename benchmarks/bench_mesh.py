@@ -70,7 +70,7 @@ def measured(one: shapely.Polygon, other: shapely.Polygon) -> tuple[float, float
                 shapely.boundary(its), *(inside.min(0) - reach), *(inside.max(0) + reach)
             )
             depth = max(depth, float(shapely.distance(rim, shapely.points(inside)).max()))
-    return float(common.area), depth, float(one.distance(other))
+    return float(common.area), depth, 0.0 if common.area else float(one.distance(other))
 
 
 def placed(points: np.ndarray, angle: float, away: float) -> shapely.Polygon:

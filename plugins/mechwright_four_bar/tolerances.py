@@ -41,7 +41,7 @@ class FourBarTolerances(ToleranceModel):
 
     def __init__(self, params: FourBarParams, tolerances: Tolerances) -> None:
         self.bar = bar_of(params)
-        if self.bar.lines_up and params.swing_from is None:
+        if lined_up(params):
             raise DesignError(
                 "crank: where all links line up, no error is in proportion to a tolerance; swing the crank "
                 "between its change points, or make the linkage a little different"
@@ -139,6 +139,11 @@ class FourBarTolerances(ToleranceModel):
         d = ground - (bar.crank + sizes[0]) * crank - shift
         u, w = directions(d, bar.coupler + sizes[1], bar.follower + sizes[2], bar.branch)
         return crank, u, w
+
+
+def lined_up(params: FourBarParams) -> bool:
+    """Whether the crank turns through positions in which all links line up."""
+    return bar_of(params).lines_up and params.swing_from is None
 
 
 _TOGGLE = 1e-6

@@ -1,41 +1,19 @@
-"""What a slider-crank of plates as made does: error of the slider, and its play in the guide.
-
-With β the rod's angle to the slide, φ' the crank's:
-
-    dx/dc = 1/cos β,  dx/da = cos(φ' - β)/cos β,  dx/de = -tan β;
-
-each of the three pins that stands off its bore by ρ adds at most ρ/|cos β|, and the play of the slider acts
-as an offset e.
-"""
+"""What a slider-crank of plates as made does: error of slider and coupler point, and the slider's play."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 import shapely
 
-from mechwright import Array, AsMade, Finding, MadeCurve, MadeFigure, MadePart, Severity, Stage
+from mechwright import AsMade, Finding, MadeFigure, MadePart, Severity, Stage
 from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
-from mechwright_slider_crank.course import course_of
-from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright.mechanics.linkage.made_error import EXACT, made_errors
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import layout_of
 from mechwright_slider_crank.sizes import sizes_of
+from mechwright_slider_crank.tolerances import SliderCrankTolerances
 
-SAMPLES = 361
-
-
-def slide_rates(bar: SliderCrank, phi: Array) -> dict[str, Array]:
-    """Change (n,) of the slide position, mm/mm, with crank, rod and offset, and with any pin that is off."""
-    angle = phi - bar.direction
-    t = bar.offset - bar.crank * np.sin(angle)
-    cos = bar.branch * np.sqrt(bar.rod**2 - t * t) / bar.rod
-    sin = t / bar.rod
-    return {
-        "crank": (np.cos(angle) * cos + np.sin(angle) * sin) / cos,
-        "rod": 1 / cos,
-        "offset": -sin / cos,
-        "pin": 1 / np.abs(cos),
-    }
+RULE = "Σ ρ/|cos β| + play |tan β| + |Σ (∂x/∂l) Δl|; least: all centred"
 
 
 def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
@@ -49,37 +27,30 @@ def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -
         "crank": link(crank, Hole(0j, sizes.shaft), Hole(complex(params.crank), sizes.pin)),
         "rod": link(rod, *ends),
     }
-    if params.bushing > 0:  # the bushings' own fit is not the program's
-        pins: list[Joint | None] = []
-    else:
-        pins = [
-            joint("crank pin", rod, ends[0], sizes.pin),
-            joint("wrist pin", rod, ends[1], sizes.pin),
-            joint("shaft", base, Hole(0j, sizes.base_bore), sizes.shaft),
-        ]
-    phi = np.sort(course_of(params).way(SAMPLES))
-    rates = slide_rates(params.linkage, phi)
+    pins: dict[str, Joint | None] = {}
+    if params.bushing == 0:  # the bushings' own fit is not the program's
+        pins = {
+            "crank-pin": joint("crank pin", rod, ends[0], sizes.pin),
+            "wrist-pin": joint("wrist pin", rod, ends[1], sizes.pin),
+            "shaft": joint("shaft", base, Hole(0j, sizes.base_bore), sizes.shaft),
+        }
     sure = {name: one for name, one in links.items() if one is not None}
-    turning = [one for one in pins if one is not None]
+    turning = {name: one for name, one in pins.items() if one is not None}
     play, spread = _guide(params, made)
-    still = np.abs(np.sum([rates[name] * one.off for name, one in sure.items()], axis=0))
-    room = sum(max(one.room, 0.0) for one in turning)
-    off = still + rates["pin"] * room + np.abs(rates["offset"]) * max(play, 0.0)
-    more = np.sum([np.abs(rates[name]) * one.spread for name, one in sure.items()], axis=0)
-    more = more + rates["pin"] * sum(one.spread for one in turning) + np.abs(rates["offset"]) * spread
-    figures = (
-        MadeFigure(
-            "slider.error",
-            "greatest error of the slider along its guide",
-            "mm",
-            None,
-            float((np.abs(rates["offset"]) * params.play).max()),
-            float(off.max()),
-            float(still.max()),
-            float((off + more).max()),
-            "Σ ρ/|cos β| + play |tan β| + |Σ (∂x/∂l) Δl|; least: all centred"
-            + ("; bushings without play" if params.bushing > 0 else ""),
-        ),
+    # Where the rod stands across the slide, no error is in proportion to what is off.
+    errors = (
+        []
+        if params.linkage.at_limit
+        else made_errors(
+            SliderCrankTolerances(params, EXACT),
+            sure,
+            turning | {"guide": Joint("guide", play, spread)},
+            {"guide": params.play},
+        )
+    )
+    rule = RULE + ("; bushings without play" if params.bushing > 0 else "")
+    figures = [
+        *(one.figure(name, rule) for one, name in zip(errors, ("slider.error", "point.error"), strict=False)),
         MadeFigure(
             "slider.play",
             "play of the slider on each side",
@@ -91,16 +62,10 @@ def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -
             play + spread,
             "less what stays on rail and slider",
         ),
-    )
-    curve = MadeCurve(
-        "Error of the slider",
-        "crank, degrees",
-        "mm",
-        np.degrees(phi),
-        {"as drawn": np.abs(rates["offset"]) * params.play, "as made": off, "over the path": off + more},
-    )
-    found = [*_jammed(params, play - spread), *stuck("slider.as-made", turning, "pin", sizes.pin)]
-    return AsMade(figures, (curve,), tuple(found))
+    ]
+    jammed = stuck("slider.as-made", [*turning.values()], "pin", sizes.pin)
+    found = (*_jammed(params, play - spread), *jammed)
+    return AsMade(tuple(figures), tuple(one.curve("crank") for one in errors), found)
 
 
 def _guide(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -> tuple[float, float]:

@@ -30,7 +30,7 @@ from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
 from mechwright_cam.proof.paths import Paths, Pieces
 from mechwright_cam.proof.scene import planned_offsets
-from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.job import LEAST_TURN, Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.posting import Posting
 from mechwright_cam.shop.settings import CamSettings
@@ -261,7 +261,7 @@ def test_a_contour_is_the_parallel_of_its_ring(loop, sizes: tuple[float, float],
     radius, base = sizes
     reach = radius + 0.15
     ring = max(rings(grow(shapely.Polygon(loop.flatten()), reach + BIAS), side > 0), key=len)
-    path = contour_beside(ring, reach - base, side, FIT)
+    path = contour_beside(ring, reach - base, side, FIT, LEAST_TURN)
     assert path.closed
     here = path.start
     for cut in path.cuts:

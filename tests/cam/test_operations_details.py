@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
@@ -50,6 +51,18 @@ def made(*details, **settings):
     of = job(detailed(*details), *TOOLS, **settings)
     program = plan(of)
     return of, program, prove(LinuxCnc().write(program), of)
+
+
+def test_the_chamfer_of_a_rim_keeps_off_the_clamp():
+    """The mill stands over the part, further in than the wall."""
+    with pytest.raises(
+        DesignError, match=r"come within 1 mm of a clamp of 26 mm; use at most [\d.]+ mm"
+    ) as said:
+        made(DETAILS["rim"], hold={"method": "bore", "clamp_diameter": 26.0})
+    most = float(re.findall(r"at most ([\d.]+) mm", str(said.value))[0])
+    assert 22.0 < most < 26.0
+    _, _, proof = made(DETAILS["rim"], hold={"method": "bore", "clamp_diameter": most})
+    assert proof.ok, [check.message for check in proof.failures]
 
 
 @pytest.mark.parametrize("name", DETAILS)

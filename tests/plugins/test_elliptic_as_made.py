@@ -53,13 +53,18 @@ def test_without_backlash_the_play_is_what_was_measured_on_the_real_path(tight):
     parts, _, params = built(tight)
     (pair,) = pairs_of(params, {"gear": parts})
     ahead, behind = pair.gaps.play()
-    expected = {fact["name"]: (fact["expected"], fact["tolerance"]) for fact in facts("asmade.")}
     (part,) = parts
-    assert np.median(part.off) == pytest.approx(expected["asmade.left_median"][0], abs=2e-4)
-    least, within = expected["asmade.play_total_min"]
-    assert (ahead + behind).min() == pytest.approx(least, abs=within)
-    assert pair.mesh.free_play.min() == pytest.approx(least, abs=within)
-    assert (ahead + behind).max() < 0
+    total, other = ahead + behind, pair.mesh.free_play
+    found = {
+        "asmade.left_median": (np.median(part.off),),
+        "asmade.left_mean": (part.off.mean(),),
+        "asmade.play_total_min": (total.min(), other.min()),
+        "asmade.play_total_max": (total.max(),),  # a peak, between whose positions polygons differ by 4 µrad
+    }
+    for fact in facts("asmade."):
+        for value in found[fact["name"]]:
+            assert value == pytest.approx(fact["expected"], abs=fact["tolerance"]), fact["name"]
+    assert total.max() < 0
 
 
 def test_a_pair_that_jams_is_refused_with_a_backlash_that_works(tight):

@@ -7,116 +7,133 @@ import pytest
 from as_made_builds import built, example, facts, table
 
 from mechwright.contracts.finding import Severity
-from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
+from mechwright.contracts.made_part import MadeHole
+from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
+from mechwright.mechanics.linkage.made_error import EXACT, made_errors
 from mechwright_cam.pages.as_made.plot import plot
-from mechwright_four_bar.as_made import output_rates, point_rates
+from mechwright_four_bar.as_made import as_made as bar_as_made
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.plates import bosses_of
+from mechwright_four_bar.tolerances import FourBarTolerances
 from mechwright_slider_crank.as_made import as_made as slider_as_made
-from mechwright_slider_crank.as_made import slide_rates
-from mechwright_slider_crank.kinematics import SliderCrank
-from mechwright_spherical.as_made import output_rates as spherical_rates
-from mechwright_spherical.linkage import linkage_of
-from mechwright_spherical.params import FourBarTable, SphericalParams
+from mechwright_slider_crank.params import SliderCrankParams
+from mechwright_slider_crank.tolerances import SliderCrankTolerances
+from mechwright_spherical.params import SphericalParams
+from mechwright_spherical.tolerances import SphericalTolerances
 
 TURN = np.linspace(0, 2 * np.pi, 36001)
-BARS = {
-    "F1": FourBar(29.9864888895368, 79.98996674541814, 69.99688382152353, 89.99472798474908),
-    "F2": FourBar(25.0, 60.0, 50.0, 70.0),
-}
-SLIDERS = {
-    "S1": SliderCrank(51.23710482942299, 113.28305527097054, 50.0),
-    "S2": SliderCrank(50.0, 150.0, 0.0),
-}
 LINKS = ("crank", "coupler", "follower", "ground")
+F1 = dict(
+    zip(LINKS, (29.9864888895368, 79.98996674541814, 69.99688382152353, 89.99472798474908), strict=True)
+)
+F2 = dict(zip(LINKS, (25.0, 60.0, 50.0, 70.0), strict=True))
+S1 = {"crank": 51.23710482942299, "rod": 113.28305527097054, "offset": 50.0}
+S2 = {"crank": 50.0, "rod": 150.0, "offset": 0.0}
+ARCS = ("ground", "input", "coupler", "output")
+H1 = dict(zip(ARCS, (80.0, 30.0, 70.0, 60.0), strict=True))
+H2 = dict(zip(ARCS, (90.0, 25.0, 80.0, 75.0), strict=True))
 
 
-@pytest.mark.parametrize("fact", facts("four-bar.dpsi_d"), ids=lambda f: f"{f['name']}-{f['inputs']}")
-def test_sensitivities_of_the_follower(fact):
-    given = fact["inputs"]
-    rates = output_rates(FourBar(*(given[name] for name in LINKS)), np.array([given["theta"]]))
-    assert rates[fact["name"].split("_d")[1]][0] == pytest.approx(fact["expected"], abs=fact["tolerance"])
+def four_bar(sizes):
+    return FourBarTolerances(FourBarParams(**sizes), EXACT)
 
 
-@pytest.mark.parametrize("name", BARS)
-def test_worst_case_of_the_follower(name):
-    rates = output_rates(BARS[name], TURN)
-    pins = 4 * 0.01 * rates["pin"]
-    links = 0.02 * sum(np.abs(rates[link]) for link in LINKS)
-    found = {"worst_case": (pins + links).max(), "pins_only": pins.max()}
-    for kind, value in found.items():
-        (fact,) = [f for f in facts(f"four-bar.{kind}") if f["inputs"]["design"] == name]
-        assert value == pytest.approx(fact["expected"], abs=fact["tolerance"])
+def slider(sizes):
+    return SliderCrankTolerances(SliderCrankParams(**sizes), EXACT)
 
 
-def test_sensitivities_of_a_coupler_point_are_differences_of_positions():
-    bar, point, phi, h = BARS["F1"], 30 + 20j, np.array([0.4, 2.0, 4.5]), 1e-5
+def spherical(arcs):
+    return SphericalTolerances(SphericalParams(kind="four-bar", radius=60, four_bar=arcs), EXACT)
 
-    def where(one):
-        loop = close(one, phi)
+
+def fact_of(name, design):
+    (fact,) = [f for f in facts(name) if f["inputs"]["design"] == design]
+    return pytest.approx(fact["expected"], abs=fact["tolerance"])
+
+
+@pytest.mark.parametrize(
+    ("name", "design", "model", "off"),
+    [
+        ("four-bar.worst_case", "F1", four_bar(F1), 0.02),
+        ("four-bar.worst_case", "F2", four_bar(F2), 0.02),
+        ("slider-crank.worst_case", "S1", slider(S1), 0.02),
+        ("slider-crank.worst_case", "S2", slider(S2), 0.02),
+        ("spherical.worst_case", "H1", spherical(H1), np.radians(0.02)),
+        ("spherical.worst_case", "H2", spherical(H2), np.radians(0.02)),
+    ],
+)
+def test_worst_cases_are_the_reference(name, design, model, off):
+    model.positions = TURN
+    known = {one.name: one for one in model.contributors}
+    pins = {one: Joint(one, 0.01, 0.0) for one in known if known[one].directions == 2}
+    links = {one: MadeLink(0.0, off) for one in {*LINKS, *S1, *ARCS} & set(known)}
+    error, *_ = made_errors(model, links, pins, dict.fromkeys(pins, 0.01))
+    assert error.most.max() == fact_of(name, design)
+    assert error.drawn.max() == pytest.approx(error.made.max())
+    if design.startswith("F"):
+        assert error.made.max() == fact_of("four-bar.pins_only", design)
+    figure = error.figure("any", "rule")
+    assert figure.high == pytest.approx(error.most.max() * (1.0 if error.output.unit == "mm" else 1e6))
+    assert figure.low == 0
+
+
+def test_errors_of_a_coupler_point_are_differences_of_positions():
+    point, phi, off = 30 + 20j, np.array([0.4, 2.0, 4.5]), 1e-4
+
+    def where(sizes):
+        loop = close(FourBar(*sizes.values()), phi)
         return loop.joint_a + point * loop.coupler.direction
 
-    rates = point_rates(bar, point, phi)
-    for name in LINKS:
-        longer, shorter = (replace(bar, **{name: getattr(bar, name) + s * h}) for s in (1, -1))
-        assert rates[name] == pytest.approx(np.abs(where(longer) - where(shorter)) / (2 * h), rel=1e-6)
-    assert (rates["pin-a"] >= 1).any()
-    # A pin at B acts as an error of the coupler's length does at the most, seen along the follower.
-    assert (rates["pin-b"] >= rates["follower"] - 1e-12).all()
-
-
-@pytest.mark.parametrize("fact", facts("slider-crank.dx_d"), ids=lambda f: f"{f['name']}-{f['inputs']}")
-def test_sensitivities_of_the_slider(fact):
-    given = fact["inputs"]
-    bar = SliderCrank(given["crank"], given["rod"], given["offset"])
-    rates = slide_rates(bar, np.array([given["theta"]]))
-    assert rates[fact["name"].split("_d")[1]][0] == pytest.approx(fact["expected"], abs=fact["tolerance"])
-
-
-@pytest.mark.parametrize("name", SLIDERS)
-def test_worst_case_of_the_slider(name):
-    rates = slide_rates(SLIDERS[name], TURN)
-    worst = 3 * 0.01 * rates["pin"] + 0.02 * sum(np.abs(rates[one]) for one in ("crank", "rod", "offset"))
-    (fact,) = [f for f in facts("slider-crank.worst") if f["inputs"]["design"] == name]
-    assert worst.max() == pytest.approx(fact["expected"], abs=fact["tolerance"])
-
-
-def spherical(ground, input_, coupler, output, start, travel):
-    four_bar = FourBarTable(
-        ground=ground, input=input_, coupler=coupler, output=output, start=start, travel=travel
+    model = FourBarTolerances(FourBarParams(**F1, coupler_point_x=30, coupler_point_y=20), EXACT)
+    model.positions = phi
+    both = {"crank": MadeLink(off, 0.0), "follower": MadeLink(-2 * off, 0.0)}
+    _, error = made_errors(model, both, {}, {})
+    longer, shorter = (
+        where(F1 | {"crank": F1["crank"] + s * off, "follower": F1["follower"] - 2 * s * off})
+        for s in (1, -1)
     )
-    return linkage_of(SphericalParams(kind="four-bar", four_bar=four_bar)).shown
-
-
-@pytest.mark.parametrize("fact", facts("spherical.dpsi_d"), ids=lambda f: f"{f['name']}-{f['inputs']}")
-def test_sensitivities_of_the_spherical_output(fact):
-    given = fact["inputs"]
-    arcs = [given[f"{name}_deg"] for name in ("ground", "input", "coupler", "output")]
-    phase = spherical(*arcs, np.degrees(given["theta"]), 1.0)
-    rates = spherical_rates(phase, np.radians(arcs[0]), 2)
-    name = {"input": "crank", "output": "rocker"}.get(
-        fact["name"].split("_d")[1], fact["name"].split("_d")[1]
+    assert error.centred == pytest.approx(np.abs(longer - shorter) / 2, rel=1e-6)
+    # A pin at A in its worst direction is the farthest of all round.
+    _, error = made_errors(model, {}, {"pin-a": Joint("A", off, 0.0)}, {})
+    (rate,) = (
+        row
+        for one, row in zip(model.contributors, model.sensitivities("coupler point", phi), strict=True)
+        if one.name == "pin-a"
     )
-    assert rates[name][0] == pytest.approx(fact["expected"], abs=fact["tolerance"])
+    turn = np.linspace(0, 2 * np.pi, 3601)
+    moved = np.einsum("cmn,mk->ckn", rate, off * np.array([np.cos(turn), np.sin(turn)]))
+    assert error.made == pytest.approx(np.hypot(*moved).max(axis=0), rel=1e-6)
 
 
-@pytest.mark.parametrize(("name", "arcs"), [("H1", (80, 30, 70, 60)), ("H2", (90, 25, 80, 75))])
-def test_worst_case_of_the_spherical_output(name, arcs):
-    rates = spherical_rates(spherical(*arcs, 0.0, 360.0), np.radians(arcs[0]), 3601)
-    links = sum(np.abs(rates[one]) for one in ("ground", "crank", "coupler", "rocker"))
-    worst = 4 * 0.01 / 60 * rates["pin"] + np.radians(0.02) * links
-    (fact,) = [f for f in facts("spherical.worst") if f["inputs"]["design"] == name]
-    assert worst.max() == pytest.approx(fact["expected"], abs=fact["tolerance"])
+class Bored:
+    """A plate whose bores are as drawn."""
+
+    corridor = 0.0
+
+    def hole_at(self, x, y, diameter):
+        return MadeHole(x, y, diameter, diameter, 0.0)
+
+
+def test_where_links_line_up_the_play_alone_is_told(monkeypatch):
+    bar = FourBarParams(crank=40, coupler=80, follower=40, ground=80, bushing_wall=0)
+    plates = {name: [Bored()] for name in bosses_of(bar)}
+    assert [one.name for one in bar_as_made(bar, plates).figures] == ["pin.room"]
+    slide = SliderCrankParams(crank=40, rod=40, offset=0, bushing=0)
+    plates = {name: [Bored()] for name in ("base", "rail", "crank", "rod", "slider")}
+    monkeypatch.setattr("mechwright_slider_crank.as_made._guide", lambda *_: (0.05, 0.0))
+    assert [one.name for one in slider_as_made(slide, plates).figures] == ["slider.play"]
 
 
 def test_the_plates_of_the_examples_are_judged():
     names = {
         "crank-rocker-three-poles": {"follower.error", "pin.room"},
         "double-crank": {"follower.error", "pin.room"},
-        "slider-crank-quick-return": {"slider.error", "slider.play"},
-        "spherical-crank-rocker": {"output.error", "pin.room"},
+        "slider-crank-quick-return": {"slider.error", "point.error", "slider.play"},
+        "spherical-crank-rocker": {"output.error", "point.error", "pin.room"},
         "spherical-double-crank": {"output.error", "pin.room"},
-        "spherical-five-bar-refined": {"output.error", "pin.room"},
+        "spherical-five-bar-refined": {"point.error", "pin.room"},
     }
     for name, figures in names.items():
         _, said, _ = example(name)

@@ -18,6 +18,7 @@ from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.plane.path import Path
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.vice import CLAMP_GAP
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 BELOW = (0.3, 0.1)
@@ -35,7 +36,7 @@ class ChamferOperation(DetailOperation):
         region = shapely.Polygon(detail.loop.flatten())
         # Around the rim the tip must stay above the tabs.
         tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
-        held, floor = False, _floor_below(job, detail, region)
+        held, floor, beside = False, _floor_below(job, detail, region), -math.inf
         right = [t for t in job.tools_of(ToolKind.CHAMFER) if abs(t.point_angle - 90) <= TOLERANCES.noise]
         for tool, below in product(right, BELOW):
             deep = detail.width + below
@@ -45,7 +46,10 @@ class ChamferOperation(DetailOperation):
             if -deep < max(tabs, floor - TOLERANCES.noise):
                 continue
             found = _rings(job, detail, region, tool, below)
-            if found:
+            room = _beside_clamp(job, detail, found, tool)
+            if found and room < CLAMP_GAP:
+                beside = max(beside, room)
+            elif found:
                 paths = [fit(ring, FIT, job.settings.path.lines_per_arc) for ring in found]
                 write = partial(_around, paths=paths, z=-deep)
                 return Task(detail, self, (tool,), 0.0, -deep, data=write)
@@ -54,6 +58,13 @@ class ChamferOperation(DetailOperation):
                 f"cam.hold.tab_height: the chamfer {detail.name} of {detail.width:g} mm in part "
                 f"{job.part.name} would cut into the tabs, whose upper side is at Z{tabs:g}; "
                 "make the tabs lower"
+            )
+        if job.clamp is not None and beside > -math.inf:
+            most = math.floor(10 * (job.clamp.diameter + 2 * (beside - CLAMP_GAP))) / 10
+            raise DesignError(
+                f"cam.hold.clamp_diameter: chamfer mills for {detail.name} of part {job.part.name} come "
+                f"within {CLAMP_GAP:g} mm of a clamp of {job.clamp.diameter:g} mm; "
+                + (f"use at most {most:g} mm, or tabs" if most > 0 else "use tabs")
             )
         if detail.width + BELOW[-1] > -floor + TOLERANCES.noise:
             raise DesignError(
@@ -88,6 +99,14 @@ def _rings(job: Job, detail: Chamfer, region: shapely.Polygon, tool: Tool, below
     frame = shapely.box(*region.bounds).buffer(4 * tool.diameter)
     found = rings(shapely.difference(frame, grow(region, -offset)), job.settings.climb)
     return [ring for ring in found if shapely.contains(region, shapely.LinearRing(ring))]
+
+
+def _beside_clamp(job: Job, detail: Chamfer, found: list[Array], tool: Tool) -> float:
+    """Room between a mill on its way and the clamp that is on when the rim is cut, mm; inf without one."""
+    if job.clamp is None or detail.side != "outside" or not found:
+        return math.inf
+    away = shapely.distance(shapely.multilinestrings(found), shapely.Point(job.clamp.centre))
+    return float(away) - tool.radius - job.clamp.diameter / 2
 
 
 def _around(pen: Pen, paths: list[Path], z: float) -> None:

@@ -20,7 +20,7 @@ from mechwright_cam.shop.settings import CamSettings, PathSettings
 from mechwright_cam.shop.tool import Tool
 
 REACH_SHARE = 1.5
-"""Of the tolerance for stock left on walls, what a larger cutter may leave in their corners besides."""
+"""Of both tolerances of walls together, what a larger cutter may leave in their corners besides."""
 FITS = 0.9
 """A mill is worth choosing where what larger ones leave holds a disc of this share of it."""
 HEAVY = 0.1
@@ -111,9 +111,11 @@ def roughers(mills: Sequence[Tool], last: Sequence[Tool]) -> list[Tool]:
 def same_reach(path: PathSettings) -> float:
     """A larger cutter is as good as the finest one if it leaves at most this much more on a wall, mm.
 
-    It is what is left of the permitted leftover beside the path's tolerance, and in proportion to that.
+    It is what is left of the permitted leftover beside the path's tolerance, and in proportion to the zone in
+    which walls may lie.
     """
-    return min(TOLERANCES.leftover - path.outer_tolerance, REACH_SHARE * path.outer_tolerance)
+    zone = path.inner_tolerance + path.outer_tolerance
+    return min(TOLERANCES.leftover - path.outer_tolerance, REACH_SHARE * zone)
 
 
 def finishing_choice(

@@ -161,7 +161,7 @@ class CompensatedFinishing:
     def _contours(self) -> list[Path]:
         """The contours, closed ones anywhere entered yet."""
         zone, reach = self.zone, self.job.reach(self.tool)
-        tolerance = fit_tolerance(zone.path)
+        inset, tolerance = reach - self.offsets.base, fit_tolerance(zone.path)
         found = []
         # Past tabs the tool is lifted: the contour is that of the wall alone.
         for ring in rings(grow(zone.wall, reach + zone.path.bias), self.settings.climb):
@@ -169,7 +169,7 @@ class CompensatedFinishing:
             everywhere = np.ones(len(dense), dtype=bool)
             whole = pieces(dense, everywhere, everywhere, self.wide, 0)
             runs = [ring] if whole and whole[0].closed else [piece.points for piece in whole]
-            found += [contour_beside(run, reach - self.offsets.base, self.side, tolerance) for run in runs]
+            found += [contour_beside(run, inset, self.side, tolerance, LEAST_TURN) for run in runs]
         return [contour for contour in found if contour.cuts]
 
     # -- leads ------------------------------------------------------------------------------------------

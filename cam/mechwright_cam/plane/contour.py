@@ -41,19 +41,23 @@ ON_EDGE = 4
 """Places on each edge of a run that are looked at."""
 ON_FILLET = 9
 """Places on either side of a corner at which the arcs that round it are looked at."""
+ROUNDED = 0.0007
+"""By so much three decimals move the end of a line or arc, mm; its centre turns with its chord."""
 HALVINGS = 6
 """So often a run is halved for the sake of its two arcs; then the one arc of the fit has to do."""
 
 
-def contour_beside(ring: Array, inset: float, side: int, tolerance: float) -> Path:
+def contour_beside(ring: Array, inset: float, side: int, tolerance: float, spare: float = 0.0) -> Path:
     """The contour ``inset`` mm beside a ring (n, 2), mm, or a run of one; a ring repeats its first point.
 
     ``side`` is 1 if the tool runs on the left of the contour, with the wall on its right, else -1;
-    ``tolerance`` is the largest deviation from the ring, mm.
+    ``tolerance`` is the largest deviation from the ring, mm. The control is asked for parallels up to
+    ``spare`` mm from the ring.
     """
     closed = bool(np.all(ring[0] == ring[-1]))
     bends = _smooth(ring, closed, side, tolerance)
-    return _path(_sharpened(_moved(bends, closed, inset, side), closed), closed)
+    moved = _sharpened(_moved(bends, closed, inset, side), closed)
+    return _path(_forward(_without_crumbs(moved, closed), closed, inset - spare, side), closed)
 
 
 # -- along the ring -----------------------------------------------------------------------------------------
@@ -246,6 +250,35 @@ def _without_crumbs(bends: list[Bend], closed: bool) -> list[Bend]:
         bends = _joined([bends[number] for number in alive], alive, len(bends), closed)
 
 
+def _forward(bends: list[Bend], closed: bool, inset: float, side: int) -> list[Bend]:
+    """Bends none of whose parallels up to ``inset`` mm, on the tool's ``side``, runs back.
+
+    Where two meet under a slight inside angle, the control begins the second parallel where the first one
+    ends, past its own start. An arc that ends before that becomes one nearly all the way round: it is left
+    out, and its neighbours meet, if the next one is long enough for that.
+    """
+    lost = [number for number, bend in enumerate(bends) if side * bend.turn > 0]
+    while lost and len(bends) > 3:
+        number = lost.pop()
+        if not closed and number in (0, len(bends) - 1):
+            continue
+        before, bend, after = (bends[(number + k) % len(bends)] for k in (-1, 0, 1))
+        if _left_ahead(before, bend, inset, side) > 0 or _left_ahead(before, after, inset, side) <= 0:
+            continue
+        kept = [other for other in range(len(bends)) if other != number]
+        bends = _without_crumbs(_joined([bends[k] for k in kept], kept, len(bends), closed), closed)
+        lost = [other for other, left in enumerate(bends) if side * left.turn > 0]
+    return bends
+
+
+def _left_ahead(before: Bend, bend: Bend, inset: float, side: int) -> float:
+    """Length of a bend's parallel after that of the one before it, once they have been rounded, mm."""
+    kink = side * wrapped(bend.heading(bend.start) - before.heading(before.end))
+    chords = [math.dist(one.start, one.end) for one in (before, bend)]
+    length = bend.sweep * (bend.radius - side * bend.turn * inset) if bend.turn else chords[1]
+    return length - inset * max(kink + sum(ROUNDED / chord for chord in chords), 0.0)
+
+
 def _joined(found: list[Bend], numbers: list[int], count: int, closed: bool) -> list[Bend]:
     """Bends that meet where others between them are left out; their ``numbers`` are those among ``count``.
 
@@ -277,13 +310,12 @@ def _runs_back(bend: Bend, old: Bend) -> bool:
 
 def _path(bends: list[Bend], closed: bool) -> Path:
     """The path, rounded as programs print it."""
-    kept = _without_crumbs(bends, closed)
-    if not kept:
+    if not bends:
         return Path((0.0, 0.0), ())
-    ends = [printed(bend.end) for bend in kept]
-    here = start = ends[-1] if closed else printed(kept[0].start)
+    ends = [printed(bend.end) for bend in bends]
+    here = start = ends[-1] if closed else printed(bends[0].start)
     cuts: list[Cut] = []
-    for bend, end in zip(kept, ends, strict=True):
+    for bend, end in zip(bends, ends, strict=True):
         if end != here:
             cuts.append(arc(here, end, bend.centre, bend.turn) if bend.turn else line(here, end))
         here = end

@@ -18,12 +18,13 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.shop.settings import PathSettings
 
 FINE = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
-BIAS = PathSettings().bias
+BIAS = TOLERANCES.outline + TOLERANCES.flatten
 """How far paths beside what is no wall, such as chamfers, keep off it, mm: by what path and polygon can be
 wrong, so that nothing is cut deeper than the outline itself may be wrong."""
 ROUGH = 0.005
@@ -35,7 +36,7 @@ def fit_tolerance(path: PathSettings) -> float:
     return path.tolerance - 2 * FINE
 
 
-FIT = fit_tolerance(PathSettings())
+FIT = TOLERANCES.arc_fit - 2 * FINE
 """The same for paths that finish no wall, mm."""
 
 LEAST_CORNERS = 4

@@ -15,10 +15,9 @@ from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.reachable import Reach, Surroundings
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.settings import PathSettings
 from mechwright_cam.shop.tool import Tool
 
-PLAY = PathSettings().bias
+PLAY = TOLERANCES.outline + TOLERANCES.flatten
 """A cutter reaches what it enters with this much air on either side, mm.
 
 Paths and polygons are no better, and may be a micron too deep as outlines may: a path in the middle of a

@@ -1,5 +1,6 @@
 """A part is laid into its stock, and held."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -96,7 +97,7 @@ def check_clamp(job: Job) -> None:
     if job.clamp is None:
         return
     reach = shapely.distance(shapely.Point(job.clamp.centre), job.target.exterior)
-    limit = 2 * (float(reach) - CLAMP_GAP)
+    limit = math.floor(200 * (float(reach) - CLAMP_GAP)) / 100
     if job.clamp.diameter > limit:
         raise DesignError(
             f"cam.hold.clamp_diameter: a clamp of {job.clamp.diameter:g} mm comes within {CLAMP_GAP:g} "

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from mechwright.contracts.fits import HoleClass
 from mechwright.contracts.marking import LEAST_HEIGHT
 from mechwright.contracts.parameters import FIRST, Parameters
-from mechwright.tolerances import TOLERANCES
+from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
 from mechwright_cam.shop.machine import Machine
@@ -17,8 +17,9 @@ from mechwright_cam.shop.tool import CuttingChange
 DEEPEST_INTO = round(TOLERANCES.gouge - TOLERANCES.flatten, 6)  # no tail of floating point in messages
 """Most that a wall may be asked to be too deep, mm: what chords of outlines leave of the permitted gouge."""
 
-LEAST_OFF = 2 * (TOLERANCES.outline + TOLERANCES.flatten)
-"""Least that may stay on a wall, mm: less would leave chords of outline and offset, and the fit, no room."""
+LEAST_ZONE = 2 * (TOLERANCES.outline + TOLERANCES.flatten)
+"""Least width of the zone in which a wall may lie, mm: less would leave chords of outline and offset, and the
+fit, no room."""
 
 MOST_OFF = TOLERANCES.leftover - TOLERANCES.arc_fit
 """Most that may, mm: the corners of a larger cutter need the rest of the permitted leftover."""
@@ -32,7 +33,7 @@ class PathSettings(Parameters):
     )
     outer_tolerance: Millimetres = Field(
         2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
-        ge=LEAST_OFF,
+        ge=LEAST_ZONE / 2,
         le=MOST_OFF,
         description="Most that finishing may leave on a wall; at least inner_tolerance.",
     )
@@ -46,6 +47,12 @@ class PathSettings(Parameters):
             raise ValueError(
                 f"outer_tolerance {self.outer_tolerance:g} is below inner_tolerance "
                 f"{self.inner_tolerance:g}; paths stay off walls, so give it at least as much"
+            )
+        if falls_short(self.outer_tolerance + self.inner_tolerance, LEAST_ZONE):
+            raise ValueError(
+                f"inner_tolerance {self.inner_tolerance:g} and outer_tolerance {self.outer_tolerance:g} are "
+                f"together below {LEAST_ZONE:g}, which chords and arcs need; give outer_tolerance "
+                f"{LEAST_ZONE - self.inner_tolerance:g}"
             )
         return self
 

@@ -30,6 +30,14 @@ def variances(contributors: Sequence[Contributor], row: Row) -> Array:
     )
 
 
+def size(part: Array) -> Array:
+    """Greatest length (...) of the error by a unit of one contributor (c, m, ...), in whatever direction."""
+    gram = np.einsum("ci...,cj...->ij...", part, part)
+    middle, half = (gram[0, 0] + gram[-1, -1]) / 2, (gram[0, 0] - gram[-1, -1]) / 2
+    across = gram[0, -1] if len(gram) > 1 else 0.0
+    return np.asarray(np.sqrt(middle + np.hypot(half, across)))
+
+
 def limits(contributors: Sequence[Contributor], row: Row) -> tuple[Array, Array]:
     """Least and greatest error (...) of an output of one component, all contributors at their worst."""
     low = high = np.zeros(row[0].shape[2:])

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel
-from mechwright.mechanics.tolerance.first_order import Row, farthest, limits, mean, variances
+from mechwright.mechanics.tolerance.first_order import Row, farthest, limits, mean, size, variances
 
 _ZOOMS, _ZOOMED = 3, 41
 """How often the positions about the worst one are drawn together, and to how many: 1e-4 of a step at last."""
@@ -155,7 +155,7 @@ def _place(model: ToleranceModel, output: Output, row: Row, nominal: float, at: 
 def _sensitivity(one: Contributor, part: Array) -> float:
     if part.shape[:2] == (1, 1) and not one.directions:
         return float(part[0, 0])
-    return float(np.linalg.norm(part, 2)) if np.isfinite(part).all() else float("nan")
+    return float(size(part))
 
 
 def finite(values: Sequence[float]) -> bool:
