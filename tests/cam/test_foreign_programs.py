@@ -1,17 +1,24 @@
-"""Programs of other people, proven against a drawing of the part and nothing else."""
+"""Programs of other people, proven against a drawing of the part, or against a design."""
 
 import json
+import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import ezdxf
+import numpy as np
 import pytest
 from foreign import LONG, THICK, coupler_drawing, coupler_program, freecad_gear
 
 from mechwright.errors import DesignError
 from mechwright_cam.commands.drawing import read_drawing
 from mechwright_cam.commands.verify_drawing import job_of
+from mechwright_elliptic_gears.gear import outline_of
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+ROOT = Path(__file__).parents[2]
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PLATE = ("--thickness", "6", "--stock", "20", "--tools", "1=mill-6,2=drill-5", "--control", "linuxcnc")
@@ -57,16 +64,48 @@ def test_coarse_chords_are_stock_left(command_line, tmp_path: Path, drawing: Pat
     assert err.count("FAIL") == 1
 
 
-def test_a_gear_as_freecad_posts_it_is_refused_for_its_reasons(
-    command_line, tmp_path: Path, drawing: Path
-) -> None:  # type: ignore[no-untyped-def]
-    code, _, err = verified(command_line, tmp_path, drawing, freecad_gear())
-    assert code == 1
-    names = {line.split("[")[1].split("]")[0] for line in err.splitlines()}
-    how = {"positions", "tool-change", "path-tolerance", "coolant", "depth-of-cut"}
-    # Its chords run 0.05 mm into the ends, nothing holds the part, and it drills no holes.
-    assert names == how | {"gouge", "tabs", "holding", "depth", "leftover"}
-    assert "the part comes loose: nothing holds it when this is cut; leave tabs" in err
+def test_a_gear_as_freecad_posts_it_is_refused_for_its_six_reasons(command_line, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    design, program = ROOT / "examples" / "elliptic-pair.toml", tmp_path / "gear.ngc"
+    rim = np.array(
+        outline_of(EllipticGearParams(**tomllib.loads(design.read_text())["parameters"])).outer.flatten()
+    )
+
+    def said(text: str) -> dict[str, str]:
+        program.write_text(text)
+        code, _, err = command_line("verify", program, "--design", design, "--part", "gear")
+        assert code == 1
+        return {line.split("[")[1].split("]")[0]: line.split("] ")[1] for line in err.splitlines()}
+
+    text = freecad_gear(rim)
+    lines = text.splitlines()
+    first_move, change = (
+        next(k for k, line in enumerate(lines, 1) if line.startswith(w)) for w in ("G0", "M6")
+    )
+    profile = lines.index("(Profile)") + 1
+    found = said(text)
+    assert found.keys() == {"positions", "path-tolerance", "tool-change", "gouge", "tabs", "leftover"}
+    assert found["positions"].startswith(
+        f"line {first_move}: moves from an unknown height or place; first retract"
+    )
+    assert found["path-tolerance"].startswith(
+        f"line {first_move}: nothing bounds how far LinuxCNC leaves the path"
+    )
+    assert found["tool-change"].startswith(f"line {change}: a tool is changed without a retract")
+    for rule, what in (
+        ("gouge", r"cuts 0\.03\d mm into the finished part"),
+        ("tabs", r"cuts 1\.400 mm into a tab"),
+    ):
+        blamed = re.match(rf"line (\d+): {what}", found[rule])
+        assert blamed, found[rule]
+        assert int(blamed[1]) > profile
+    assert re.match(
+        r"0\.0[23]\d mm of stock stay where a cutter of the program could go, .* at X", found["leftover"]
+    )
+
+    # Each of them is what it says: without it, the part is still cut free where tabs should hold it.
+    mended = freecad_gear(rim, 0.003).replace("G17 G54 G40", "G64 P0.002\nG17 G54 G40", 1)
+    mended = mended.replace("M6 ", "G53 G0 Z0\nM6 ")
+    assert said(mended).keys() == {"tabs"}
 
 
 def test_the_report_is_json_and_a_page(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
