@@ -50,8 +50,8 @@ class Footprint:
     cut: Steps
     """(ny, nx) the step that cuts a cell through, :data:`NEVER` where none does."""
     body: Steps
-    """(ny, nx) above 0 where a cell is near enough to a cut to count as cut, and lies in the finished part or in
-    a planned tab: it counts as never cut, and those of one number hang together. 0 elsewhere."""
+    """(ny, nx) above 0 where a cell is near enough to a cut to count as cut, and lies in the finished part or
+    in a planned tab: it counts as never cut, and those of one number hang together. 0 elsewhere."""
     part: Shape
     """The finished part."""
 
