@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading.run import Ints, Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
@@ -129,41 +129,6 @@ class Stock:
         sides = shapely.boundary(shapely.convex_hull(self.rough))
         low = low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])]
         return next((step for step in low.tolist() if self.meets(step, rough=True)), None)
-
-    @cached_property
-    def _cut_lines(self) -> tuple[Ints, shapely.STRtree]:
-        """The step of each piece of the cuts, and where they are."""
-        pieces = self.paths.whole(self.cuts)
-        return pieces.step, shapely.STRtree(self.paths.lines(pieces))
-
-    def bored(self, steps: Ints, *, lift: float, radius: float) -> NDArray[np.bool_]:
-        """Which of the steps (k,) go straight down in what one earlier step has cut, and meet nothing there.
-
-        What is asked about is a cylinder as in :meth:`meets`, and much sooner answered here.
-        """
-        paths, found = self.paths, np.zeros(steps.size, dtype=np.bool_)
-        flat = np.hypot(*(paths.end - paths.start)[steps, :2].T) < NEAR
-        at = np.flatnonzero(flat & (paths.run.kind[steps] != Kind.ARC))
-        if not at.size or not self.cuts.size:
-            return found
-        of, tree = self._cut_lines
-        widest = max(float(np.nanmax(paths.radius)) - radius, 0.0)
-        # Passes go down at the same places: each is asked for once.
-        places, where = np.unique(np.round(paths.end[steps[at], :2], 9), axis=0, return_inverse=True)
-        middles, where = shapely.points(places), where.ravel()
-        asked, line = tree.query(middles, predicate="dwithin", distance=widest)
-        order = np.argsort(asked, kind="stable")
-        asked, line = asked[order], line[order]
-        first, last = np.searchsorted(asked, where), np.searchsorted(asked, where, side="right")
-        place = np.repeat(np.arange(at.size), last - first)
-        line = line[np.arange(place.size) - np.repeat(np.cumsum(last - first) - last, last - first)]
-        step, cut = steps[at[place]], of[line]
-        above = paths.low[step] + lift - np.maximum(paths.start[cut, 2], paths.end[cut, 2])
-        spare = paths.cutters(cut).radius_at(above + NEAR) - radius
-        sure = np.flatnonzero((cut < step) & (above > -NEAR) & (spare > 0))
-        place, line, spare = place[sure], line[sure], spare[sure]
-        found[at[place[shapely.dwithin(tree.geometries[line], middles[where[place]], spare)]]] = True
-        return found
 
     def meets(
         self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False
