@@ -63,6 +63,15 @@ def _beside() -> list[str]:
     return [f"G1 X{(-1) ** k * 15} Y{19.1 + k % 1000 / 1e4:.4f}" for k in range(MANY)]
 
 
+def _compensated() -> list[str]:
+    """Round and round on a wave with inner and outer bends, on its left, each turn a little further out."""
+    wave = [(15 + math.sin(7 * k * math.tau / 1000) + k / MANY, k * math.tau / 1000) for k in range(MANY)]
+    return [
+        *("G41 D23 G1 X50 F1000", "X15"),
+        *(f"G1 X{r * math.cos(turn):.4f} Y{r * math.sin(turn):.4f}" for r, turn in wave[1:]),
+    ]
+
+
 CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 cuts in air": lambda: ["G1 Z1 F1000", *(f"G1 {p}" for p in _places(MANY))],
     "100,000 rapids": lambda: [f"G0 {p}" for p in _places(MANY)],
@@ -88,10 +97,12 @@ CASES: dict[str, Callable[[], list[str]]] = {
     "100,000 changes of tool": lambda: ["M5 M9", *["T3 M6"] * MANY],
     "100,000 work offsets": lambda: [f"G5{4 + k % 2}" for k in range(MANY)],
     "100,000 retracts": lambda: ["G53 G0 Z0"] * MANY,
-    "100,000 compensated cuts": lambda: [
-        *("G0 X60 Y0 Z5", "G41 D23 G1 X50 F1000", "X40"),
-        *(f"G1 X{40 - k / 1e4:.4f} Y{(k % 2) / 1e3}" for k in range(MANY)),
-        *("G1 Y30", "G40 G1 Y40"),
+    "100,000 compensated cuts": lambda: ["G0 X60 Y0", *_compensated(), "G40 G1 X60"],
+    "100,000 compensated cuts in stock": lambda: [
+        "G0 X60 Y0",
+        "G1 Z-.5 F1000",
+        *_compensated(),
+        "G40 G1 X60",
     ],
     "100,000 values": lambda: [f"#31=[#31+{k}]" for k in range(MANY)],
     "an endless loop": lambda: ["O1 while [1]", "#1=[#1+1]", "O1 endwhile"],

@@ -88,22 +88,65 @@ def over_tabs(points: np.ndarray, mill: float) -> list[str]:  # type: ignore[typ
 SHARES = (0.15, 0.4, 0.62, 0.88)
 
 
-def freecad_gear() -> str:
-    """The gear-like profile of a job in FreeCAD, in the form of its linuxcnc post: what it does not say is told.
+def freecad_gear(rim: np.ndarray, within: float = 0.03) -> str:  # type: ignore[type-arg]
+    """The program of a job in FreeCAD for a gear 10 mm thick, as its post for LinuxCNC writes it.
 
-    The post begins without a retract, changes tools without one, uses no length offset that is stated before Z
-    moves, has no path tolerance, no coolant, and plunges with a tool down in one go; nothing holds the part.
+    Drilling, helix and profile with cutting data, depths per pass and coolant that are right: what is left are
+    the habits of planner and post. ``rim`` (n, 2) is the outline, mm, which its way keeps to ``within`` so much. T10
+    is a drill of 10 mm, T27 a mill of 3 mm.
     """
-    lines = [
-        *(
-            "(Exported by FreeCAD)",
-            "(Post Processor: linuxcnc_post)",
-            "(begin preamble)",
-            "G17 G54 G40 G49 G80 G90",
-        ),
-        *("G21", "(begin operation: Fixture)", "G54", "(begin toolchange: TC: 6mm Endmill)", "M5", "M6 T1"),
-        *("G43 H1", "M3 S8000", "(begin operation: Profile)", "G0 Z8.000", "G0 X0.000 Y-13.000", "G0 Z3.000"),
-        *("G1 X0.000 Y-13.000 Z-6.200 F200.000",),
+    drill = [
+        "G0 X0.000 Y0.000",
+        "G0 Z3.000",
+        "G98",
+        "G83 X0.000 Y0.000 Z-13.500 F245.000 Q5.000 R1.000",
+        "G80",
     ]
-    lines += [f"G1 X{x:.3f} Y{y:.3f} Z-6.200 F600.000" for x, y in ring(3.0, 0.05).tolist()]
-    return "\n".join([*lines, "G0 Z8.000", "(begin postamble)", "M5", "G17 G54 G90 G80 G40", "M2"]) + "\n"
+    helix = ["G0 X4.500 Y0.000", "G0 Z3.000", "G1 X4.500 Y0.000 Z0.000 F150.000"]
+    for half in range(1, 21):
+        x = 4.5 if half % 2 == 0 else -4.5
+        helix.append(
+            f"G3 X{x:.3f} Y0.000 Z{-10.4 * half / 20:.3f} I{-4.5 if half % 2 else 4.5:.3f} J0.000 F300.000"
+        )
+    helix += ["G3 X-4.500 Y0.000 Z-10.400 I-4.500 J0.000 F300.000"]
+    helix += ["G3 X4.500 Y0.000 Z-10.400 I4.500 J0.000 F300.000", "G1 X4.000 Y0.000 Z-10.400 F300.000"]
+    # Chords of the cutter's way: into the tops of the teeth, and short of their roots.
+    way = shapely.Polygon(rim).buffer(1.5, quad_segs=64).exterior.simplify(within)
+    points = np.asarray(way.coords)[::-1]
+    profile = ["G0 X{:.3f} Y{:.3f}".format(*points[0]), "G0 Z3.000"]
+    for depth in (*np.arange(1.4, 10.4, 1.4).tolist(), 10.4):
+        profile.append("G1 X{:.3f} Y{:.3f} Z{:.3f} F120.000".format(*points[0], -depth))
+        profile += [f"G1 X{x:.3f} Y{y:.3f} Z{-depth:.3f} F300.000" for x, y in points[1:].tolist()]
+    return "\n".join(
+        [
+            *("(Exported by FreeCAD)", "(Post Processor: linuxcnc_post)", "(begin preamble)"),
+            *(
+                "G17 G54 G40 G49 G80 G90",
+                "G21",
+                "(begin operation: Fixture)",
+                "(machine units: mm/min)",
+                "G54",
+            ),
+            *("(finish operation: Fixture)", *changed("TC: 10mm Drill", 10, 2228)),
+            *operation("Drilling", drill),
+            *changed("TC: 3mm Endmill", 27, 10000),
+            *operation("Helix", helix),
+            *operation("Profile", ["(Compensated Tool Path. Diameter: 3.0)", *profile]),
+            *("(begin postamble)", "M05", "G17 G54 G90 G80 G40", "M2", ""),
+        ]
+    )
+
+
+def changed(name: str, tool: int, rpm: int) -> list[str]:
+    """A tool controller: no way up before M6, as the last operation has left the tool at its clearance height."""
+    return [
+        *(f"(begin operation: {name})", "(machine units: mm/min)", f"({name})", "(begin toolchange)", "M5"),
+        *(f"M6 T{tool}", f"G43 H{tool}", f"M3 S{rpm}", f"(finish operation: {name})"),
+    ]
+
+
+def operation(name: str, moves: list[str]) -> list[str]:
+    return [
+        *(f"(begin operation: {name})", "(machine units: mm/min)", "(Coolant On:Flood)", "M8", f"({name})"),
+        *("G0 Z5.000", *moves, "G0 Z5.000", f"(finish operation: {name})", "(Coolant Off:Flood)", "M9"),
+    ]

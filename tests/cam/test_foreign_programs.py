@@ -1,17 +1,24 @@
-"""Programs of other people, proven against a drawing of the part and nothing else."""
+"""Programs of other people, proven against a drawing of the part, or against a design."""
 
 import json
+import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import ezdxf
+import numpy as np
 import pytest
 from foreign import LONG, THICK, coupler_drawing, coupler_program, freecad_gear
 
 from mechwright.errors import DesignError
 from mechwright_cam.commands.drawing import read_drawing
 from mechwright_cam.commands.verify_drawing import job_of
+from mechwright_elliptic_gears.gear import outline_of
+from mechwright_elliptic_gears.params import EllipticGearParams
+
+ROOT = Path(__file__).parents[2]
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PLATE = ("--thickness", "6", "--stock", "20", "--tools", "1=mill-6,2=drill-5", "--control", "linuxcnc")
@@ -57,16 +64,48 @@ def test_coarse_chords_are_stock_left(command_line, tmp_path: Path, drawing: Pat
     assert err.count("FAIL") == 1
 
 
-def test_a_gear_as_freecad_posts_it_is_refused_for_its_reasons(
-    command_line, tmp_path: Path, drawing: Path
-) -> None:  # type: ignore[no-untyped-def]
-    code, _, err = verified(command_line, tmp_path, drawing, freecad_gear())
-    assert code == 1
-    names = {line.split("[")[1].split("]")[0] for line in err.splitlines()}
-    how = {"positions", "tool-change", "path-tolerance", "coolant", "depth-of-cut"}
-    # Its chords run 0.05 mm into the ends, nothing holds the part, and it drills no holes.
-    assert names == how | {"gouge", "tabs", "holding", "depth", "leftover"}
-    assert "the part comes loose: nothing holds it when this is cut; leave tabs" in err
+def test_a_gear_as_freecad_posts_it_is_refused_for_its_six_reasons(command_line, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    design, program = ROOT / "examples" / "elliptic-pair.toml", tmp_path / "gear.ngc"
+    rim = np.array(
+        outline_of(EllipticGearParams(**tomllib.loads(design.read_text())["parameters"])).outer.flatten()
+    )
+
+    def said(text: str) -> dict[str, str]:
+        program.write_text(text)
+        code, _, err = command_line("verify", program, "--design", design, "--part", "gear")
+        assert code == 1
+        return {line.split("[")[1].split("]")[0]: line.split("] ")[1] for line in err.splitlines()}
+
+    text = freecad_gear(rim)
+    lines = text.splitlines()
+    first_move, change = (
+        next(k for k, line in enumerate(lines, 1) if line.startswith(w)) for w in ("G0", "M6")
+    )
+    profile = lines.index("(Profile)") + 1
+    found = said(text)
+    assert found.keys() == {"positions", "path-tolerance", "tool-change", "gouge", "tabs", "leftover"}
+    assert found["positions"].startswith(
+        f"line {first_move}: moves from an unknown height or place; first retract"
+    )
+    assert found["path-tolerance"].startswith(
+        f"line {first_move}: nothing bounds how far LinuxCNC leaves the path"
+    )
+    assert found["tool-change"].startswith(f"line {change}: a tool is changed without a retract")
+    for rule, what in (
+        ("gouge", r"cuts 0\.03\d mm into the finished part"),
+        ("tabs", r"cuts 1\.400 mm into a tab"),
+    ):
+        blamed = re.match(rf"line (\d+): {what}", found[rule])
+        assert blamed, found[rule]
+        assert int(blamed[1]) > profile
+    assert re.match(
+        r"0\.0[23]\d mm of stock stay where a cutter of the program could go, .* at X", found["leftover"]
+    )
+
+    # Each of them is what it says: without it, the part is still cut free where tabs should hold it.
+    mended = freecad_gear(rim, 0.003).replace("G17 G54 G40", "G64 P0.002\nG17 G54 G40", 1)
+    mended = mended.replace("M6 ", "G53 G0 Z0\nM6 ")
+    assert said(mended).keys() == {"tabs"}
 
 
 def test_the_report_is_json_and_a_page(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
@@ -123,12 +162,67 @@ def test_the_page_is_not_wider_than_the_window(
         (("--set", "hold"), "--set: 'hold' is no setting; write KEY=VALUE"),
         (("--set", "clearence=3"), "clearence"),
         (("--set", "clearance=300"), "cam.clearance"),
+        (("--set", "tools=mill-6"), "--set: tools: say the cutters with --tools"),
+        (("--set", "tool_library=own.toml"), "--set: tool_library: say it with --library"),
+        (("--set", "part.coupler.tools=mill-6"), "--set: tools: say the cutters with --tools"),
+        (("--set", "part.rod.deburr=1"), "--set: cam.part.rod.deburr: no plate part has this name"),
+        (("--set", "cutting.mill-66.chip_load=1"), "--set: cutting: no tool 'mill-66' in the library"),
+        (("--set", "measured.lengths.mill-66=7"), "--set: measured.lengths: no tool 'mill-66'"),
+        (("--set", "machine=vf-9"), "--set: cam.machine.model: unknown machine 'vf-9'; known: "),
+        (("--library", "none.toml"), "none.toml: cannot be read: No such file or directory"),
+        (("--library", "."), ".: is no file; a tool library is a text of [[tool]] tables"),
     ],
 )
 def test_what_is_asked_wrongly_is_one_line(command_line, tmp_path, drawing, more, said) -> None:  # type: ignore[no-untyped-def]
     code, out, err = verified(command_line, tmp_path, drawing, coupler_program(), *more)
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert said in err
+
+
+MINE = """[[tool]]
+name = "mine"
+number = 77
+kind = "end-mill"
+diameter = {diameter}
+flutes = 3
+flute_length = 20
+[tool.cutting.aluminium]
+cutting_speed = 150
+chip_load = 0.025
+"""
+
+
+def test_cutters_of_a_library_of_ones_own(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
+    own, program = tmp_path / "own.toml", tmp_path / "program.ngc"
+    program.write_text(coupler_program(mill=6.3))
+    more = ("--tools", "1=mine,2=drill-5", "--library", own, "--hold", "tape")
+    own.write_text(MINE.format(diameter=6.3))
+    asked = ("verify", program, "--dxf", drawing, *PLATE, *more)
+    code, _, err = command_line(*asked)
+    assert (code, err) == (0, ""), err
+    # The same program with a wider cutter of that name cuts into the part, by as much as it is wider.
+    own.write_text(MINE.format(diameter=6.4))
+    code, _, err = command_line(*asked)
+    assert code == 1
+    assert "FAIL [gouge]" in err
+    assert "0.049 mm" in err or "0.050 mm" in err, err
+    # What is said of it with --set counts as in a design file.
+    own.write_text(MINE.format(diameter=6.3))
+    code, _, err = command_line(*asked, "--set", "cutting.mine.chip_load=0.004")
+    assert code == 1
+    assert "FAIL [chips]" in err
+    own.write_text(MINE.format(diameter=-1))
+    code, _, err = command_line(*asked)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "own.toml: tool 'mine'.diameter" in err
+
+
+def test_what_is_set_counts_as_in_a_design_file(drawing: Path) -> None:
+    asked = {"control": "", "material": "", "hold": "", "stock": "", "units": "", "layers": ()}
+    changes = ("machine=haas-vf-2", "deburr=0.4", "part.coupler.holes.bore-1.thread=M6")
+    job = job_of(drawing, 6.0, "1=mill-2", library=None, **asked, changes=changes)
+    assert job.settings.machine.travel_x == 762
+    assert sorted(type(detail).__name__ for detail in job.part.details) == [*3 * ["Chamfer"], "Thread"]
 
 
 def test_it_has_to_be_said_what_is_cut(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
@@ -147,6 +241,7 @@ def test_it_has_to_be_said_what_is_cut(command_line, tmp_path: Path, drawing: Pa
     [
         ("--thickness", "6"),
         ("--tools", "1=mill-6"),
+        ("--library", "own.toml"),
         ("--material", "steel"),
         ("--hold", "tabs"),
         ("--stock", "20"),
@@ -169,10 +264,10 @@ def test_what_a_design_says_is_not_said_again(command_line, tmp_path: Path, draw
 
 def test_a_thin_drawing_asks_for_tabs_that_it_has_room_for(drawing: Path) -> None:
     asked = {"control": "", "material": "", "hold": "", "stock": "", "units": "", "layers": ()}
-    thin = job_of(drawing, 1.0, "1=mill-2", **asked, changes=()).settings.hold
+    thin = job_of(drawing, 1.0, "1=mill-2", library=None, **asked, changes=()).settings.hold
     assert (thin.method, thin.tab_height) == ("tabs", 0.5)
-    assert job_of(drawing, 6.0, "1=mill-2", **asked, changes=()).settings.hold.tab_height == 1.0
-    said = job_of(drawing, 1.0, "1=mill-2", **asked, changes=("hold.tab_height=0.8",))
+    assert job_of(drawing, 6.0, "1=mill-2", library=None, **asked, changes=()).settings.hold.tab_height == 1.0
+    said = job_of(drawing, 1.0, "1=mill-2", library=None, **asked, changes=("hold.tab_height=0.8",))
     assert said.settings.hold.tab_height == 0.8
 
 

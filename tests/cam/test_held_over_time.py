@@ -13,8 +13,10 @@ from hypothesis import strategies as st
 from shop import MILL, plate_job
 
 from mechwright.contracts.part import Part
-from mechwright.geometry import Loop, Outline
+from mechwright.errors import ProofError
+from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import machine
 from mechwright_cam.proof import Check, Scene
 from mechwright_cam.proof.footprint import NEVER, Footprint, earliest
 from mechwright_cam.proof.holding import holding, remarks
@@ -22,6 +24,9 @@ from mechwright_cam.proof.machine_rules import stops
 from mechwright_cam.proof.pieces import Pieces, joined
 from mechwright_cam.setup.holding import Clamp
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import make_job
+from mechwright_cam.shop.library import built_in
+from mechwright_cam.shop.settings import CamSettings
 
 HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\n"
 
@@ -171,11 +176,17 @@ def test_groups_are_those_of_a_search(count: int, pairs: list[tuple[int, int]]) 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))
 @settings(deadline=None, max_examples=60)
 def test_pieces_are_those_that_a_flood_finds_at_every_step(seed: int, most: int) -> None:
-    """Coarse cells so large that no piece is a chip; the plate is looked at after each step."""
+    """Coarse cells so large that no piece is a chip; the plate is looked at after each step.
+
+    Some of the cells that stay are of one of two bodies, which hang together wherever they lie.
+    """
     rng = np.random.default_rng(seed)
     cut = rng.integers(0, most + 1, (7, 9)).astype(np.int32)
     cut[cut == most] = NEVER
-    pieces = Pieces(Footprint(0.0, 0.0, 10.0, cut, shapely.Polygon()))
+    body = np.where((cut == NEVER) & (rng.random(cut.shape) < 0.3), rng.integers(1, 3, cut.shape), 0).astype(
+        np.int32
+    )
+    pieces = Pieces(Footprint(0.0, 0.0, 10.0, cut, body, shapely.Polygon()))
     alive = [(piece, -1) for piece in pieces.whole]
     found: dict[int, set[frozenset[int]]] = {step: set() for step in range(-1, most)}
     while alive:
@@ -187,10 +198,10 @@ def test_pieces_are_those_that_a_flood_finds_at_every_step(seed: int, most: int)
                 found[step].add(frozenset(np.flatnonzero(mask).tolist()))
         alive += [(one, piece.parts) for one in piece.into]
     for step in range(-1, most):
-        assert found[step] == flooded(cut > step), step
+        assert found[step] == flooded(cut > step, body), step
 
 
-def flooded(stands: np.ndarray) -> set[frozenset[int]]:  # type: ignore[type-arg]
+def flooded(stands: np.ndarray, body: np.ndarray) -> set[frozenset[int]]:  # type: ignore[type-arg]
     left = {(int(r), int(c)) for r, c in zip(*np.nonzero(stands), strict=True)}
     groups = set()
     while left:
@@ -198,12 +209,29 @@ def flooded(stands: np.ndarray) -> set[frozenset[int]]:  # type: ignore[type-arg
         while edge:
             r, c = edge.pop()
             group.add(r * stands.shape[1] + c)
-            for near in ((r + 1, c), (r - 1, c), (r, c + 1), (r, c - 1)):
+            mine = [place for place in left if body[r, c] and body[place] == body[r, c]]
+            for near in ((r + 1, c), (r - 1, c), (r, c + 1), (r, c - 1), *mine):
                 if near in left:
                     left.remove(near)
                     edge.append(near)
         groups.add(frozenset(group))
     return groups
+
+
+@pytest.mark.parametrize("wall", [0.5, 0.2])
+def test_a_ring_thinner_than_the_grid_is_one_piece(wall: float) -> None:
+    """Cells are 0.4 mm wide: of so thin a wall they would be pieces and chips."""
+    rim = (Loop((circle((0.0, 0.0), 12.0),)), (Loop((circle((0.0, 0.0), 12.0 - wall, clockwise=True),)),))
+    part, cutters = Part("ring", Outline(*rim), 4.0, "aluminium"), [built_in().get("mill-6")]
+
+    def held(**hold: str) -> Job:
+        return make_job(part, CamSettings.model_validate({"hold": hold}), cutters)
+
+    assert machine(held(method="tabs"), BY_NAME["linuxcnc"]).proof.ok
+    with pytest.raises(
+        ProofError, match=r"the part comes loose: .*; leave pieces of 100 mm² at least, or tabs"
+    ):
+        machine(held(method="none", bed="tape"), BY_NAME["linuxcnc"])
 
 
 def test_a_part_in_its_tabs_is_one_piece_with_the_frame() -> None:

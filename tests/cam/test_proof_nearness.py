@@ -52,6 +52,21 @@ def test_distances_beside_a_hint(
     np.testing.assert_allclose(chords.distance(asked), true, atol=1e-9)
 
 
+@pytest.mark.parametrize("most", [near.MOST_PAIRS, 100])
+def test_the_nearest_of_many_lines_that_cross(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
+    """Near and far from a crowd of long lines, of which few are asked first, and not all together."""
+    rng = np.random.default_rng(7)
+    first, last = rng.uniform(-20, 20, (2, 900, 2))
+    asked = np.concatenate((rng.uniform(-25, 25, (150, 2)), rng.uniform(-900, 900, (10, 2)), first[:1]))
+    for name, value in (("FEW", 30), ("MOST_PAIRS", most), ("TOGETHER", 128), ("CROWD", 10.0)):
+        monkeypatch.setattr(near, name, value)
+    chords = Chords(first, last)
+    assert chords._crowded
+    lines = shapely.linestrings(np.stack((first, last), axis=1))
+    true = shapely.distance(shapely.points(asked)[:, None], lines).min(axis=1)
+    np.testing.assert_allclose(chords.distance(asked), true, atol=1e-9)
+
+
 def test_lines_far_from_every_hint_are_left_out() -> None:
     chords = Chords(np.array([[0.0, 0.0], [50.0, 0.0]]), np.array([[9.0, 0.0], [50.0, 80.0]]))
     asked = np.array([[3.0, 1.0], [30.0, 30.0]])
@@ -98,7 +113,7 @@ def test_a_repeated_piece_counts_once_at_its_lowest(text: str) -> None:
 def test_rows_with_one_key_are_still_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(gouge, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
     rows = np.array([[1, 2], [2, 1], [1, 2], [3, 0]])
-    assert sorted(gouge._first_of_each(rows).tolist()) == [0, 1, 3]
+    assert sorted(gouge.first_of_each(rows).tolist()) == [0, 1, 3]
 
 
 @settings(max_examples=40)

@@ -7,7 +7,7 @@ from by_control import BY_NAME
 from shop import plate_job
 
 from mechwright_cam.proof import Check, Scene
-from mechwright_cam.proof.entry_rules import rapid_height
+from mechwright_cam.proof.entry_rules import rapid_height, rapids_in_stock
 from mechwright_cam.proof.held import clamp
 from mechwright_cam.proof.machine_moves import positions
 from mechwright_cam.setup.holding import Clamp
@@ -53,6 +53,41 @@ def test_beside_the_stock_a_low_rapid_stays_clear_of_its_corners(words: str, pas
     x1, y1 = of.stock[2:]
     low = f"G0 X{x1 - 10} Y{y1 + 30}\nG43 H3 Z5\nZ-2\n{words.replace('X55 Y0', f'X{x1 + 30} Y{y1 - 10}')}"
     assert rapid_height(scene(low, of)).passed == passed
+
+
+CORNER = 3 / 2**0.5
+"""Of the mill's radius that much lies along X, and along Y, where it goes past a corner."""
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "passed"),
+    [
+        # The plate reaches to X39 and Y29, and may reach 0.2 mm further; the mill has a radius of 3 mm.
+        *((42.15, 0.0, False), (42.25, 0.0, True), (-42.15, 0.0, False), (-42.25, 0.0, True)),
+        *((0.0, 32.15, False), (0.0, 32.25, True), (0.0, -32.15, False), (0.0, -32.25, True)),
+        (39.15 + CORNER, 29.15 + CORNER, False),
+        (39.25 + CORNER, 29.25 + CORNER, True),
+    ],
+)
+def test_a_rapid_goes_down_beside_the_stock_two_tenths_away(x: float, y: float, passed: bool) -> None:
+    of = plate_job()
+    assert of.stock == (-39.0, -29.0, 39.0, 29.0)
+    over = f"G0 X{x:.4f} Y{y:.4f}\nG43 H3 Z5\n"
+    found = rapids_in_stock(scene(over + "Z-2", of))
+    assert found.passed == passed
+    if not passed:
+        assert found.line == 7
+        assert (
+            "a rapid goes down less than 0.2 mm beside the stock; feed there, or keep off more"
+            in found.message
+        )
+    assert rapids_in_stock(scene(over + "G1 Z-2 F100", of)).passed
+    assert rapids_in_stock(scene(over + "Z0", of)).passed  # no deeper than the top
+    # Up again it may go anywhere, and down where the mill has been fed before, by itself or in passing.
+    assert rapids_in_stock(scene(over + "G1 Z-2 F100\nG0 Z5\nZ-2", of)).passed
+    past = "" if abs(x) > abs(y) + 10 else " X-60"
+    along = f"G1 Z-2 F100\nG1{past or ' Y-60'}\nG1{past.replace('-', '') or ' Y60'}\nG0 Z5\n"
+    assert rapids_in_stock(scene(over + along + f"X{x:.4f} Y{y:.4f}\nZ-2", of)).passed
 
 
 def test_from_where_the_tool_was_left_x_and_y_move_above_the_clamp() -> None:

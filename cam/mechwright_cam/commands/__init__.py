@@ -60,6 +60,12 @@ class Verify(Command):
         tools: Annotated[
             str, typer.Option(metavar="LIST", help="With --dxf: T numbers and cutters, 1=mill-6,2=drill-5.")
         ] = "",
+        library: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE", help="With --dxf: a tool library with cutters of yours.", show_default=False
+            ),
+        ] = None,
         material: Annotated[
             str, typer.Option(metavar="NAME", help="With --dxf: of the plate, by default aluminium.")
         ] = "",
@@ -99,6 +105,7 @@ class Verify(Command):
         drawn = {
             "thickness": thickness,
             "tools": tools,
+            "library": library,
             "material": material,
             "hold": hold,
             "stock": stock,

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.materials import MATERIALS
-from mechwright.designs.tables import read_table
 from mechwright.errors import DesignError, PluginError, ToolError
 from mechwright.plugins.host import Host
 from mechwright_cam.commands.drawing import read_drawing
@@ -16,8 +15,8 @@ from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
-from mechwright_cam.shop.library import built_in
-from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.library import Library, load_library
+from mechwright_cam.shop.table import CamTable
 from mechwright_cam.shop.tool import Tool
 
 HOLDS: dict[str, dict[str, Any]] = {
@@ -29,6 +28,15 @@ HOLDS: dict[str, dict[str, Any]] = {
 """What ``--hold`` may say, and the settings that it stands for."""
 USUAL_MATERIAL, USUAL_HOLD = "aluminium", "tabs"
 """Where nothing is said."""
+SETTINGS = Path("--set")
+"""Where settings come from, for messages; files that they name lie in or below the folder at hand."""
+SAID_ELSEWHERE = {
+    "tools": "say the cutters with --tools",
+    "tool_library": "say it with --library",
+    "nest": "a drawing holds one part",
+    "operations": "they plan programs, and none is planned here",
+}
+"""Keys of ``[cam]`` that would change nothing here, and what to do instead."""
 
 
 def job_of(
@@ -36,6 +44,7 @@ def job_of(
     thickness: float,
     tools: str,
     *,
+    library: Path | None,
     control: str,
     material: str,
     hold: str,
@@ -46,7 +55,8 @@ def job_of(
 ) -> Job:
     """The part of a drawing in its stock, held, with the tools that are in the machine.
 
-    Raises DesignError or ToolError that names the option.
+    ``tools`` are named in ``library``, or in the built-in one. Raises DesignError or ToolError that names the
+    option, OutputError where the library cannot be read.
     """
     material, hold = material or USUAL_MATERIAL, hold or USUAL_HOLD
     if not 0 < thickness <= 500:
@@ -62,9 +72,14 @@ def job_of(
         table["stock"] = _size(stock)
     for change in changes:
         _set(table, change)
-    settings = read_table(CamSettings, table, "--set", "cam")
-    part = read_drawing(dxf, thickness, material, units, layers)
-    cutters = _tools(tools)
+    cam = CamTable()
+    said = cam.read(table, SETTINGS)
+    (part,) = cam.parts(said, [read_drawing(dxf, thickness, material, units, layers)], SETTINGS)
+    settings, shop = said.of(part.name), load_library(library)
+    for key, names in (("cutting", [*settings.cutting]), ("measured.lengths", [*settings.measured.lengths])):
+        for name in names:
+            _named(shop, name, f"--set: {key}")
+    cutters = _tools(tools, shop.cutting(settings.cutting).measured(settings.measured.lengths))
     if settings.hold.method != "tabs" or settings.hold.tab_places == "planned":
         return make_job(part, settings, cutters)
     # Tabs are found in the program: none are laid.
@@ -84,8 +99,8 @@ def drawn_scene(text: str | Mapping[str, str], job: Job, host: Host) -> tuple[Sc
     return Scene(text, job, reader), host.all(Rule)
 
 
-def _tools(text: str) -> tuple[Tool, ...]:
-    """The cutters of a list ``1=mill-6,2=drill-5``: T number and name in the built-in library."""
+def _tools(text: str, library: Library) -> tuple[Tool, ...]:
+    """The cutters of a list ``1=mill-6,2=drill-5``: T number and name in the library."""
     found: dict[int, Tool] = {}
     for item in text.split(","):
         number, sign, name = (word.strip() for word in item.partition("="))
@@ -93,12 +108,16 @@ def _tools(text: str) -> tuple[Tool, ...]:
             raise ToolError(f"--tools: {item.strip()!r} is no tool; write T number and name, as in 1=mill-6")
         if int(number) in found:
             raise ToolError(f"--tools: T{int(number)} is named twice")
-        try:
-            tool = built_in().get(name)
-        except ToolError as error:
-            raise ToolError(f"--tools: {error}") from error
-        found[int(number)] = tool.model_copy(update={"number": int(number)})
+        found[int(number)] = _named(library, name, "--tools").model_copy(update={"number": int(number)})
     return tuple(found.values())
+
+
+def _named(library: Library, name: str, where: str) -> Tool:
+    """The cutter of a name; raises ToolError that begins with ``where``."""
+    try:
+        return library.get(name)
+    except ToolError as error:
+        raise ToolError(f"{where}: {error}") from error
 
 
 def _size(text: str) -> dict[str, float]:
@@ -120,6 +139,9 @@ def _set(table: dict[str, Any], change: str) -> None:
     path = [word.strip() for word in key.split(".")]
     if not sign or not all(path):
         raise DesignError(f"--set: {change!r} is no setting; write KEY=VALUE, as in hold.tabs=3")
+    setting = path[2] if path[0] == "part" and len(path) > 2 else path[0]
+    if setting in SAID_ELSEWHERE:
+        raise DesignError(f"--set: {setting}: {SAID_ELSEWHERE[setting]}")
     try:
         said: Any = tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.bored import bored
 from mechwright_cam.proof.cutting_rules import BEYOND, MIDDLE, ROUGHING_PLAY, SHAVES, cutting_data
 from mechwright_cam.proof.loads import Loads
 from mechwright_cam.proof.paths import NEAR
@@ -111,7 +112,7 @@ def _too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
             continue
         lift = max(float(cutter(tool).height_at(radius)), SKIM)
         fast = np.flatnonzero(down[mine] > most + 1.0)
-        fast = fast[~scene.stock.bored(mine[fast], lift=lift, radius=radius)]
+        fast = fast[~bored(scene.paths, scene.stock.cuts, mine[fast], lift=lift, radius=radius)]
         for index in fast.tolist():
             step, limit = int(mine[index]), float(most[index])
             if _sliver(scene, tool, step):

@@ -2,7 +2,8 @@
 
 The proof of walls is exact and has no grid. This is for what hangs together: a bridge that is too narrow to
 be found here is too narrow to hold. Whatever is uncertain counts as cut, so two cells side by side that are
-not cut are joined by material.
+not cut are joined by material. What the program may not cut, the finished part and its tabs, is known without
+a grid to hang together, however thin it is.
 """
 
 import math
@@ -48,8 +49,11 @@ class Footprint:
     """Width of a cell, mm."""
     cut: Steps
     """(ny, nx) the step that cuts a cell through, :data:`NEVER` where none does."""
+    body: Steps
+    """(ny, nx) above 0 where a cell is near enough to a cut to count as cut, and lies in the finished part or
+    in a planned tab: it counts as never cut, and those of one number hang together. 0 elsewhere."""
     part: Shape
-    """The finished part: its cells count as never cut, and so do those of planned tabs."""
+    """The finished part."""
 
     def place(self, mask: Mask) -> tuple[float, float]:
         """The middle of a cell that is nearest to the middle of some, mm."""
@@ -90,15 +94,17 @@ def footprint(paths: Paths, job: Job) -> Footprint:
     cell = max(CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
     shape = max(math.ceil((y1 - y0) / cell), 1), max(math.ceil((x1 - x0) / cell), 1)
     cut = np.full(shape, NEVER, dtype=np.int32)
-    found = Footprint(x0, y0, cell, cut, job.target)
+    found = Footprint(x0, y0, cell, cut, np.zeros(shape, dtype=np.int32), job.target)
     lowest = min((tab.top + job.thickness for tab in job.tabs), default=np.inf)
     level = -job.thickness + min(SKIN, lowest / 2)
     pieces = paths.below(level, steps=paths.cuts)
     radii = np.round(paths.radius_at(pieces, level), 3)
     for radius in np.unique(radii[radii > NEAR]).tolist():
         _cut(found, paths, pieces.step[radii == radius], radius, level)
-    for keep in (job.target, *(shapely.buffer(tab.shape, cell) for tab in job.tabs)):
-        cut[found.inside(keep, cut < NEVER)] = NEVER
+    kept = shapely.union_all([job.target, *(shapely.buffer(tab.shape, cell) for tab in job.tabs)])
+    for number, body in enumerate(shapely.get_parts(kept), start=1):
+        mine = found.inside(body, cut < NEVER)
+        cut[mine], found.body[mine] = NEVER, number
     return found
 
 

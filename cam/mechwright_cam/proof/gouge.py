@@ -140,10 +140,10 @@ def distinct(paths: Paths, pieces: Pieces) -> Pieces:
             pieces.last,
         )
     )
-    return pieces.only(_first_of_each(np.round(table / NEAR).astype(np.int64)))
+    return pieces.only(first_of_each(np.round(table / NEAR).astype(np.int64)))
 
 
-def _first_of_each(rows: Ints) -> Ints:
+def first_of_each(rows: Ints) -> Ints:
     """Index of the first of each kind of row (n, k)."""
     keys = rows.astype(np.uint64) @ (GOLDEN * np.arange(1, rows.shape[1] + 1, dtype=np.uint64) | np.uint64(1))
     _, index, kind = np.unique(keys, return_index=True, return_inverse=True)

@@ -22,10 +22,14 @@ BEARS = 0.95
 
 
 def holding(scene: Scene) -> Check:
-    """The tabs join the part to a frame, or the jaws of the vice grip it."""
+    """The tabs join the part to a frame, or the jaws of the vice grip it.
+
+    On the second side pieces are not followed: that tabs and frame stay is for the rule on gouges.
+    """
     job = scene.job
     if job.side == "underside":
-        return Check(True, "the part hangs in its frame")
+        message = "the part hangs in its frame while nothing else is cut; pieces are not followed"
+        return Check(True, message)
     if job.tabs:
         cut = scene.sweeps.through(job.thickness)
         free = None if _rim_is_whole(cut, job) else _free_tab(cut, job)

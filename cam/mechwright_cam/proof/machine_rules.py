@@ -48,13 +48,16 @@ def modes(scene: Scene) -> Check:
 
 
 def tools(scene: Scene) -> Check:
-    """Every tool that moves is one of the job."""
-    run = scene.run
+    """Every tool that moves, and every one that a T word makes ready, is one of the job."""
+    run, known = scene.run, ", ".join(f"T{n}" for n in sorted(scene.tools)) or "none"
     if (step := first(run.moving & ~np.isin(run.tool, list(scene.tools)))) is not None:
-        known = ", ".join(f"T{n}" for n in sorted(scene.tools)) or "none"
         number = int(run.tool[step])
         named = f"T{number} is not a tool of this job" if number else "no tool was changed to"
         return scene.bad(step, f"{named}; its tools are {known}", number)
+    for ready in run.selected:
+        if ready.tool and ready.tool not in scene.tools:
+            message = f"T{ready.tool} is made ready and is not a tool of this job; its tools are {known}"
+            return Check(False, f"{scene.spot(ready.line, ready.file)}: {message}", ready.line, ready.tool)
     return Check(True, "all tools belong to the job")
 
 

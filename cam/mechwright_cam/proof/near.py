@@ -14,11 +14,17 @@ from mechwright_cam.controls.reading.run import Ints
 CELL = 0.3
 """Width of a cell of the grid, mm, if there are not too many."""
 CROWD = 100.0
-"""If more lines than this are near a place in the mean, they are divided before they are sorted."""
-MOST_DIVIDED = 8
-"""Into so many pieces at most, in the mean."""
+"""If a place lies in the rectangles around more lines than this in the mean, a tree of those tells little."""
+FEW = 2000
+"""Of such lines so many are asked first: the nearest of them is no nearer than the nearest of all."""
+ALIKE = 16.0
+"""Places of which that is known up to this factor are asked together."""
+MOST_PAIRS = 2_000_000
+"""Pairs of place and line, as they are to be expected, that are looked at together."""
 DIVIDED = 4
 """A long line is divided into so many pieces at a time."""
+TOGETHER = 20_000
+"""So many lines are sorted into cells at a time: memory does not go with their number."""
 MOST_CELLS = 1_000_000
 """Cells of a grid, of which the memory has to hold a number each."""
 
@@ -38,20 +44,39 @@ class Chords:
     @cached_property
     def tree(self) -> shapely.STRtree:
         """For questions without a hint; a line without length is a point there, as GEOS wants it."""
-        first, last = self.first, self.last
-        size, spread = np.abs(last - first), np.ptp(np.concatenate((first, last)), axis=0).prod()
-        crowd = float(size.prod(axis=1).sum()) / max(float(spread), CELL**2)
-        if crowd > CROWD:  # rectangles around long lines: so many of them are around every place
-            longest = float(size.max(axis=1).mean()) / min(crowd / CROWD, MOST_DIVIDED)
-            _, first, last = _divided(first, last, max(longest, CELL))
-        lines = shapely.linestrings(np.stack((first, last), axis=1))
-        still = np.flatnonzero((first == last).all(axis=1))
-        lines[still] = shapely.points(first[still])
+        lines = shapely.linestrings(np.stack((self.first, self.last), axis=1))
+        still = np.flatnonzero((self.first == self.last).all(axis=1))
+        lines[still] = shapely.points(self.first[still])
         return shapely.STRtree(lines)
+
+    @cached_property
+    def _crowded(self) -> bool:
+        """Whether long lines cross each other all over."""
+        if len(self.first) <= FEW:
+            return False
+        size = np.abs(self.last - self.first)
+        spread = np.ptp(np.concatenate((self.first, self.last)), axis=0).prod()
+        return bool(size.prod(axis=1).sum() > CROWD * max(float(spread), CELL**2))
+
+    @cached_property
+    def _few(self) -> "Chords":
+        """Some of many lines."""
+        every = -(-len(self.first) // FEW)
+        return Chords(self.first[::every], self.last[::every])
 
     def distance(self, places: Array) -> Array:
         """Distance (k,) from each place (k, 2) to the nearest line, mm; inf if there is no line."""
-        return self.nearest(shapely.points(places))
+        if not self._crowded:
+            return self.nearest(shapely.points(places))
+        out = self._few.nearest(shapely.points(places))
+        order = np.argsort(out, kind="stable")
+        most = max(MOST_PAIRS * FEW // len(self.first), 1)
+        while order.size:
+            alike = np.searchsorted(out[order], max(ALIKE * out[order[0]], CELL), side="right")
+            now, order = np.split(order, [min(int(alike), most)])
+            line, place = self.pairs(places[now], float(out[now[-1]]))
+            np.minimum.at(out, now[place], self.distances(places[now], place, line))
+        return out
 
     def nearest(self, shapes: NDArray[Any], within: float | None = None) -> Array:
         """Distance (k,) of each shape to the nearest line, mm; inf where it is beyond ``within``."""
@@ -135,6 +160,12 @@ class _Grid:
 
     def pairs(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints]:
         """Line and place, by index, of all pairs within ``reach`` of each other, and some more."""
+        begin = range(0, len(first), TOGETHER) or (0,)
+        some = [self._pairs(first[k : k + TOGETHER], last[k : k + TOGETHER], reach) for k in begin]
+        line = np.concatenate([line + k for k, (line, _) in zip(begin, some, strict=True)])
+        return line, np.concatenate([place for _, place in some])
+
+    def _pairs(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints]:
         line, longest = np.arange(len(first)), max(float(np.abs(last - first).max(initial=0.0)), self.cell)
         while (
             True

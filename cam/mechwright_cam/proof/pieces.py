@@ -47,7 +47,7 @@ class Pieces:
 
     def __init__(self, found: Footprint) -> None:
         self.footprint = found
-        self._zone, self._when, self._area, edges = _zones(found.cut)
+        self._zone, self._when, self._area, edges = _zones(found)
         self.whole = self._grown_together(edges)
         """What the plate is at the start: one piece, or several."""
 
@@ -100,11 +100,12 @@ class Pieces:
         return [piece[zone] for zone in range(len(when)) if above[zone] == zone]
 
 
-def _zones(cut: NDArray[np.int32]) -> tuple[Ints, Ints, Ints, Ints]:
+def _zones(found: Footprint) -> tuple[Ints, Ints, Ints, Ints]:
     """Number of each cell's zone (ny, nx), the step that cuts each (z,), its cells (z,), and which touch.
 
     The pairs (e, 2) are sorted: those that are joined last come first.
     """
+    cut = found.cut
     ny, nx = cut.shape
     starts = np.ones((ny, nx), dtype=bool)
     starts[:, 1:] = cut[:, 1:] != cut[:, :-1]
@@ -116,7 +117,7 @@ def _zones(cut: NDArray[np.int32]) -> tuple[Ints, Ints, Ints, Ints]:
     inner[:, 0] = False
     along = np.column_stack((run[inner] - 1, run[inner]))
     same = when[upright[:, 0]] == when[upright[:, 1]]
-    label = joined(when.size, upright[same])
+    label = joined(when.size, np.concatenate((upright[same], _of_one_body(found.body, run))))
     _, zone = np.unique(label, return_inverse=True)
     count = int(zone.max()) + 1
     steps = np.zeros(count, dtype=np.int64)
@@ -127,6 +128,16 @@ def _zones(cut: NDArray[np.int32]) -> tuple[Ints, Ints, Ints, Ints]:
     edges = np.column_stack((keys // count, keys % count))
     order = np.argsort(-np.minimum(steps[edges[:, 0]], steps[edges[:, 1]]), kind="stable")
     return zone[run], steps, cells, edges[order]
+
+
+def _of_one_body(body: NDArray[np.int32], run: Ints) -> Ints:
+    """(e, 2) stretches that hang together because they are of one body, wherever they lie."""
+    cells = np.flatnonzero(body)
+    number, stretch = body.ravel()[cells], run.ravel()[cells]
+    order = np.lexsort((stretch, number))
+    number, pairs = number[order], np.column_stack((stretch[order][:-1], stretch[order][1:]))
+    kept: Ints = pairs[number[:-1] == number[1:]]
+    return kept
 
 
 def joined(count: int, pairs: Ints) -> Ints:

@@ -125,6 +125,11 @@ class Scene:
         """Machine state in a step."""
         return self.run.states[int(self.run.state[step])]
 
+    def spot(self, line: int, file: int) -> str:
+        """How a line is named, of several files with the file."""
+        names = self.run.files
+        return f"{names[file]}: line {line}" if len(names) > 1 else f"line {line}"
+
     def bad(
         self,
         step: int,
@@ -138,8 +143,8 @@ class Scene:
         x, y, z = self.run.end[step].tolist() if at is None else at
         at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
-        names, line = self.run.files, int(self.run.line[step])
-        spot = f"{names[int(self.run.file[step])]}: line {line}" if len(names) > 1 else f"line {line}"
+        line, files = int(self.run.line[step]), self.run.files
+        spot = self.spot(line, int(self.run.file[step]) if files else 0)
         text = f"{spot}: {message}" + (f", at {place}" if place else "")
         return Check(False, text, line, value, limit, unit, at)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading.run import Ints, Kind
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
@@ -35,8 +35,6 @@ ASKED, COMPARED, GROWN = 500, 20, 25
 """What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs."""
 MOST_WORK = 10_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
-NEARBY = 64
-"""Cuts within this part of the widest mill's room are asked first whether they have made it."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -131,51 +129,6 @@ class Stock:
         sides = shapely.boundary(shapely.convex_hull(self.rough))
         low = low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])]
         return next((step for step in low.tolist() if self.meets(step, rough=True)), None)
-
-    @cached_property
-    def _cut_lines(self) -> tuple[Ints, shapely.STRtree]:
-        """The step of each piece of the cuts, and where they are."""
-        pieces = self.paths.whole(self.cuts)
-        return pieces.step, shapely.STRtree(self.paths.lines(pieces))
-
-    def bored(self, steps: Ints, *, lift: float, radius: float) -> NDArray[np.bool_]:
-        """Which of the steps (k,) go straight down in what one earlier step has cut, and meet nothing there.
-
-        What is asked about is a cylinder as in :meth:`meets`, and much sooner answered here.
-        """
-        paths, found = self.paths, np.zeros(steps.size, dtype=np.bool_)
-        flat = np.hypot(*(paths.end - paths.start)[steps, :2].T) < NEAR
-        at = np.flatnonzero(flat & (paths.run.kind[steps] != Kind.ARC))
-        if not at.size or not self.cuts.size:
-            return found
-        widest = max(float(np.nanmax(paths.radius)) - radius, 0.0)
-        for within in (widest / NEARBY, widest):  # mostly, what is close by has made the room
-            left = at[~found[at]]
-            found[left] = self._roomy(steps[left], within, lift, radius)
-        return found
-
-    def _roomy(self, steps: Ints, within: float, lift: float, radius: float) -> NDArray[np.bool_]:
-        """Which of the steps (k,), straight down, have their room of one cut that passes so near."""
-        paths, found = self.paths, np.zeros(steps.size, dtype=np.bool_)
-        of, tree = self._cut_lines
-        # Passes go down at the same places: each is asked for once.
-        places, where = np.unique(np.round(paths.end[steps, :2], 9), axis=0, return_inverse=True)
-        middles, where = shapely.points(places), where.ravel()
-        asked, line = tree.query(middles, predicate="dwithin", distance=within)
-        order = np.argsort(asked, kind="stable")
-        asked, line = asked[order], line[order]
-        first, last = np.searchsorted(asked, where), np.searchsorted(asked, where, side="right")
-        place = np.repeat(np.arange(steps.size), last - first)
-        line = line[np.arange(place.size) - np.repeat(np.cumsum(last - first) - last, last - first)]
-        before = of[line] < steps[place]
-        place, line = place[before], line[before]
-        step, cut = steps[place], of[line]
-        above = paths.low[step] + lift - np.maximum(paths.start[cut, 2], paths.end[cut, 2])
-        spare = paths.cutters(cut).radius_at(above + NEAR) - radius
-        sure = np.flatnonzero((above > -NEAR) & (spare > 0))
-        place, line, spare = place[sure], line[sure], spare[sure]
-        found[place[shapely.dwithin(tree.geometries[line], middles[where[place]], spare)]] = True
-        return found
 
     def meets(
         self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False

@@ -102,10 +102,8 @@ def machine_figures(model: str, path: Path) -> dict[str, Any]:
         return figures
     machines = read_toml(MACHINES)[0]
     if model not in machines:
-        raise DesignError(
-            f"{path}: cam.machine.model: {unknown(model, tuple(machines), 'machine')}; or name a .toml file "
-            "beside the design file"
-        )
+        said = unknown(model, tuple(machines), "machine")
+        raise DesignError(f"{path}: cam.machine.model: {said}; or name a machine file (.toml)")
     figures = machines[model]
     assert isinstance(figures, dict)  # noqa: S101 - a file of our own
     return figures

@@ -9,7 +9,7 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
-from mechwright_cam.controls.reading.run import Coolant, Kind, TableWrite
+from mechwright_cam.controls.reading.run import Coolant, Kind, Selection, TableWrite
 
 INCH = 25.4
 LARGEST_WHOLE = 99_999_999
@@ -101,7 +101,10 @@ class Modal(Compensation):
 
     def _tool(self, block: Block, words: dict[str, float]) -> None:
         if "T" in words:
-            self.selected = self._whole(block, "T", words.pop("T"))
+            number = self._whole(block, "T", words.pop("T"))
+            if number != self.selected:
+                self.selections.append(Selection(block.line, number))
+            self.selected = number
             if self.dialect.tool_by_t and self.selected != self.state.tool:
                 self._set(tool=self.selected, length_offset=None, length=None)
                 self._keep_state()

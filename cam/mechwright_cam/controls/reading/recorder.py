@@ -10,7 +10,16 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.groups import spell
-from mechwright_cam.controls.reading.run import COLUMNS, WIDTH, Kind, Remark, Run, State, TableWrite
+from mechwright_cam.controls.reading.run import (
+    COLUMNS,
+    WIDTH,
+    Kind,
+    Remark,
+    Run,
+    Selection,
+    State,
+    TableWrite,
+)
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
@@ -40,6 +49,7 @@ class Recorder:
         self.pieces: list[int] = []
         self.machine_xy: list[int] = []
         self.writes: list[TableWrite] = []
+        self.selections: list[Selection] = []
         self.remarks: list[Remark] = []
 
     def _row(
@@ -161,4 +171,5 @@ class Recorder:
             piece=np.isin(np.arange(len(table)), self.pieces),
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),
+            selected=tuple(self.selections),
         )

@@ -105,6 +105,15 @@ class TableWrite:
     incremental: bool
 
 
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """A T word: its line, its T number, and the index of its file."""
+
+    line: int
+    tool: int
+    file: int = 0
+
+
 @dataclass(frozen=True)
 class Run:
     """A program as the machine would run it: n steps.
@@ -149,6 +158,8 @@ class Run:
     a reference point (G28, G30): the way there by a point in the work, and the way from it."""
     writes: tuple[TableWrite, ...] = ()
     """What the program writes into tables of the control (G10), in order."""
+    selected: tuple[Selection, ...] = ()
+    """The T words in order, with or without a change to the tool; one that repeats itself is left out."""
     files: tuple[str, ...] = ()
     """Names of the files that were run one after the other; empty if it was one text."""
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
@@ -198,13 +209,15 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
     states: list[State] = []
     remarks: list[Remark] = []
     writes: list[TableWrite] = []
+    selected: list[Selection] = []
     first: list[int] = []
     step = 0
-    for run in runs:
+    for file, run in enumerate(runs):
         first.append(len(states))
         states += run.states
         remarks += [Remark(r.line, r.text, r.step + step) for r in run.remarks]
         writes += [replace(write, step=write.step + step) for write in run.writes]
+        selected += [replace(selection, file=file) for selection in run.selected]
         step += len(run)
 
     return Run(
@@ -216,6 +229,7 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         states=tuple(states),
         remarks=tuple(remarks),
         writes=tuple(writes),
+        selected=tuple(selected),
         ended=all(run.ended for run in runs),
         lines=runs[-1].lines,
         beyond=max(run.beyond for run in runs),
