@@ -5,6 +5,7 @@ import re
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage, until_error
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
-from mechwright.remedies import Limits, tried
+from mechwright.remedies import Limits
 
 Run = Callable[..., tuple[int, str, str]]
 TRAIN = tomllib.loads((Path(__file__).parents[1] / "examples" / "figure-eight-train.toml").read_text())[
@@ -23,8 +24,8 @@ TRAIN = tomllib.loads((Path(__file__).parents[1] / "examples" / "figure-eight-tr
 
 @pytest.fixture
 def run(command_line: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """The command line, which here looks for remedies but shortly: they are the subject of other tests."""
-    monkeypatch.setattr(tried, "__defaults__", (Limits(tries=5),))
+    """The command line; remedies are sought for a moment only, for they are not what is asked here."""
+    monkeypatch.setattr(import_module("mechwright.remedies.remedied"), "CHECKED", Limits(tries=2))
     return command_line
 
 

@@ -42,12 +42,13 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     ]
 
 
-def tried(design: Design, findings: Iterable[Finding], limits: Limits = CHECKED) -> list[Finding]:
+def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = None) -> list[Finding]:
     """What the family finds of a design, with remedies that the family was asked about.
 
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
-    return remedied(Bench(design, lambda one: one.family.check(one.params), limits=limits), findings)
+    bench = Bench(design, lambda one: one.family.check(one.params), limits=limits or CHECKED)
+    return remedied(bench, findings)
 
 
 def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
