@@ -102,7 +102,7 @@ MODAL = re.compile(
 """Words that hold until another of their group: one that is said again before it counts shows nowhere."""
 SAYS_NOTHING = re.compile(
     r"N.*|O\d+|"  # the numbers of lines and programs
-    r"G(15|50|69)|M(19|31|33|48|49|88|89)"  # they change no path (docs/controls.md)
+    r"G(9|15|50|69)|M(19|31|33|48|49|88|89)"  # they change no path (docs/controls.md)
 )
 """Words that never show."""
 SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2"}

@@ -72,6 +72,9 @@ def test_linuxcnc_refuses_it_as_well(lines: str, tmp_path: Path) -> None:
         ("haas", ":2", "a program number begins another program"),
         ("fanuc", "G12 I5", "G12 is no code"),
         ("fanuc", "G5.1 Q1 R5", "write R10"),
+        ("fanuc", "G5.1", "G5.1 needs Q"),
+        ("fanuc", "G5.1 R10", "G5.1 needs Q"),
+        ("fanuc", "G8", "G8 needs P"),
     ],
 )
 def test_the_reason_is_the_right_one(control: str, lines: str, reason: str) -> None:

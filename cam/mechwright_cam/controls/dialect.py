@@ -71,6 +71,8 @@ class Dialect:
     inert: tuple[tuple[int, str], ...] = ()
     """G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
     letters that belong to it."""
+    inert_with: frozenset[int] = frozenset()
+    """Those of them that say nothing without the first of their letters, and are refused so."""
     inert_m: frozenset[int] = frozenset()
     """M codes that change nothing the proof asks about."""
     dwell_unit: float = 1.0

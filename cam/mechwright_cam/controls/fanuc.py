@@ -26,6 +26,7 @@ class Fanuc(GcodeControl):
         g_codes=MILLING | {541},
         unsupported=NOT_SIMULATED,
         inert=((90, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
+        inert_with=frozenset({51, 80}),
         inert_m=frozenset({19}),
         bare_dwell_unit=0.001,
         semicolon_comments=False,

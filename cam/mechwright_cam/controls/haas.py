@@ -23,6 +23,7 @@ class Haas(Fanuc):
         Fanuc.dialect,
         g_codes=Fanuc.dialect.g_codes - {541} | {1540},
         inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, "")),
+        inert_with=frozenset(),
         inert_m=frozenset({19, 31, 33, 88, 89}),
         peck_clearance=1.27,
         bare_home=True,

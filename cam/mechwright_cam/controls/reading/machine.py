@@ -94,6 +94,8 @@ class Machine(Moving):
                 continue
             letters = dict(self.dialect.inert).get(code)
             if letters is not None:
+                if code in self.dialect.inert_with and letters[0] not in block.words:
+                    raise fail(block.line, f"{spell(code)} needs {letters[0]}")
                 self._check_looser(block, code)
                 for letter in letters:
                     block.words.pop(letter, None)
