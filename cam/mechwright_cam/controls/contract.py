@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from mechwright.contracts.finding import Finding
+    from mechwright_cam.controls.lookahead import Lookahead
     from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
     from mechwright_cam.shop.machine import Machine
@@ -90,6 +91,13 @@ class Control(Plugin):
     def corners(self) -> Corners:
         """How far the control leaves the path between two moves."""
         return EXACT
+
+    @property
+    def lookahead(self) -> "Lookahead":
+        """How it goes from move to move: how long that takes, and how far off the path."""
+        from mechwright_cam.controls.lookahead import USUAL
+
+        return USUAL
 
     @property
     def length_write(self) -> tuple[int, str] | None:

@@ -7,6 +7,8 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.corners import Corners
 from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.lookahead.contract import Lookahead
+from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.writing.text import comment_lines, number
@@ -42,6 +44,11 @@ class LinuxCnc(GcodeControl):
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
         *("PROBEOPEN", "PROBECLOSE", "PY"),
     )
+
+    @property
+    def lookahead(self) -> Lookahead:
+        """Its trajectory planner."""
+        return Planner()
 
     def blending(self, exact: bool) -> list[str]:
         """How corners are taken.

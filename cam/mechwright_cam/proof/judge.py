@@ -68,7 +68,7 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
     run, _, _ = scene.run, scene.stock, scene.sweeps
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
-    seconds, left = step_times(run, scene.job.settings.machine), scene.remains
+    seconds, left = step_times(run, scene.job.settings.machine, scene.control.lookahead), scene.remains
     return Proof(
         part=scene.job.part.name,
         checks={check.name: check for check in checks},

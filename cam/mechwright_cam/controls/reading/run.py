@@ -67,6 +67,10 @@ class State:
         that the program has set itself.
     off_path
         How far the control may leave the programmed path between two moves, mm; inf without a bound.
+    path_mode
+        G code in tenths of how corners are taken: 610, 611 or 640; 0 if the program never said.
+    blend
+        What of ``off_path`` is for rounding corners, mm; 0 in an exact mode.
     """
 
     tool: int = 0
@@ -80,6 +84,8 @@ class State:
     diameter_offset: int | None = None
     stated: frozenset[str] = frozenset()
     off_path: float = 0.0
+    path_mode: int = 0
+    blend: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
