@@ -11,6 +11,7 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.exactness import settled
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.assign import Assignments
@@ -181,6 +182,7 @@ def machine(
     }
     posting = cam.post.model_copy(update=stated)
     program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
+    program = settled(program, job, control)
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
     text = named if len(files) > 1 else next(iter(files.values()))

@@ -71,7 +71,7 @@ class GcodeControl(Sections):
     def safe_start(self, out: Writer) -> None:
         """Set every mode that the program relies on."""
         out.line(*self.modes)
-        out.line(*self.blending(out.program.posting.exact_stop))
+        self.usual_corners(out)
 
     def set_offsets(self, out: Writer) -> None:
         """Write the measured work offset and tool lengths into the control's tables."""

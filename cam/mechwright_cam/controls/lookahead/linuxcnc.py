@@ -38,8 +38,10 @@ TANGENTIAL = 0.5
 """Share of it that stays along an arc which is run as fast as its radius allows."""
 SHARP = np.radians(2.0)
 """Directions that are so near to opposite ones are a stop, rad."""
-NEARLY = 0.75
+NEARLY = 0.6
 """Ways of which one is nearly as fast as another, by so much, may be taken either way."""
+LATE_S = 2 * SERVO_S
+"""An overlap may last so much longer than it should, s: it begins with a servo period, and ends with one."""
 STOP_CYCLES = 1.0
 """Servo periods that a stop takes besides."""
 
@@ -56,8 +58,8 @@ class Junctions:
         (m - 1,) share of the acceleration of both segments that a kink takes.
     overlap
         (m - 1,) bool.
-    likely
-        (m - 1,) bool: an overlap, or so nearly one that the planner may decide otherwise.
+    may_overlap, may_round
+        (m - 1,) bool: an overlap, or an arc, or so nearly one that the planner may decide otherwise.
     arc_length, trim
         (m - 1,) of blend arcs, mm: how long, and what they take of either segment; else 0.
     """
@@ -65,7 +67,8 @@ class Junctions:
     speed: Array
     kink: Array
     overlap: NDArray[np.bool_]
-    likely: NDArray[np.bool_]
+    may_overlap: NDArray[np.bool_]
+    may_round: NDArray[np.bool_]
     arc_length: Array
     trim: Array
 
@@ -90,7 +93,7 @@ class Planner(Lookahead):
         over = overlaps(row, rate, met.overlap, np.minimum(row.asked, fastest))
         took[row.step] = _times(row, met, over, rate, np.minimum(row.asked, fastest), highest)
         halved = np.where(slowed, rate, rate / 2)
-        wide = overlaps(row, halved, met.likely, np.minimum(row.asked, fastest), late=SERVO_S).off
+        wide = overlaps(row, halved, met.may_overlap, np.minimum(row.asked, fastest), late=LATE_S).off
         return Motion(took, _deviations(run, row, met, wide, highest))
 
 
@@ -110,13 +113,14 @@ def junctions(row: Segments, highest: float) -> Junctions:
     lapping = overlaps(row, row.acceleration * 0.5 * (1 - KINK) * np.where(row.arc, TANGENTIAL, 1.0), runs_on, row.speed, planned=True)
     free = runs_on & ~tangent & ~row.exact[:-1]
     performance = np.stack((lapping.performance / 2, slower, np.where(free, arcs.speed, 0.0)))
-    best = np.argmax(performance, axis=0)
+    best, nearly = np.argmax(performance, axis=0), NEARLY * performance.max(axis=0)
     overlap, kinked, arc = (free & (best == k) for k in range(3))
     return Junctions(
         speed=np.select((tangent | kinked, arc), (slower, arcs.speed), 0.0),
         kink=np.select((tangent, kinked, runs_on & ~free), (share, KINK, KINK), 0.0),
         overlap=overlap,
-        likely=free & (performance[0] >= NEARLY * performance.max(axis=0)),
+        may_overlap=free & (performance[0] >= nearly),
+        may_round=free & (performance[2] >= nearly),
         arc_length=np.where(arc, arcs.length, 0.0),
         trim=np.where(arc, arcs.trim, 0.0),
     )
@@ -170,7 +174,7 @@ def _deviations(run: Run, row: Segments, met: Junctions, overlapping: Array, hig
     """How far (n,) the tool may be off in each step, mm: what merging lets it, and the worse of its two ends."""
     merged = run.of_states(lambda state: state.off_path - state.blend)
     rounding = np.where(row.blend[:-1] > 0, row.blend[:-1], np.inf)
-    between = np.maximum(np.where(met.arc_length > 0, rounding, 0.0), overlapping)
+    between = np.maximum(np.where(met.may_round, rounding, 0.0), overlapping)
     worse = np.maximum(np.append(between, 0.0), np.append(0.0, between))
     off = np.array(merged)
     off[row.step] += worse + NORMAL * highest * SERVO_S**2 / 8  # on the chord between two samples of an arc

@@ -43,6 +43,7 @@ class Sections(Drilling):
             self.comment(out, OPERATION_COMMENT + operation.name)
             moves = operation.moves
             if moves and not named:
+                self._take_corners(out, operation)
                 self._to_place_of_change(out)
                 self.tool_change(out, section)
                 out.lost_place()
@@ -52,10 +53,13 @@ class Sections(Drilling):
             elif out.program.posting.restart and self._can_restart(out, operation):
                 self.comment(out, f"restart point: T{section.tool.number} in the spindle")
                 self.restate(out)
+                self._take_corners(out, operation)
                 out.lost_place()
                 out.lost_height()
                 self._begin(out, section, moves[0])
                 moves = moves[1:]
+            else:
+                self._take_corners(out, operation)
             for move in moves:
                 if move is last and isinstance(move, Pause):
                     # The next section starts the spindle: here it would turn beside the operator's hands.
@@ -71,8 +75,22 @@ class Sections(Drilling):
         """State the modes once more, at a restart point."""
         self.end_drilling(out)
         out.line(*self.modes)
-        out.line(*self.blending(out.program.posting.exact_stop))
+        self.usual_corners(out)
         self.retract(out)
+
+    def usual_corners(self, out: Writer) -> None:
+        """State how corners are taken where an operation does not ask for more, or for less."""
+        out.corners = self.blending(out.program.posting.exact_stop)
+        out.line(*out.corners)
+
+    def _take_corners(self, out: Writer, operation: Operation) -> None:
+        """State how an operation takes its corners, where that is otherwise than before it."""
+        exact = out.program.posting.exact_stop
+        words = [] if exact or operation.tolerance is None else self.rounding(operation.tolerance)
+        words = words or self.blending(exact)
+        if words != out.corners:
+            out.corners = words
+            out.line(*words)
 
     def _can_restart(self, out: Writer, operation: Operation) -> bool:
         """Whether an operation starts above everything, at a stated place."""

@@ -1,0 +1,99 @@
+"""The tool where the control really takes it: cuts that are as much wider as it may leave the programmed path.
+
+In its corridor a tool reaches what a wider one would that kept to the path; only in plan view, since between two
+moves no control goes lower than the lower of the two.
+"""
+
+from copy import copy
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading import Run
+from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
+from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.gouge import Gouge
+from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.cutter import Cutter
+from mechwright_cam.shop.tool import ToolKind
+
+FLAT = ToolKind.END_MILL
+
+
+class WidePaths(Paths):
+    """Paths whose tools are wider by what each step may be off the path."""
+
+    def __init__(self, paths: Paths, off: Array) -> None:
+        self.__dict__.update(copy(paths).__dict__)
+        for name in ("radius", "cutter"):
+            self.__dict__.pop(name, None)
+        self.off = alike(paths.run, off)
+
+    @cached_property
+    def radius(self) -> Array:
+        """(n,) radius of the tool in the spindle and its corridor, mm."""
+        return np.asarray(self.of_tool(lambda tool: tool.radius) + self.off)
+
+    @cached_property
+    def cutter(self) -> Cutter:
+        """The outlines (n,) of the tools, each as much wider."""
+        own = Paths.cutter.func(self)  # type: ignore[attr-defined]
+        return replace(own, radius=own.radius + self.off)
+
+
+def alike(run: Run, off: Array) -> Array:
+    """The greatest (n,) of all steps that are the same in plan view: passes repeat at every depth."""
+    ways = np.column_stack((run.tool, run.start[:, :2], run.end[:, :2], np.nan_to_num(run.centre), run.sweep))
+    with np.errstate(invalid="ignore"):
+        rows = np.round(np.nan_to_num(ways) / NEAR).astype(np.int64)
+    _, kind = np.unique(rows, axis=0, return_inverse=True)
+    kind = kind.reshape(-1)
+    most = np.zeros(int(kind.max(initial=-1)) + 1)
+    np.maximum.at(most, kind, off)
+    return np.asarray(most[kind])
+
+
+def deepest_off_path(paths: Paths, job: Job, off: Array) -> Gouge | None:
+    """The deepest cut into the finished part if each step is off its path by ``off`` (n,), mm."""
+    wide = WidePaths(paths, off)
+    cuts = [
+        *deepest(wide, job, bands(job, heights(job))),
+        *(cut for fillet in fillets(job) for cut in deepest_in_fillet(wide, job, fillet)),
+    ]
+    found = [cut for cut in cuts if cut is not None]
+    return max(found, key=lambda cut: cut.depth, default=None)
+
+
+def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.bool_]:
+    """Which steps (n,) cut deeper than ``limit`` into the finished part if they are off their paths, mm.
+
+    Of round and pointed tools, whose depth is more than a question of distance, the deepest step alone is told.
+    """
+    flat = (paths.cutter.nose == 0) & np.isin(paths.run.tool, [t.number for t in paths.mills if t.kind is FLAT])
+    own, other = copy(paths), copy(paths)
+    own.steps = paths.steps[flat[paths.steps]]
+    other.steps = paths.steps[~flat[paths.steps]]
+    found = np.zeros(len(paths.run), dtype=np.bool_)
+    for band in bands(job, heights(job)):
+        pieces = own.below(band.top - limit)
+        reach = own.radius[pieces.step] + off[pieces.step] - limit
+        least, most = own.extent(pieces.step)
+        x0, y0, x1, y1 = band.keep.bounds
+        apart = (least > np.array((x1, y1)) + reach[:, None]) | (most < np.array((x0, y0)) - reach[:, None])
+        near = np.flatnonzero(~apart.any(axis=1))
+        if near.size:
+            pieces, keep = pieces.only(near), prepared(band.keep)
+            within = shapely.dwithin(keep, own.lines(pieces), reach[near])
+            found[pieces.step[within]] = True
+    if other.steps.size:
+        cut = deepest_off_path(other, job, off)
+        if cut is not None and cut.depth > limit:
+            found[cut.step] = True
+    return found
