@@ -1,8 +1,8 @@
 """How exactly each operation has to be run: as loosely as the part allows.
 
 A control that can be asked to stay near the path is asked per operation. What leaves stock may be rounded; a
-finishing pass together with what its path cuts stays within the limit of a gouge; and where the control would be
-off by more than it is asked for, it is to go exactly to every corner.
+finishing pass together with what its path cuts stays within the limit of a gouge; and where the control would
+be off by more than it is asked for, it is to go exactly to every corner.
 """
 
 from dataclasses import replace

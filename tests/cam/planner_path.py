@@ -10,8 +10,6 @@ from mechwright_cam.controls.reading import Kind, Run
 
 AROUND = 3
 """A sample is compared with so many steps before and after the one of its line: lines change while moves overlap."""
-ROUNDING = 2e-4
-"""Of coordinates in the samples and of arcs' two radii, mm."""
 
 
 @dataclass(frozen=True)
@@ -19,12 +17,12 @@ class Compared:
     """Samples in a cut, m of them.
 
     ``off`` (m,) distance from the path, mm; ``beyond`` (m,) by how much each is outside of the corridors of the moves
-    around it, mm, negative inside; ``line`` (m,).
+    around it, mm, negative inside; ``step`` (m,) the one of those moves.
     """
 
     off: np.ndarray
     beyond: np.ndarray
-    line: np.ndarray
+    step: np.ndarray
 
 
 def compared(run: Run, motion: Motion, sampled: Sampled, below: float = -0.05) -> Compared:
@@ -34,12 +32,18 @@ def compared(run: Run, motion: Motion, sampled: Sampled, below: float = -0.05) -
     at, line = sampled.at[which], _lines(sampled.line)[which]
     own = np.clip(np.searchsorted(run.line[steps], line), 0, len(steps) - 1)
     off, beyond = np.full((2, len(which)), np.inf)
-    for by in range(-AROUND, AROUND + 1):
-        step = steps[np.clip(own + by, 0, len(steps) - 1)]
-        distance = _distance(run, step, at)
-        off = np.minimum(off, distance)
-        beyond = np.minimum(beyond, distance - motion.off[step])
-    return Compared(off, beyond, line)
+    nearest = steps[own]
+    of_line = np.searchsorted(run.line[steps], line, side="right") - own  # a cycle has many steps in a line
+    for by in range(-AROUND, int(of_line.max(initial=0)) + AROUND):
+        some = np.flatnonzero(by < of_line + AROUND)
+        step = steps[np.clip(own[some] + by, 0, len(steps) - 1)]
+        distance = _distance(run, step, at[some])
+        off[some] = np.minimum(off[some], distance)
+        past = distance - motion.off[step]
+        better = past < beyond[some]
+        nearest[some[better]] = step[better]
+        beyond[some] = np.minimum(beyond[some], past)
+    return Compared(off, beyond, nearest)
 
 
 def _lines(line: np.ndarray) -> np.ndarray:
@@ -75,3 +79,13 @@ def _distance(run: Run, step: np.ndarray, at: np.ndarray) -> np.ndarray:
         )
     )
     return np.asarray(np.sqrt(((at - foot) ** 2).sum(axis=1)))
+
+
+def times(run: Run, motion: Motion, sampled: Sampled) -> tuple[float, float]:
+    """Moving time of the real machine and of the estimate, s, of all lines whose beginning the program states."""
+    stated = np.isfinite(run.start[:, :2]).all(axis=1) & np.isfinite(run.end[:, :2]).all(axis=1)
+    unstated = np.unique(run.line[(motion.seconds > 0) & ~stated])
+    real = sampled.time_of_lines()
+    guessed = ~np.isin(run.line, unstated)
+    there = sum(real.get(line, 0.0) for line in unstated.tolist())
+    return sampled.moving_time - there, float(motion.seconds[guessed].sum())

@@ -45,8 +45,8 @@ class Control(Plugin):
     """How a control without a tool change has tools changed, unless the design file says so itself."""
 
     tolerances: ClassVar[tuple[float, ...]] = ()
-    """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not say
-    is written with the middle one."""
+    """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not
+    say is written with the middle one."""
 
     # -- programs -----------------------------------------------------------------------------------------
 

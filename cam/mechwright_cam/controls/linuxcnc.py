@@ -17,8 +17,8 @@ from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
 ROUGH = 0.02
-"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing, and no program gets
-faster by more."""
+"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing, and no program
+gets faster by more."""
 
 
 class LinuxCnc(GcodeControl):

@@ -89,8 +89,8 @@ Move = Rapid | Feed | FeedArc | Drill | Pause
 class Operation:
     """A named run of moves with one tool, for comments, setup sheet and proof.
 
-    ``tolerance``: so far off the path the control may round its corners, mm, 0 for not at all; None for what the
-    control is usually asked for.
+    ``tolerance``: so far off the path the control may round its corners, mm, 0 for not at all; None for what
+    the control is usually asked for.
     """
 
     name: str

@@ -1,7 +1,7 @@
-"""The tool where the control really takes it: cuts that are as much wider as it may leave the programmed path.
+"""The tool where the control really takes it: cuts are as much wider as it may leave the path.
 
-In its corridor a tool reaches what a wider one would that kept to the path; only in plan view, since between two
-moves no control goes lower than the lower of the two.
+In its corridor a tool reaches what a wider one would that kept to the path; only in plan view, since between
+two moves no control goes lower than the lower of the two.
 """
 
 from copy import copy
@@ -44,7 +44,7 @@ class WidePaths(Paths):
     @cached_property
     def cutter(self) -> Cutter:
         """The outlines (n,) of the tools, each as much wider."""
-        own = Paths.cutter.func(self)  # type: ignore[attr-defined]
+        own: Cutter = Paths.cutter.func(self)  # type: ignore[attr-defined]
         return replace(own, radius=own.radius + self.off)
 
 
@@ -74,9 +74,12 @@ def deepest_off_path(paths: Paths, job: Job, off: Array) -> Gouge | None:
 def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.bool_]:
     """Which steps (n,) cut deeper than ``limit`` into the finished part if they are off their paths, mm.
 
-    Of round and pointed tools, whose depth is more than a question of distance, the deepest step alone is told.
+    Of round and pointed tools, whose depth is more than a question of distance, the deepest step alone is
+    told.
     """
-    flat = (paths.cutter.nose == 0) & np.isin(paths.run.tool, [t.number for t in paths.mills if t.kind is FLAT])
+    flat = (paths.cutter.nose == 0) & np.isin(
+        paths.run.tool, [t.number for t in paths.mills if t.kind is FLAT]
+    )
     own, other = copy(paths), copy(paths)
     own.steps = paths.steps[flat[paths.steps]]
     other.steps = paths.steps[~flat[paths.steps]]

@@ -1,7 +1,7 @@
 """How long a program takes.
 
-How the control runs through the moves is the control's to say (:mod:`mechwright_cam.controls.lookahead`); dwells
-and tool changes come to that. Stops for the operator are not counted.
+How the control runs through the moves is the control's to say (:mod:`mechwright_cam.controls.lookahead`);
+dwells and tool changes come to that. Stops for the operator are not counted.
 """
 
 import numpy as np

@@ -29,7 +29,7 @@ def main(limit: float) -> None:
                 ["/usr/bin/halcmd", "getp", "sampler.0.overruns"], capture_output=True, text=True, check=False
             )
             log.write(f"overruns {asked.stdout.strip()}\n")
-        except Exception as error:  # noqa: BLE001 - whatever it is has to stand in the log
+        except Exception as error:
             reason = " ".join(f"{type(error).__name__}: {error}".split())
         finally:
             sampler.terminate()
@@ -37,8 +37,8 @@ def main(limit: float) -> None:
         log.write(f"END {reason}\n")
 
 
-def _run(command, machine, errors, until) -> str:  # noqa: ANN001 - types of a module that is not installed here
-    def do(order, *arguments) -> None:  # noqa: ANN001, ANN002
+def _run(command, machine, errors, until) -> str:
+    def do(order, *arguments) -> None:
         order(*arguments)
         command.wait_complete(10)
 

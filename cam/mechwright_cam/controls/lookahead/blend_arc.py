@@ -19,7 +19,7 @@ SHORTEST = 1e-6
 
 @dataclass(frozen=True)
 class BlendArcs:
-    """Arcs between each two of m segments: (m - 1,) speed, mm/s, 0 where there can be none, length and trim, mm."""
+    """Arcs between each two of m segments: (m - 1,) speed, mm/s, 0 for none, length and trim, mm."""
 
     speed: Array
     length: Array
@@ -29,7 +29,8 @@ class BlendArcs:
 def blend_arcs(row: Segments, highest: float, cycle: float) -> BlendArcs:
     """The arc that each corner would get: as wide as P and half of either segment allow.
 
-    No faster than along all of it in one servo period, ``cycle``, s. Where an arc of the program bends the way that the corner turns, the planner takes its secant, and less of it.
+    No faster than along all of it in one servo period, ``cycle``, s. Where an arc of the program bends the
+    way that the corner turns, the planner takes its secant, and less of it.
     """
     before, after = row.last[:-1], row.first[1:]
     turn = np.arccos(np.clip((before * after).sum(axis=1), -1.0, 1.0))
@@ -47,7 +48,7 @@ def blend_arcs(row: Segments, highest: float, cycle: float) -> BlendArcs:
         within.append(np.where(arc, np.where(inward, -1.0, 1.0), 0.0))
     tolerance = np.where(row.blend[:-1] > 0, row.blend[:-1], np.inf)
     tolerance = np.minimum(tolerance, np.minimum(row.length[:-1], row.length[1:]) / 4)
-    theta = np.clip(theta, 1e-6, np.pi / 2 - 1e-9)
+    theta = np.clip(theta, 1e-6, np.pi / 2 - 1e-6)
     along = np.minimum(np.minimum(*reach), np.cos(theta) * tolerance / (1 - np.sin(theta)))
     widest = np.tan(theta) * along
     across = NORMAL * highest
@@ -71,12 +72,14 @@ def blend_arcs(row: Segments, highest: float, cycle: float) -> BlendArcs:
 def _fitted(
     row: Segments, at: Ints, radius: Array, side: Array, within: list[Array], tolerance: Array
 ) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Whether a circle of the radius touches both segments within the tolerance, what it takes of them, its angle.
+    """Whether a circle (k,) touches both segments within the tolerance; what it takes of them; its angle.
 
-    ``within``: of either segment 1 for an arc that the circle touches from outside, -1 from inside, 0 for a line.
+    ``within``: of either segment 1 for an arc that the circle touches from outside, -1 from inside, 0 for a
+    line.
     """
     one, two = row.last[at, :2], row.first[at + 1, :2]
-    # What the circle's middle keeps from: so far from a centre, or from a line as if its centre were far away.
+    # What the circle's middle keeps from: so far from a centre, or from a line as if its centre were far
+    # away.
     centres, keeps, owns = [], [], []
     for tangent, index, bends in ((one, at, within[0]), (two, at + 1, within[1])):
         left = np.column_stack((-tangent[:, 1], tangent[:, 0]))

@@ -1,8 +1,8 @@
 """Overlapping moves: the next one begins while the one before still slows down.
 
-Speed at which that begins, and how far it takes the tool off the path. In lines of equal acceleration P bounds
-it. On arcs the way to the corner bends, so that even where both meet without a kink their sum is off the path by
-the bend; and the climb of a helix counts for no turn.
+Speed at which that begins, and how far it takes the tool off the path. In lines of equal acceleration P
+bounds it. On arcs the way to the corner bends, so that even where both meet without a kink their sum is off
+the path by the bend; and the climb of a helix counts for no turn.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,11 @@ INSTANTS = 33
 
 @dataclass(frozen=True)
 class Overlaps:
-    """Between each two of m segments: (m - 1,) s that are saved, mm off the path, and mm/s in the planner's choice."""
+    """Between each two of m segments.
+
+    ``seconds`` (m - 1,) that are saved, ``off`` (m - 1,) the path, mm, and ``performance`` (m - 1,) as the
+    planner rates it, mm/s.
+    """
 
     seconds: Array
     off: Array
@@ -29,7 +33,12 @@ class Overlaps:
 
 
 def overlaps(
-    row: Segments, rate: Array, which: NDArray[np.bool_], speed: Array, planned: bool = False, late: float = 0.0
+    row: Segments,
+    rate: Array,
+    which: NDArray[np.bool_],
+    speed: Array,
+    planned: bool = False,
+    late: float = 0.0,
 ) -> Overlaps:
     """The overlaps at some of the junctions.
 
@@ -122,7 +131,14 @@ def _from(row: Segments, at: NDArray[np.int64], place: Array, tangents: Array) -
     way = np.clip(back * way, 0.0, row.length[at, None]) * back
     for _ in range(2):  # the foot of the perpendicular, by Newton
         foot = _along(row, at, way, tangents)
-        way = np.clip(back * (way + ((place - foot) * _tangent(row, at, way, tangents)).sum(axis=2)), 0.0, row.length[at, None]) * back
+        way = (
+            np.clip(
+                back * (way + ((place - foot) * _tangent(row, at, way, tangents)).sum(axis=2)),
+                0.0,
+                row.length[at, None],
+            )
+            * back
+        )
     gap = place - _along(row, at, way, tangents)
     return np.asarray(np.sqrt((gap**2).sum(axis=2)))
 

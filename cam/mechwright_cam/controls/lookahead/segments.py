@@ -149,7 +149,11 @@ def _waited_for(state: State) -> tuple[object, ...]:
 
 def _in_cycle(run: Run, step: Ints, rapid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(m,) whether a segment is one of a drilling cycle: of several in one line, some are rapids."""
-    _, line = np.unique(np.column_stack((run.file[step] if run.files else 0 * step, run.line[step])), axis=0, return_inverse=True)
+    _, line = np.unique(
+        np.column_stack((run.file[step] if run.files else 0 * step, run.line[step])),
+        axis=0,
+        return_inverse=True,
+    )
     line = line.reshape(-1)
     every = np.bincount(line)
     rapids = np.bincount(line, weights=rapid)

@@ -35,7 +35,7 @@ def reached(length: Array, acceleration: Array, allowed: Array) -> Array:
 
 
 def seconds(length: Array, acceleration: Array, speed: Array, ends: Array) -> Array:
-    """Time (n,) of each stretch, s: a trapezoid of speed between ``ends`` (n + 1,), at most ``speed`` (n,)."""
+    """Time (n,) of each stretch, s: a trapezoid between speeds ``ends`` (n + 1,), at most ``speed`` (n,)."""
     into, out_of = ends[:-1], ends[1:]
     peak = np.minimum(speed, np.sqrt((into**2 + out_of**2) / 2 + acceleration * length))
     ramps = (2 * peak**2 - into**2 - out_of**2) / (2 * acceleration)

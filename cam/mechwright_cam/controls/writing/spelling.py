@@ -94,7 +94,7 @@ class Spelling(Control):
         return ["G61" if exact else "G64"]
 
     def rounding(self, tolerance: float) -> list[str]:  # noqa: ARG002 - for controls that can be asked
-        """The words that keep the control within a tolerance of the path, mm, 0 for exact; none if it has none."""
+        """The words that keep within a tolerance of the path, mm, 0 for exact; none if there are none."""
         return []
 
     def tool_words(self, tool: Tool) -> list[str]:
