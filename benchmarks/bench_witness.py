@@ -15,8 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "cam"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
 from planner_path import Compared, compared, times
 from planner_witness import FASTER, Mill, WitnessError, sample
 
@@ -25,6 +24,7 @@ from mechwright.cli.hosting import open_host
 from mechwright_cam.machining import Machined, Machining
 from mechwright_cam.shop.machine import Machine
 
+ROOT = Path(__file__).parents[1]
 ACCELERATIONS = (2.0, 0.5)
 """Of the machines, m/s²: a machining centre's, and a slow router's."""
 CLOSE = 0.02
@@ -70,10 +70,15 @@ def row(name: str, item: Machined, table: str, acceleration: float, faster: int)
     share = estimate / real - 1
     kept = bool(abs(share) <= CLOSE and found.beyond.max() <= 0)
     note = "" if kept else f" OUTSIDE by {1e3 * found.beyond.max():.2f} µm, line {worst(item, found)}"
-    return (
-        f"| {name}/{item.program.name} | {acceleration:g} | {real:.1f} | {estimate:.1f} | {100 * share:+.2f} %
-        " f"| {cells[0]} | {cells[1]} |{note}", kept,
-    )
+    cells = [
+        f"{name}/{item.program.name}",
+        f"{acceleration:g}",
+        f"{real:.1f}",
+        f"{estimate:.1f}",
+        f"{100 * share:+.2f} %",
+        *cells,
+    ]
+    return f"| {' | '.join(cells)} |{note}", kept
 
 
 def worst(item: Machined, found: Compared) -> int:

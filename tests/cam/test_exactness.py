@@ -1,0 +1,99 @@
+"""Each operation is run as loosely as the part allows, and no looser."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from by_control import BY_NAME
+from planning_parts import bore, job, plate
+
+from mechwright.tolerances import TOLERANCES
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.exactness import LIKELY, settled
+from mechwright_cam.planning import plan
+from mechwright_cam.program.moves import Program
+from mechwright_cam.proof import Scene
+from mechwright_cam.proof.corridor import path_tolerance
+from mechwright_cam.proof.off_path import deepest_off_path, too_deep
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.posting import Posting
+
+
+@cache
+def planned(acceleration: float = 1.0) -> tuple[Job, Program]:
+    made = job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6", machine={"acceleration": acceleration})
+    return made, replace(plan(made), machine=made.settings.machine)
+
+
+def tolerances(program: Program) -> dict[str, float | None]:
+    return {o.name: o.tolerance for section in program.sections for o in section.operations}
+
+
+def test_what_leaves_stock_is_looser_than_what_finishes() -> None:
+    made, program = planned()
+    found = tolerances(settled(program, made, LinuxCnc()))
+    rough = {name: value for name, value in found.items() if "rough" in name}
+    finish = {name: value for name, value in found.items() if "finish" in name}
+    assert rough
+    assert finish
+    assert set(rough.values()) == {LinuxCnc.tolerances[0]}
+    assert max(value for value in finish.values() if value is not None) <= TOLERANCES.arc_fit
+    assert {value for name, value in found.items() if "drill" in name} == {None}
+
+
+def test_the_text_asks_for_it_where_it_changes() -> None:
+    made, program = planned()
+    text = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    mode, name, modes = "", "", {}
+    for line in text.splitlines():
+        if line.startswith("(operation: "):
+            name = line.removeprefix("(operation: ").rstrip(")")
+        if line.startswith(("G64", "G61")):
+            assert line != mode  # only where it changes
+            mode = line
+        elif line.startswith(("G1 ", "G2 ", "G3 ")):
+            modes.setdefault(name, set()).add(mode)
+    assert all(len(found) == 1 for found in modes.values())
+    assert modes["outside: rough"] == {"G64 P0.02 Q0"}
+
+
+@pytest.mark.parametrize("share", LIKELY)
+def test_the_program_does_on_machines_that_are_likely(share: float) -> None:
+    made, program = planned()
+    text = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    assert path_tolerance(Scene(text, planned(share)[0], LinuxCnc())).passed
+
+
+def test_too_loose_everywhere_would_cut_the_part() -> None:
+    made, program = planned()
+    loose = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    for words in ("G64 P0.002 Q0", "G61"):
+        loose = loose.replace(words, "G64 P0.02 Q0")
+    found = path_tolerance(Scene(loose, made, LinuxCnc()))
+    assert not found.passed
+    assert "off the path there" in found.message
+
+
+def test_a_job_that_wants_exact_stops_gets_them_everywhere() -> None:
+    made, program = planned()
+    exact = replace(program, posting=Posting(exact_stop=True))
+    assert settled(exact, made, LinuxCnc()) is exact
+    assert "G64" not in LinuxCnc().write(exact)
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
+def test_controls_that_cannot_be_asked_are_not(control: str) -> None:
+    made, program = planned()
+    assert settled(program, made, BY_NAME[control]) is program
+
+
+@pytest.mark.parametrize("more", [0.0, 0.004, 0.02, 0.5])
+def test_the_quick_answer_is_that_of_the_full_one(more: float) -> None:
+    """Whether anything is too deep, from distances alone, against the depth of the deepest cut."""
+    made, program = planned()
+    scene = Scene(LinuxCnc().write(program), made, LinuxCnc())
+    off = np.full(len(scene.run), more)
+    cut = deepest_off_path(scene.paths, made, off)
+    for limit in (0.001, 0.005, 0.1):
+        assert too_deep(scene.paths, made, off, limit).any() == (cut is not None and cut.depth > limit)
