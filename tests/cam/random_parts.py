@@ -20,6 +20,7 @@ from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.exactness import settled
 from mechwright_cam.machining import Machined, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import lay_out_setups
@@ -407,7 +408,7 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:
             laid = job if job.side == "top" else second_setup(made[-1], job)
-            program = plan(laid)
+            program = settled(plan(laid), laid, post)
             text = post.write(program)
             scene = Scene(text, laid, post)
             made.append(Machined(laid, program, {program.name: text}, judge(scene), scene))
