@@ -1,4 +1,4 @@
-"""Four-bar sweeps, loci and syntheses against their targets: ``python benchmarks/bench_four_bar.py``."""
+"""Four-bar loci and syntheses against their targets: ``python benchmarks/bench_four_bar.py``."""
 
 import math
 import sys
@@ -6,20 +6,13 @@ import time
 from fractions import Fraction
 
 import numpy as np
-from harness import race, report, require
+from harness import require
 
-from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.locus import locus
 from mechwright_four_bar.path_search import search as path_search
 from mechwright_four_bar.pole_equations import PoleProblem
 from mechwright_four_bar.pole_search import search as pole_search
-from mechwright_four_bar.rates_kernel import rates, rates_numpy
 
-POSITIONS = 100_000
-PLAIN_NS = 135.0
-"""ns a position of the anchor on an idle machine on which the compiled kernel takes 25."""
-
-BAR = FourBar(40, 120, 80, 100, 0.3)
 LINE = 20 + 1j * np.arange(20.0, 46.0, 5.0)
 CLOSED = np.array(
     [
@@ -29,22 +22,6 @@ CLOSED = np.array(
     ]
 )
 POLES = np.array([2.34 + 4.09j, -0.53 + 5.86j, 2.98 + 5.83j])
-
-
-def plain(phi):
-    """Position, velocity and acceleration as a textbook has them, by numpy."""
-    a, c, b, f = BAR.lengths
-    theta = BAR.ground_angle
-    dx, dy = f * np.cos(theta) - a * np.cos(phi), f * np.sin(theta) - a * np.sin(phi)
-    d = np.hypot(dx, dy)
-    sigma = np.arctan2(dy, dx) + np.arccos((c * c + d * d - b * b) / (2 * c * d))
-    psi = np.arctan2(c * np.sin(sigma) - dy, c * np.cos(sigma) - dx)
-    s = np.sin(sigma - psi)
-    wc, wb = a * np.sin(psi - phi) / (c * s), a * np.sin(sigma - phi) / (b * s)
-    cos = np.cos(sigma - psi)
-    ac = (b * wb**2 - a * np.cos(phi - psi) - c * wc**2 * cos) / (c * s)
-    ab = (b * wb**2 * cos - a * np.cos(phi - sigma) - c * wc**2) / (b * s)
-    return sigma, psi, wc, wb, ac, ab
 
 
 def timed(work):
@@ -59,21 +36,7 @@ def quiet(part):
 
 
 def main() -> int:
-    phi = np.linspace(0, 50, POSITIONS)
-    anchor = "plain numpy"
-    timings = race(
-        {
-            anchor: lambda: plain(phi),
-            "compiled": lambda: rates(BAR, phi),
-            "numpy": lambda: rates_numpy(BAR, phi),
-        },
-        rounds=15,
-    )
-    ratios = report(f"{POSITIONS} positions with velocity and acceleration", timings, anchor)
-    kept = [
-        require("compiled: 30 ns a position where plain numpy takes 135", ratios["compiled"], 30 / PLAIN_NS),
-        require("without a compiler, over plain numpy", ratios["numpy"], 1.5),
-    ]
+    kept = []
     generic = [Fraction(text) for text in ("41.37", "120.12", "80.25", "101.5")]
     for plane in ("fixed", "coupler"):
         seconds, curve = timed(lambda plane=plane: locus.__wrapped__(*generic, plane))

@@ -10,7 +10,6 @@ from fractions import Fraction
 import numpy as np
 from harness import race, report, require
 
-from mechwright_slider_crank import compiled
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.locus import locus
 from mechwright_slider_crank.poles_synthesis import through_poles
@@ -57,13 +56,11 @@ def main():
         {
             "plain numpy": plain,
             "numpy": lambda: SLIDER.rates(PHI),
-            "compiled": lambda: compiled.rates(SLIDER, PHI),
         },
         rounds=21,
     )
     ratios = report(f"slider, {POSITIONS} positions", times, "plain numpy", lambda _: "")
     kept.append(require("numpy over plain numpy", ratios["numpy"], 1.5))
-    kept.append(require("compiled, ns a position", times["compiled"].seconds / POSITIONS * 1e9, 30))
     work = {
         f"{plane} {name}": fresh_locus(*lengths, plane)
         for name, lengths in {

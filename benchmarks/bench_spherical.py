@@ -11,10 +11,10 @@ import time
 import numpy as np
 from harness import race, report, require
 
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical import printed
 from mechwright_spherical.fivebar import projected
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.projection import project
 from mechwright_spherical.refine import Freedom, Path, refine
 

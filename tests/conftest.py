@@ -19,7 +19,7 @@ PROGRAMS = {
     "ogrinfo": "gdal-bin",
 }
 """Program to the Debian package that has it."""
-MODULES = ("gmsh", "mypy")
+MODULES = ("gmsh", "mujoco", "mypy")
 PYGCODE = "MECHWRIGHT_PYGCODE"
 """Environment variable with the folder that pygcode is installed in."""
 

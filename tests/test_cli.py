@@ -61,7 +61,7 @@ def test_families_are_listed_with_their_distribution(run: Run) -> None:
     assert code == 0
     names = ["elliptic-gears", "four-bar", "geneva", "slider-crank", "spherical"]
     assert [family["name"] for family in listing["families"]] == names
-    assert {"step", "dxf", "stl", "3mf", "glb"} <= set(listing["formats"])
+    assert {"step", "dxf", "stl", "3mf", "glb", "mjcf"} <= set(listing["formats"])
 
 
 def test_a_new_design_file_builds_as_it_is(run: Run, tmp_path: Path) -> None:
@@ -161,6 +161,7 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
         [
             "motion.csv",
             "motion.html",
+            "tolerances.html",
             "summary.json",
             "gear.step",
             "assembly.step",

@@ -6,7 +6,7 @@ drawings and programs, where there is a core for that.
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
@@ -17,7 +17,7 @@ from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.holes import joined
 from mechwright.cores import cores
 from mechwright.designs.design import Design
-from mechwright.errors import MechwrightError
+from mechwright.errors import GeometryError, MechwrightError
 from mechwright.output.folder import Output
 
 if TYPE_CHECKING:
@@ -50,30 +50,34 @@ class Work:
         """The parts of the design."""
         return self.design.parts() if self.known is None else self.known
 
-    def collisions(self) -> list[Finding]:
-        """Which bodies stand in each other while the mechanism moves. Imports the CAD kernel."""
-        return collisions(self.design, self.parts, solids=True)
-
     def files(self) -> dict[str, bytes]:
         """Every part, and the assembly, in every format: file name to content.
 
-        Raises
-        ------
-        GeometryError
-            A part cannot be made or is not right.
-        OutputError
-            Two files would have one name.
+        Raises GeometryError for a part that cannot be made, OutputError where two files would have one name.
         """
         made = Output()
-        placed = any(part.instances for part in self.parts)
         for exporter in self.exporters:
-            for part in self.parts:
-                made.add(part.name + exporter.suffix, exporter.part(part))
-            name = self.design.name
-            assembly = exporter.assembly(name, self.parts, self.motion, self.sample) if placed else None
-            if assembly is not None:
-                made.add("assembly" + exporter.suffix, assembly)
+            contents = [(part.name, exporter.part(part)) for part in self.parts]
+            contents.append(("assembly", self._assembly(exporter)))
+            written = [(name, content) for name, content in contents if content is not None]
+            for name, content in written:
+                made.add(name + exporter.suffix, content)
+            if not written:
+                raise GeometryError(
+                    f"{exporter.name} holds whole mechanisms, and no part of this design has a place in one"
+                )
         return made.files
+
+    def _assembly(self, exporter: Exporter) -> bytes | None:
+        if not any(part.instances for part in self.parts):
+            return None
+        try:
+            return exporter.assembly(self.design.name, self.parts, self.motion, self.sample)
+        except MechwrightError as error:
+            family = self.design.family.name
+            raise GeometryError(
+                f"{exporter.name} cannot hold a mechanism of the family {family}: {error}"
+            ) from error
 
 
 def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list[Finding]:
@@ -84,20 +88,20 @@ def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list
     from mechwright_cad.interference import interference_findings
 
     met = [joined(part) for part in parts]
-    return interference_findings(design.family, design.params, solids=solids, parts=met)
+    return interference_findings(design.family, design.params, met, solids=solids)
 
 
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
-    from mechwright_cad.animation import MOTION, page_of
+    from mechwright_cad.animation import MOTION, PAGE_SAMPLES, motion_html
 
-    page = page_of(design.name, design.family, design.params, solids=solids, parts=parts)
-    return {MOTION: page.encode()}
+    motion = design.family.solve(design.params, PAGE_SAMPLES)
+    return {MOTION: motion_html(design.name, design.family.title, parts, motion, solids=solids).encode()}
 
 
 def compared_and_made(work: Work) -> Made:
     """Whether bodies collide; and the files of a build with its page, if none do."""
-    met = work.collisions()
+    met = collisions(work.design, work.parts, solids=True)
     made = {} if errors(met) else work.files() | motion_page(work.design, work.parts, solids=True)
     return met, made
 
@@ -141,16 +145,14 @@ class Solids:
         """Give the second process its work: a design whose own check has found no error."""
         if self._second is not None and self._made is None:
             plates = all(part.build is None for part in self._build.parts)
-            work = self._work if plates else Work(*(getattr(self._work, key) for key in _SENT))
-            self._second.ask(compared_and_made, work)
+            self._second.ask(compared_and_made, self._work if plates else replace(self._work, known=None))
 
     def collisions(self) -> list[Finding]:
         """Which bodies collide, and what else there is to say of that."""
         if self._second is not None:
             return self._result()[0]
-        if self._build.wanted.command in IN_SPACE:
-            return self._work.collisions()
-        return collisions(self._build.design, self._build.parts, solids=False)
+        solids = self._build.wanted.command in IN_SPACE
+        return collisions(self._build.design, self._build.parts, solids=solids)
 
     def files(self) -> dict[str, bytes]:
         """Every part, and the assembly, in every format."""
@@ -180,7 +182,3 @@ class Solids:
             assert self._second is not None  # noqa: S101 - all callers have asked
             self._made = cast(Made, self._second.result(tuple))
         return self._made
-
-
-_SENT = ("design", "exporters", "motion", "sample")
-"""Fields of :class:`Work` that can be sent to a second process whatever the parts are made of."""

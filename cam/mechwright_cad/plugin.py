@@ -2,7 +2,14 @@
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
-from mechwright_cad.exporters import DxfExporter, GlbExporter, StepExporter, StlExporter, ThreeMfExporter
+from mechwright_cad.exporters import (
+    DxfExporter,
+    GlbExporter,
+    MjcfExporter,
+    StepExporter,
+    StlExporter,
+    ThreeMfExporter,
+)
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
 
 
@@ -15,6 +22,7 @@ def mechwright_register() -> list[type[Plugin]]:
         StlExporter,
         ThreeMfExporter,
         GlbExporter,
+        MjcfExporter,
         SolidFiles,
         MotionPage,
         Interference,

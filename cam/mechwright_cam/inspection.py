@@ -1,4 +1,4 @@
-"""Whether the chosen cutters can make the parts, and what they leave."""
+"""Whether the chosen cutters can make the parts, what they leave, and whether the mechanism runs as made."""
 
 from collections.abc import Sequence
 
@@ -20,3 +20,19 @@ class Machinable(Inspection):
         from mechwright_cam.machining import Machining
 
         return build.made(Machining).findings
+
+
+class Running(Inspection):
+    """What the family says of the mechanism with its parts as the programs leave them."""
+
+    name = "as-made"
+    commands = frozenset({"build"})
+    stage = Stage.MACHINING
+    order = 40
+    doing = "parts as made"
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """What keeps it from being put together, or from turning."""
+        from mechwright_cam.as_made import MadeParts
+
+        return build.made(MadeParts).said.findings

@@ -21,7 +21,7 @@ from mechwright_cam.program.moves import Program
 from mechwright_cam.proof.carried import cut_away
 from mechwright_cam.proof.judge import RULES, judge
 from mechwright_cam.proof.report import Proof
-from mechwright_cam.proof.rule import Rule
+from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest

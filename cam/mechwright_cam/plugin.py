@@ -12,10 +12,12 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.haas import Haas
     from mechwright_cam.controls.linuxcnc import LinuxCnc
     from mechwright_cam.controls.mach3 import Mach3
-    from mechwright_cam.inspection import Machinable
+    from mechwright_cam.inspection import Machinable, Running
+    from mechwright_cam.pages.as_made import AsMadeFiles
     from mechwright_cam.pages.registered import DrawingFiles, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.proof.rules import BUILT_IN
     from mechwright_cam.shop.table import CamTable
 
     controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl]
-    return [*controls, *BUILT_IN, CamTable, DrawingFiles, ProgramFiles, ProofFile, SetupSheets, Machinable]
+    pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, AsMadeFiles]
+    return [*controls, *BUILT_IN, CamTable, *pages, Machinable, Running]

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from mechwright.arrays import Array
     from mechwright.build import Build, Inspection, Page, Wanted
     from mechwright.cli.command import Command
+    from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
@@ -24,13 +25,17 @@ if TYPE_CHECKING:
         refuse,
         until_error,
     )
+    from mechwright.contracts.joint import GROUND, Joint
+    from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
-    from mechwright.contracts.parameters import Parameters
+    from mechwright.contracts.parameters import Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
     from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
     from mechwright.contracts.table import Table
+    from mechwright.contracts.tolerance_settings import Tolerances
+    from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
     from mechwright.designs.design import Design
     from mechwright.errors import (
         DesignError,
@@ -53,17 +58,22 @@ _HOMES = {
     "mechwright.arrays": "Array",
     "mechwright.build": "Build Inspection Page Wanted",
     "mechwright.cli.command": "Command",
+    "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
+    "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
-    "mechwright.contracts.parameters": "Parameters",
+    "mechwright.contracts.parameters": "Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
     "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
     "mechwright.contracts.table": "Table",
+    "mechwright.contracts.tolerance_settings": "Tolerances",
+    "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
     "mechwright.designs.design": "Design",
     "mechwright.errors": (
         "DesignError GeometryError KinematicsError MechwrightError OutputError PluginError ProgramError "
@@ -79,72 +89,20 @@ _HOMES = {
 
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
-__all__ = [
-    "HOOK_API",
-    "TOLERANCES",
-    "Arc",
-    "Array",
-    "BSpline",
-    "Bore",
-    "Build",
-    "Candidate",
-    "Chamfer",
-    "Channel",
-    "Colour",
-    "Command",
-    "Design",
-    "DesignError",
-    "Detail",
-    "Engraving",
-    "Exporter",
-    "Family",
-    "Feature",
-    "Finding",
-    "GeometryError",
-    "Host",
-    "Inspection",
-    "Instance",
-    "KinematicsError",
-    "Line",
-    "Loop",
-    "MaterialName",
-    "MechwrightError",
-    "Motion",
-    "OpenProfile",
-    "Outline",
-    "OutputError",
-    "Page",
-    "Parameters",
-    "Part",
-    "Plugin",
-    "PluginError",
-    "Pocket",
-    "Point",
-    "Poses",
-    "Profile",
-    "ProgramError",
-    "Progress",
-    "ProofError",
-    "Scalar",
-    "Segment",
-    "Severity",
-    "Stage",
-    "Synthesis",
-    "Table",
-    "Thread",
-    "ToolError",
-    "Trace",
-    "Wanted",
-    "__version__",
-    "at_stage",
-    "circle",
-    "hookimpl",
-    "host",
-    "material",
-    "of_stage",
-    "refuse",
-    "until_error",
-]
+__all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
+__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
+__all__ += ["MaterialName", "Parameters", "material"]
+__all__ += ["GROUND", "Array", "Channel", "Joint", "Motion", "Poses", "Scalar", "Trace"]
+__all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
+__all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
+__all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
+__all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
+__all__ += ["Candidate", "Progress", "Synthesis"]
+__all__ += ["Build", "Design", "Wanted"]
+__all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
+__all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]
+__all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances", "Zone"]
+__all__ += ["AsMade", "MadeCurve", "MadeFigure", "MadeHole", "MadePart", "MadeRing", "MadeSection"]
 
 
 def __getattr__(name: str) -> Any:

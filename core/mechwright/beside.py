@@ -83,12 +83,6 @@ class Beside:
         self._process.wait()
         self._process = None
 
-    def __enter__(self) -> "Beside":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
 
 def _send(pipe: IO[bytes], request: bytes) -> None:
     """Write a request; one that cannot be sent is never answered, and then done here."""

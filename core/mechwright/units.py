@@ -54,15 +54,9 @@ def kind(symbol: str) -> str:
     """Give the kind of quantity a unit measures, in root units; an angle is a kind of its own.
 
     Two units convert into each other if and only if their kinds are equal. That keeps ``"Hz"`` out of
-    ``rpm`` and ``"%"`` out of degrees, which a comparison of dimensions alone would let through.
+    ``rpm`` and ``"%"`` out of degrees, which a comparison of dimensions alone would let through. Raises
+    ValueError where there is no such unit.
 
-    Raises
-    ------
-    ValueError
-        There is no such unit.
-
-    Examples
-    --------
     >>> kind("mm/min") == kind("m/s"), kind("Hz") == kind("rpm"), kind("deg")
     (True, False, 'radian')
     """
@@ -70,28 +64,13 @@ def kind(symbol: str) -> str:
 
 
 def convert(text: str, unit: str) -> float:
-    """Read a quantity with a unit, and give its magnitude in ``unit``.
+    """Read a quantity, such as ``"2 in"`` or ``"1/4 in"``, and give its magnitude in ``unit``.
 
-    Parameters
-    ----------
-    text
-        A number and a unit, such as ``"2 in"`` or ``"1/4 in"``; a number alone is taken to be in ``unit``.
-    unit
-        The wanted unit, as pint spells it; ``""`` for a pure number.
+    A number alone is taken to be in ``unit``, which is spelled as pint does; ``""`` is a pure number. Raises
+    ValueError for a text that is no quantity, or of another kind than ``unit``.
 
-    Raises
-    ------
-    ValueError
-        The text is no quantity, or of another kind than ``unit``.
-
-    Examples
-    --------
-    >>> convert("2 in", "mm")
-    50.8
-    >>> convert("1/4 in", "mm")
-    6.35
-    >>> convert("40", "mm")
-    40.0
+    >>> convert("2 in", "mm"), convert("1/4 in", "mm"), convert("40", "mm")
+    (50.8, 6.35, 40.0)
     >>> convert("2 kg", "mm")
     Traceback (most recent call last):
     ...

@@ -101,7 +101,8 @@ def loci() -> list[str]:
         for plane in planes:
             curve, power = locus(Fraction(a), Fraction(c), Fraction(e), plane)
             twice = " (run through twice)" if power == 2 else ""
-            axes = "both axes" if curve.is_symmetric_twice and plane == "fixed" else f"{curve.axis} axis"
+            even = all(power % 2 == 0 for _, power in curve.terms)
+            axes = "both axes" if even and plane == "fixed" else f"{curve.axis} axis"
             rows.append(
                 f"| {a}, {c}, {e} | {case} | {plane} | {curve.degree}{twice} | {curve.circularity}-fold | "
                 f"{len(curve.terms)} | {axes} |"

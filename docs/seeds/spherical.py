@@ -18,8 +18,7 @@ from mechwright_cam.pages.svg import path as polyline
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
-from mechwright_spherical.planar import pairs, points
-from mechwright_spherical.planar_synthesis import CouplerPoses, Dyad, crank_dyad, rocker_dyad
+from mechwright_spherical.planar_synthesis import CouplerPoses, Dyad, crank_dyad, points, rocker_dyad
 from mechwright_spherical.planar_synthesis import arm_pins as pins_of_arm
 from mechwright_spherical.projection import project
 from mechwright_spherical.refine import Fit, Freedom, errors, refine
@@ -120,7 +119,7 @@ def dyads(path: Array, equations: str) -> tuple[Dyad, Dyad]:
 
 def path_tables() -> list[str]:
     """Tables 2 to 4, value by value."""
-    found, turns = pairs(planar()[0]), np.degrees(planar()[1])
+    found, turns = planar()[0].view(float).reshape(-1, 2), np.degrees(planar()[1])
     count = matches(found, printed.TABLE_2)
     lines = [
         "## Table 2: path points of the planar mechanism",
@@ -223,7 +222,7 @@ def error_tables() -> list[str]:
         found = structural_errors(DESIGN, d) * d
         rows.append([f"{d:g}", *(f"{found[n - 1]:.5f}" for n in MOVING), f"{np.sqrt(np.mean(found**2)):.5f}"])
     top, worst = peak(DESIGN, 7), peak(DESIGN)
-    limits = asymptote(replace(DESIGN, targets=pairs(planar()[0])))
+    limits = asymptote(replace(DESIGN, targets=planar()[0].view(float).reshape(-1, 2)))
     smallest = [
         [
             f"{tolerance:g}",
@@ -299,8 +298,8 @@ def fits() -> list[str]:
     rows = []
     for d in (1.0, 2.0, 3.0, 5.0, 8.0, 12.0):
         before = float(errors(mechanism(d), wanted(d)).max())
-        six = fit(d, Freedom.SIX).greatest
-        twelve = fit(d, Freedom.TWELVE).greatest if d >= 3 else math.nan
+        six = float(fit(d, Freedom.SIX).errors.max())
+        twelve = float(fit(d, Freedom.TWELVE).errors.max()) if d >= 3 else math.nan
         said = "" if math.isnan(twelve) else "below 1e-12" if twelve < EXACT else f"{twelve:.2e}"
         rows.append([f"{d:g}", f"{before:.3e}", f"{six:.3e}", f"{before / six:.0f}", said])
     best = fit(printed.LENGTH, Freedom.SIX)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from mechwright.arrays import Array
-from mechwright_spherical.planar import Complex
+from mechwright_spherical.planar_synthesis import Complex
 from mechwright_spherical.structural import PlanarDesign, errors, grid, scaled_error
 
 FIRST_LENGTH, DOUBLINGS = 8.0, 4

@@ -25,6 +25,10 @@ OFF_CENTRE = 4 * (TOLERANCES.gouge + TOLERANCES.leftover) / 2
 """mm. A hole that keeps the leftover limit on one side and is cut too deep by the gouge limit on the other
 has its middle off by half of both. Two gears on two holes of a base have four such holes."""
 
+PLANNED = 2 * (TOLERANCES.arc_fit + TOLERANCES.flatten)
+"""mm, on two flanks that meet: what a path that keeps its own tolerance may leave of each. With less room
+than that a pair as made is sure to jam at some position, however exact its axes are."""
+
 STEP = 1e-3
 """mm: backlashes are whole micrometres, upwards."""
 
@@ -37,14 +41,32 @@ def least_backlash(params: EllipticGearParams) -> float:
     >>> least_backlash(EllipticGearParams()), least_backlash(EllipticGearParams(stages=2))
     (0.067, 0.107)
     """
+    return _backlash(params, LEFT, OFF_CENTRE)
+
+
+def jamming_backlash(params: EllipticGearParams) -> float:
+    """Backlash, mm, below which walls as they are planned jam at the exact centre distance.
+
+    >>> jamming_backlash(EllipticGearParams())
+    0.011
+    """
+    return _backlash(params, PLANNED, 0.0)
+
+
+def _backlash(params: EllipticGearParams, left: float, off_centre: float) -> float:
     alpha = math.radians(params.pressure_angle)
     share = 1.0
     if params.stages == 1:
         share = math.sin(alpha) / math.sqrt(1 - params.eccentricity**2)
-    least = 2 * (LEFT + OFF_CENTRE * share) / math.cos(alpha)
+    least = 2 * (left + off_centre * share) / math.cos(alpha)
     return round(math.ceil(least / STEP) * STEP, 6)
 
 
 def backlash_of(params: EllipticGearParams) -> float:
     """The design's backlash, mm."""
     return least_backlash(params) if params.backlash is None else params.backlash
+
+
+def with_backlash(params: EllipticGearParams, backlash: float) -> EllipticGearParams:
+    """The same design with another backlash, mm."""
+    return params.model_copy(update={"backlash": backlash})

@@ -7,14 +7,8 @@ import numpy as np
 
 from mechwright import Finding, Severity
 from mechwright.contracts.finding import errors
-from mechwright.geometry.keyway import (
-    KEYS,
-    LEAST_WIDTH,
-    SMALLEST_EDGE,
-    Opening,
-    key_for_bore,
-    key_of_width,
-)
+from mechwright.geometry.keyway import KEYS, Opening, key_of_width
+from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -30,7 +24,8 @@ _PITCH_SAMPLES = 4096
 
 def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
     """Bore and keyway by themselves, then their rim."""
-    found = list(_smallest(params))
+    names = ("bore", "keyway_width", "keyway_relief", "tracer_diameter")
+    found = list(too_small({name: getattr(params, name) for name in names}))
     if not found and params.keyway_width > 0:
         found += _keyway(params)
     yield from found
@@ -38,80 +33,24 @@ def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
         yield from _rim(params)
 
 
-def _smallest(params: EllipticGearParams) -> Iterator[Finding]:
-    for name in ("bore", "keyway_width", "keyway_relief", "tracer_diameter"):
-        value = getattr(params, name)
-        if value is not None and 0 < value < LEAST_WIDTH:
-            yield Finding(
-                "bore.size",
-                Severity.ERROR,
-                name,
-                f"{value:.3g} mm is too small to be milled",
-                value,
-                LEAST_WIDTH,
-                "mm",
-                f"set {name} to 0 for none, or to {LEAST_WIDTH:g} or more",
-            )
-
-
 def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
-    width, bore = params.keyway_width, params.bore
-    standard, fitting = key_of_width(width), key_for_bore(bore)
-    if width >= bore:
-        yield Finding(
-            "bore.keyway-width",
-            Severity.ERROR,
-            "keyway_width",
-            f"a keyway {width:g} mm wide swallows the bore of {bore:g} mm",
-            width,
-            bore,
-            "mm",
-            "make keyway_width smaller than bore"
-            + (f"; the standard is {fitting.width:g}" if fitting else ""),
-        )
-        return
+    standard = key_of_width(params.keyway_width)
     if params.keyway_depth is None and standard is None:
-        widths = ", ".join(f"{key.width:g}" for key in KEYS)
-        yield Finding(
+        yield Finding.error(
             "bore.keyway-depth",
-            Severity.ERROR,
             "keyway_depth",
-            f"no standard key is {width:g} mm wide, so its depth is not known",
-            width,
-            None,
-            "mm",
-            f"give keyway_depth, or a width of {widths}",
+            f"no standard key is {params.keyway_width:g} mm wide, so its depth is not known",
+            params.keyway_width,
+            unit="mm",
+            remedy=f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
         )
         return
     opening = opening_of(params)
     assert opening is not None  # noqa: S101 - a keyway comes with a bore
-    if standard is not None:
+    found = list(keyway_findings(opening))
+    yield from found
+    if standard is not None and not errors(found):
         yield from _depth(opening, standard.hub_depth, standard.height - standard.shaft_depth)
-    if fitting is None or fitting.width != width:
-        series = f"{fitting.width:g} mm" if fitting else "none"
-        yield Finding(
-            "bore.keyway-series",
-            Severity.WARNING,
-            "keyway_width",
-            f"DIN 6885-1 has another key for a bore of {bore:g} mm: {series}",
-            width,
-            fitting.width if fitting else None,
-            "mm",
-            f"use keyway_width = {fitting.width:g}" if fitting else "make sure that such a key is at hand",
-        )
-    if opening.relief > 0:
-        most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
-        if opening.relief > most:
-            yield Finding(
-                "bore.keyway-relief",
-                Severity.ERROR,
-                "keyway_relief",
-                f"reliefs of {opening.relief:g} mm leave nothing of the keyway's floor or sides",
-                opening.relief,
-                most,
-                "mm",
-                f"make keyway_relief at most {max(0.0, math.floor(most * 100) / 100):g}",
-            )
 
 
 def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Finding]:

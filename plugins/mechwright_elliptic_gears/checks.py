@@ -6,10 +6,15 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, GeometryError, Severity, Stage, material, of_stage, until_error
-from mechwright_elliptic_gears.assembly import backlash_of, least_backlash
+from mechwright import Finding, GeometryError, Severity, Stage, kept, material, of_stage, until_error
+from mechwright.contracts.finding import errors
+from mechwright_elliptic_gears.assembly import (
+    backlash_of,
+    jamming_backlash,
+    least_backlash,
+    with_backlash,
+)
 from mechwright_elliptic_gears.bore_checks import opening_findings
 from mechwright_elliptic_gears.gear import (
     ellipse_of,
@@ -39,17 +44,18 @@ SHAFT_PRESSURE_ANGLE = 50.0
 FLANK_ERROR = 0.002
 """Jump of a flank, mm, that no longer comes from fitting: contact is lost between two teeth."""
 
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: EllipticGearParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the part can be built.
 
-    All of it is about the parts: the pitch ellipses of every design roll on each other.
+    All of it is about the parts, for the pitch ellipses of every design roll on each other; only the backlash
+    is about what machining leaves of them.
     """
-    return tuple(_of_the_parts(params))
+    found = list(_of_the_parts(params))
+    if not errors(found):
+        found += _backlash(params)
+    return tuple(found)
 
 
 @of_stage(Stage.PARTS)
@@ -62,7 +68,6 @@ def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
         opening_findings,
         train_findings,
         _drive,
-        _backlash,
         _mesh,
         _figures,
     )
@@ -74,9 +79,8 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
     m = rack.module
     if m < LEAST_MODULE:
         most = math.floor(params.teeth * m / LEAST_MODULE)
-        yield Finding(
+        yield Finding.error(
             "gear.module",
-            Severity.ERROR,
             "teeth",
             f"{params.teeth} teeth on this ellipse make a module of {m:.3g} mm, below {LEAST_MODULE:g} mm",
             m,
@@ -89,27 +93,23 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
         if offset_miss(params.tooth_offset, params.teeth) > 0:
             nearest = min(right, key=lambda value: abs((params.tooth_offset or 0.0) - value))
             parity = "odd" if params.teeth % 2 else "even"
-            yield Finding(
+            yield Finding.error(
                 "gear.phase",
-                Severity.ERROR,
                 "tooth_offset",
                 f"wrong phase: with a tooth {params.tooth_offset:g} pitches from the far vertex, two gears "
                 f"of {params.teeth} teeth collide",
                 params.tooth_offset,
                 nearest,
-                "",
-                f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
+                remedy=f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
             )
     if params.tip_radius >= params.dedendum:
-        yield Finding(
+        yield Finding.error(
             "gear.rack",
-            Severity.ERROR,
             "tip_radius",
             "the tip arc of the rack is deeper than its tooth",
             params.tip_radius,
             params.dedendum,
-            "",
-            "make tip_radius smaller than dedendum",
+            remedy="make tip_radius smaller than dedendum",
         )
     clearance = params.dedendum - params.addendum
     if clearance < LEAST_CLEARANCE:
@@ -125,16 +125,14 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
         )
     tightest = ellipse_of(params).least_radius
     if rack.dedendum >= tightest:
-        yield Finding(
+        yield Finding.error(
             "gear.convexity",
-            Severity.ERROR,
             "dedendum",
             f"the root lies {rack.dedendum:.3f} mm inside an ellipse that is curved by {tightest:.3f} mm at "
             "the ends of its major axis: its offset curve crosses itself",
             params.dedendum,
             tightest / rack.module,
-            "",
-            "use more teeth, a smaller eccentricity or a smaller dedendum",
+            remedy="use more teeth, a smaller eccentricity or a smaller dedendum",
         )
     if rack.half_land < 0:
         yield _land(params)
@@ -146,26 +144,22 @@ def _land(params: EllipticGearParams) -> Finding:
     # The half land is half_space - h_f tan α - r_f (1 - sin α) / cos α.
     most = (rack.half_space - rack.dedendum * sin / cos) * cos / (1 - sin) / rack.module
     if most >= 0:
-        return Finding(
+        return Finding.error(
             "gear.root-land",
-            Severity.ERROR,
             "tip_radius",
             "the two tip arcs of a rack tooth overlap: the fillets of a space merge and no root is left",
             params.tip_radius,
             most,
-            "",
-            f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
+            remedy=f"make tip_radius at most {math.floor(most * 1e4) / 1e4:g}",
         )
     deepest = rack.half_space * cos / sin / rack.module
-    return Finding(
+    return Finding.error(
         "gear.root-land",
-        Severity.ERROR,
         "dedendum",
         "the flanks of a rack tooth meet before its tip: there is no root",
         params.dedendum,
         deepest,
-        "",
-        f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
+        remedy=f"make dedendum less than {math.floor(deepest * 1e4) / 1e4:g}, or pressure_angle smaller",
     )
 
 
@@ -173,15 +167,12 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
     try:
         width = _tip_width(params)
     except GeometryError as error:
-        yield Finding(
+        yield Finding.error(
             "gear.tip",
-            Severity.ERROR,
             "addendum",
             str(error),
             params.addendum,
-            None,
-            "",
-            "make addendum smaller",
+            remedy="make addendum smaller",
         )
         return
     if width >= LEAST_TIP:
@@ -189,15 +180,13 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
     without = params.model_copy(update={"backlash": 0.0})
     blame = "backlash" if backlash_of(params) and _tip_width(without) >= LEAST_TIP else "addendum"
     what = "pointed" if width <= 0 else f"{width:.3f} modules wide at the tip"
-    yield Finding(
+    yield Finding.error(
         "gear.tip",
-        Severity.ERROR,
         blame,
         f"the thinnest tooth is {what}, below {LEAST_TIP:g} modules",
         width,
         LEAST_TIP,
-        "",
-        "make module or semi_major larger: as made, these teeth need all their backlash"
+        remedy="make module or semi_major larger: as made, these teeth need all their backlash"
         if blame == "backlash" and params.backlash is None
         else f"make {blame} smaller" + ("" if blame == "backlash" else ", or pressure_angle smaller"),
     )
@@ -214,9 +203,8 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
     )
     if angle > SHAFT_PRESSURE_ANGLE:
         most = math.sin(math.radians(SHAFT_PRESSURE_ANGLE - params.pressure_angle))
-        yield Finding(
+        yield Finding.warning(
             "gear.pressure-angle",
-            Severity.WARNING,
             "eccentricity",
             f"the pressure angle that the shaft sees reaches {angle:.1f} degrees at e = "
             f"{params.eccentricity:g}, above {SHAFT_PRESSURE_ANGLE:g}: the teeth push more than they turn",
@@ -228,17 +216,24 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
         )
 
 
+@of_stage(Stage.MACHINING)
 def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
-    least = least_backlash(params)
-    if backlash_of(params) >= least:
+    least, given = least_backlash(params), backlash_of(params)
+    if given >= least:
         return
-    better = params.model_copy(update={"backlash": least})
+    jams = given < jamming_backlash(params)
+    does = (
+        "gears as made jam: walls as they are planned"
+        if jams
+        else "gears as made may jam: walls and axes within tolerance"
+    )
+    better = with_backlash(params, least)
     yield Finding(
         "gear.backlash",
-        Severity.WARNING,
+        Severity.ERROR if jams else Severity.WARNING,
         "backlash",
-        f"gears as made may jam: walls and axes within tolerance take up to {least:g} mm of the backlash",
-        backlash_of(params),
+        f"{does} take up to {jamming_backlash(params) if jams else least:g} mm of the backlash",
+        given,
         least,
         "mm",
         f"make backlash at least {least:g}, or leave it out"
@@ -251,9 +246,8 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
     proof = prove(params)
     depth = float(proof.mesh.depth.max())
     if proof.collides:
-        yield Finding(
+        yield Finding.error(
             "gear.mesh",
-            Severity.ERROR,
             "addendum",
             f"the pair collides: {depth:.4f} mm deep, {proof.mesh.overlap:.4f} mm² of overlap",
             depth,
@@ -263,9 +257,8 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
         )
         return
     if proof.flank_error > FLANK_ERROR:
-        yield Finding(
+        yield Finding.warning(
             "gear.contact",
-            Severity.WARNING,
             "addendum",
             f"a flank jumps by {proof.flank_error:.4f} mm, {proof.error * 1e6:.0f} µrad of the driven gear: "
             "a tooth leaves contact before the next one takes over",
@@ -275,10 +268,8 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
             "make addendum larger or pressure_angle smaller, or use more teeth",
         )
     play = proof.mesh.free_play
-    yield Finding(
+    yield Finding.note(
         "gear.mesh",
-        Severity.NOTE,
-        "",
         f"mesh proven at {play.size} positions: overlap {proof.mesh.overlap:g} mm², gap "
         f"{max(0.0, float(proof.mesh.gap.min())):.6f} to {float(proof.mesh.gap.max()):.6f} mm, transmission "
         f"error {proof.error * 1e6:.1f} µrad peak to peak"
@@ -288,7 +279,6 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
             else ""
         ),
         proof.error * 1e6,
-        None,
         "µrad",
     )
 
@@ -298,24 +288,18 @@ def _figures(params: EllipticGearParams) -> Iterator[Finding]:
     density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
     mass = outline.area * params.thickness * density
     inertia = outline.polar_moment * params.thickness * density
-    yield Finding(
+    yield Finding.note(
         "gear.size",
-        Severity.NOTE,
-        "",
         f"module {rack.module:.4f} mm, semi-axes {ellipse.semi_major:.4f} and "
         f"{ellipse.semi_minor:.4f} mm, centre distance {2 * ellipse.semi_major:.4f} mm; each "
         f"gear {mass * 1e3:.1f} g, {inertia:.4g} kg·mm² about its axis",
         2 * ellipse.semi_major,
-        None,
         "mm",
     )
     mill = fillet_mill(params)
-    yield Finding(
+    yield Finding.note(
         "gear.fillet",
-        Severity.NOTE,
-        "",
         f"the largest end mill that cuts every fillet exactly has a diameter of {mill:.3f} mm",
         mill,
-        None,
         "mm",
     )

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechwright import TOLERANCES, Array, Finding, Severity
+from mechwright import TOLERANCES, Array, Finding
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.gear_parts import Gear, gears_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -45,9 +45,8 @@ def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Po
     proof = prove_outlines(params, _ring(one), 2 * (deviation + TOLERANCES.flatten), _ring(other))
     depth, overlap = float(proof.mesh.depth.max()), proof.mesh.overlap
     if proof.collides:
-        return Finding(
+        return Finding.error(
             "gear.cut-mesh",
-            Severity.ERROR,
             "cam.tools",
             f"as cut, the pair collides: {depth:.3f} mm deep, {overlap:.3f} mm² of overlap where no chosen "
             "cutter reaches into the fillets",
@@ -56,13 +55,10 @@ def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Po
             "mm",
             "add a smaller end mill",
         )
-    return Finding(
+    return Finding.note(
         "gear.cut-mesh",
-        Severity.NOTE,
-        "",
         f"as cut, the pair meshes: overlap {overlap:g} mm², transmission error {proof.error * 1e6:.1f} µrad",
         proof.error * 1e6,
-        None,
         "µrad",
     )
 
@@ -76,15 +72,13 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
     holes = [shapely.Polygon(hole) for hole in cut.interiors]
     hole = next((hole for hole in holes if hole.contains(shapely.Point(0, 0))), None)
     if hole is None:
-        yield Finding(
+        yield Finding.error(
             "gear.cut-bore",
-            Severity.ERROR,
             "cam.tools",
             f"no chosen cutter goes into the bore of {opening.bore:g} mm",
             opening.bore,
-            None,
-            "mm",
-            "add a smaller end mill",
+            unit="mm",
+            remedy="add a smaller end mill",
         )
         return
     if gear.key is None:
@@ -96,9 +90,8 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
     corners = shapely.get_coordinates(outside)
     depth = float(np.max(shapely.distance(hole, shapely.points(corners)), initial=0.0))
     if depth > KEY_FIT:
-        yield Finding(
+        yield Finding.error(
             "gear.cut-key",
-            Severity.ERROR,
             "keyway_relief",
             f"the key does not go in: the chosen cutters leave {depth:.3f} mm of the keyway's corners "
             "standing in its way",

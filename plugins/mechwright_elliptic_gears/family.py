@@ -3,14 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.requirements import REQUIREMENTS
 
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -35,17 +35,11 @@ class EllipticGears(Family[EllipticGearParams]):
         return motion_of(params, samples)
 
     def parts(self, params: EllipticGearParams) -> "Sequence[Part]":
-        """The gears, and of a train all that carries and joins them.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """The gears, and of a train all that carries and joins them."""
         from mechwright_elliptic_gears.checks import findings
-        from mechwright_elliptic_gears.parts import parts_of
+        from mechwright_elliptic_gears.gear_parts import parts_of
 
-        refuse(findings(params))
+        refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
     def check_cut(
@@ -55,6 +49,18 @@ class EllipticGears(Family[EllipticGearParams]):
         from mechwright_elliptic_gears.cut import cut_findings
 
         return cut_findings(params, cut)
+
+    def as_made(self, params: EllipticGearParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Play, transmission error and backlash of each pair, and whether it jams."""
+        from mechwright_elliptic_gears.as_made import as_made
+
+        return as_made(params, made)
+
+    def tolerances(self, params: EllipticGearParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Play and transmission error, from walls, centre distances and run-out."""
+        from mechwright_elliptic_gears.tolerances import GearTolerances
+
+        return GearTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

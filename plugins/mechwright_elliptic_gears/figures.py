@@ -2,11 +2,10 @@
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Scalar
+from mechwright import Array, Scalar, kept
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.kinematics import Turning, driven, steepest_shaft_pressure_angle, train
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -20,9 +19,6 @@ and 10 rad/s with which the published trains are compared."""
 
 POINT_RATES = ("speed", "acceleration", "jerk")
 """Rates of Q whose peaks are figures of a design."""
-
-_CACHED = 16
-"""Designs whose figures are kept: solids and motion are asked for with different numbers of samples."""
 
 
 def band_of(params: EllipticGearParams) -> float:
@@ -70,7 +66,7 @@ def coupled_gears(gear2: Turning, eccentricity: float, phase: float | None) -> t
     return train(gear2, eccentricity, phase)[1:]
 
 
-@lru_cache(_CACHED)
+@kept
 def figures(params: EllipticGearParams) -> dict[str, Scalar]:
     """Name to value and unit."""
     a, e = ellipse_of(params).semi_major, params.eccentricity

@@ -1,9 +1,8 @@
 """From the design table to the gear: sizes, teeth and outline."""
 
 import math
-from functools import lru_cache
 
-from mechwright import GeometryError, Outline
+from mechwright import GeometryError, Outline, kept
 from mechwright.geometry.keyway import Opening, key_of_width
 from mechwright.mechanics.gearing import Rack, Teeth, gear_loop
 from mechwright_elliptic_gears.assembly import backlash_of
@@ -13,11 +12,8 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 OFFSET_SLACK = 1e-6
 """Pitches by which a tooth offset may miss: a micrometre in a metre, far below any backlash."""
 
-_CACHED = 16
-"""Designs whose geometry is kept: check, parts and the judging of cuts ask for the same one."""
 
-
-@lru_cache(_CACHED)
+@kept
 def ellipse_of(params: EllipticGearParams) -> Ellipse:
     """The pitch ellipse: its perimeter 4 a E is z pitches, so a = π m z / (4 E)."""
     if params.semi_major is not None:
@@ -79,7 +75,7 @@ def offset_miss(offset: float, teeth: int) -> float:
     return 0.0 if miss <= OFFSET_SLACK else miss
 
 
-@lru_cache(_CACHED)
+@kept
 def teeth_of(params: EllipticGearParams) -> Teeth:
     """The teeth, with the smaller offset that meshes if the table gives none."""
     offset = params.tooth_offset
@@ -111,7 +107,7 @@ def opening_of(params: EllipticGearParams) -> Opening | None:
     return Opening(params.bore, params.keyway_width, depth, params.keyway_relief)
 
 
-@lru_cache(_CACHED)
+@kept
 def outline_of(params: EllipticGearParams) -> Outline:
     """The outline in the part frame: origin on the axis of rotation, far vertex on +x.
 

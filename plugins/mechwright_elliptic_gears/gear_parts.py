@@ -1,16 +1,17 @@
-"""The gears as parts: which of them are alike, where their keyways stand, and which holes they have."""
+"""All parts of a design. Gears: which are alike, where their keyways stand, and which holes they have."""
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle
+from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.plates import base_part, coupler_part
+from mechwright_elliptic_gears.turned import round_parts
 
 COLOURS: dict[str, Colour] = {
     "gear-2": (0.45, 0.58, 0.70),
@@ -19,18 +20,6 @@ COLOURS: dict[str, Colour] = {
     "gear-5": (0.66, 0.56, 0.72),
 }
 """Body of each gear to its colour."""
-
-_CACHED = 16
-"""Designs whose gears are kept."""
-
-
-@dataclass(frozen=True)
-class Hole:
-    """A round hole beside the bore: name, centre in the part frame, diameter, mm."""
-
-    name: str
-    centre: Point
-    diameter: float
 
 
 @dataclass(frozen=True)
@@ -52,10 +41,10 @@ class Gear:
     name: str
     bodies: tuple[tuple[str, float], ...]
     key: float | None = None
-    holes: tuple[Hole, ...] = ()
+    holes: tuple[Bore, ...] = ()
 
 
-@lru_cache(_CACHED)
+@kept
 def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     """The gear parts of a design.
 
@@ -70,7 +59,7 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     layout = Layout.of(params)
     low, high = layout.lower, layout.upper
     back = -phase_offset(phase, params.eccentricity) % math.tau
-    joint = Hole("joint", (layout.focus, 0.0), layout.pin)
+    joint = Bore("joint", (layout.focus, 0.0), layout.pin, 0, layout.thickness)
     last = Gear("gear-5", (("gear-5", high),), None, (joint,))
     if key is not None:
         return (
@@ -86,10 +75,16 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     )
 
 
-def _dowel_holes(layout: Layout, turn: float) -> tuple[Hole, ...]:
+def _dowel_holes(layout: Layout, turn: float) -> tuple[Bore, ...]:
     radius = layout.dowel_circle / 2
     return tuple(
-        Hole(name, (radius * math.cos(angle + turn), radius * math.sin(angle + turn)), layout.dowel)
+        Bore(
+            name,
+            (radius * math.cos(angle + turn), radius * math.sin(angle + turn)),
+            layout.dowel,
+            0,
+            layout.thickness,
+        )
         for name, angle in DOWELS.items()
     )
 
@@ -115,9 +110,9 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
         if gear.key is not None:
             features.append(Profile("keyway", opening, "inside", 0, depth))
+    features += gear.holes
     for hole in gear.holes:
         inner.append(Loop((circle(hole.centre, hole.diameter / 2, clockwise=True, tag=hole.name),)))
-        features.append(Bore(hole.name, hole.centre, hole.diameter, 0, depth))
     features.append(Profile("outside", whole.outer, "outside", 0, depth, _tab_sites(whole.outer)))
     return Part(
         gear.name,
@@ -138,3 +133,14 @@ def _tab_sites(loop: Loop) -> tuple[tuple[Point, float], ...]:
             width = float(np.hypot(segment.end[0] - segment.start[0], segment.end[1] - segment.start[1]))
             sites.append(((x, y), width))
     return tuple(sites)
+
+
+def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
+    """The gears; of a train also its coupler, base plate and round parts. ``check`` has found no error."""
+    gears = tuple(gear_part(params, gear) for gear in gears_of(params))
+    if params.stages == 1:
+        return gears
+    layout, opening = Layout.of(params), opening_of(params)
+    assert opening is not None  # noqa: S101 - a train has a bore
+    plates = (coupler_part(params, layout), base_part(params, layout))
+    return (*gears, *plates, *round_parts(layout, opening))

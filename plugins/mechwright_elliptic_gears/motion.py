@@ -5,11 +5,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Poses, Trace
+from mechwright import Array, Channel, Motion, Poses, Trace
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
+from mechwright_elliptic_gears.held import held_by
 from mechwright_elliptic_gears.kinematics import (
     Turning,
     coupler,
@@ -28,17 +30,10 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
 
     The origin is the axis of the coupler's gear 2 (single pair) or 4 (train), the axis of its mate lies at
     2a on x; gear 2 of a train turns about (-2a, 0).
-
-    Raises
-    ------
-    DesignError
-        Fewer than two samples.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     a, e = ellipse_of(params).semi_major, params.eccentricity
     omega = params.speed * math.tau / 60
-    theta2 = np.linspace(0, math.tau, samples)
+    theta2 = travelled(math.tau, samples)
     gear2 = Turning.of(theta2, omega)
     phase = params.phase_angle
     turning: dict[str, Turning] = {"2": gear2}
@@ -65,7 +60,7 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     channels["pressure_angle"] = Channel(steepest, "rad")
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
-    return Motion("theta2", channels, poses, figures(params), traces)
+    return Motion("theta2", channels, poses, figures(params), traces, held_by(params))
 
 
 def _point_channels(q: PointMotion) -> dict[str, Channel]:

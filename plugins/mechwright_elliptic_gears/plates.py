@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from mechwright import (
     Arc,
     Bore,
+    Colour,
     Feature,
     Instance,
     Line,
@@ -15,13 +16,15 @@ from mechwright import (
     Point,
     Profile,
     Segment,
-    circle,
 )
+from mechwright.mechanics.linkage import Boss, rectangle
+from mechwright.mechanics.linkage.outlines import bores
 from mechwright_elliptic_gears.layout import FIXING, MARGIN, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 COUPLER, BASE = "coupler", "base"
 """Names of the parts and of their bodies."""
+
 
 _FLAT = 1e-6
 """mm. A point nearer than this to a line, or to another point, lies on it: a nanometre, ten times what two
@@ -30,56 +33,42 @@ segments of a loop may be apart."""
 
 def coupler_part(params: EllipticGearParams, layout: Layout) -> Part:
     """The coupler: eyes at J, the origin, and K on +x, and a hole at Q if it has one."""
-    centres: list[Point] = [(0.0, 0.0), (2 * layout.semi_major, 0.0)]
-    holes = [("joint-j", centres[0], layout.pin), ("joint-k", centres[1], layout.pin)]
-    q = (2 * layout.semi_major * params.point_along, params.point_across)
-    if layout.tracer > 0:
-        holes.append(("tracer", q, layout.tracer))
-    outer = rounded_hull([*centres, q], layout.eye)
-    at = Instance(COUPLER, layout.link)
-    return plate(COUPLER, outer, holes, layout.coupler, params.material, at, (0.72, 0.32, 0.27))
+    q = complex(2 * layout.semi_major * params.point_along, params.point_across)
+    eyes = [
+        Boss(0j, layout.eye, layout.pin, "joint-j"),
+        Boss(complex(2 * layout.semi_major), layout.eye, layout.pin, "joint-k"),
+        Boss(q, layout.eye, layout.tracer, "tracer"),
+    ]
+    outer = rounded_hull([(eye.centre.real, eye.centre.imag) for eye in eyes], layout.eye)
+    outline, at = Outline(outer, bores(eyes)), Instance(COUPLER, layout.link)
+    return _plate(COUPLER, outline, layout.coupler, params.material, at, (0.72, 0.32, 0.27))
 
 
 def base_part(params: EllipticGearParams, layout: Layout) -> Part:
     """The base plate: bores of the three shafts, and four holes that fix it."""
     reach, rounding = 2 * layout.semi_major, layout.bore / 2
-    side, fixing = MARGIN * layout.bore - rounding, round(FIXING * layout.bore, 1)
+    side, fixing = MARGIN * layout.bore, round(FIXING * layout.bore, 1)
     axes = {"2": -reach, "4": 0.0, "5": reach}
-    holes = [(f"shaft-{name}", (x, 0.0), layout.bore) for name, x in axes.items()]
-    holes += [
-        (f"fixing-{number}", (x, y), fixing)
-        for number, (x, y) in enumerate(
-            (sx * layout.semi_major, sy * (side - fixing / 2)) for sx in (-1, 1) for sy in (-1, 1)
-        )
-    ]
-    corners = [(sx * (reach + side), sy * side) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    outer = rounded_hull(corners, rounding)
-    at = Instance(BASE, -layout.base)
-    return plate(BASE, outer, holes, layout.base, params.material, at, (0.55, 0.57, 0.60))
+    holes = [Boss(complex(x), 0.0, layout.bore, f"shaft-{name}") for name, x in axes.items()]
+    high = side - rounding - fixing / 2
+    places = [complex(x, y) for x in (-layout.semi_major, layout.semi_major) for y in (-high, high)]
+    holes += [Boss(place, 0.0, fixing, f"fixing-{number}") for number, place in enumerate(places)]
+    corner = complex(reach + side, side)
+    outline, at = rectangle(-corner, corner, rounding, holes), Instance(BASE, -layout.base)
+    return _plate(BASE, outline, layout.base, params.material, at, (0.55, 0.57, 0.60))
 
 
-def plate(
-    name: str,
-    outer: Loop,
-    holes: Sequence[tuple[str, Point, float]],
-    thickness: float,
-    material: str,
-    at: Instance,
-    colour: tuple[float, float, float],
+def _plate(
+    name: str, outline: Outline, thickness: float, material: str, at: Instance, colour: Colour
 ) -> Part:
-    """A plate with round holes, each a name, a centre and a diameter."""
-    inner = tuple(Loop((circle(centre, size / 2, clockwise=True, tag=tag),)) for tag, centre, size in holes)
-    features: list[Feature] = [Bore(tag, centre, size, 0, thickness) for tag, centre, size in holes]
-    features.append(Profile("outside", outer, "outside", 0, thickness))
-    return Part(
-        name,
-        Outline(outer, inner),
-        thickness,
-        material,
-        instances=(at,),
-        colour=colour,
-        machined=tuple(features),
-    )
+    """A plate whose features have the names of its holes."""
+    features: list[Feature] = []
+    for loop in outline.inner:
+        (hole,) = loop.segments
+        assert isinstance(hole, Arc)  # noqa: S101 - a bore is a circle
+        features.append(Bore(hole.tag, hole.centre, 2 * hole.radius, 0, thickness))
+    features.append(Profile("outside", outline.outer, "outside", 0, thickness))
+    return Part(name, outline, thickness, material, (at,), colour, tuple(features))
 
 
 def rounded_hull(points: Sequence[Point], radius: float) -> Loop:

@@ -1,8 +1,6 @@
 """The mesh proof of a design: as drawn, and as the cutters leave it."""
 
-from functools import lru_cache
-
-from mechwright import TOLERANCES, Array
+from mechwright import TOLERANCES, Array, kept
 from mechwright.mechanics.gearing import MeshProof, prove_mesh
 from mechwright_elliptic_gears.gear import outline_of, pair_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -11,11 +9,8 @@ FLATTEN = 2.5e-6
 """Chord error of the polygons of the proof, in semi-major axes: that many radians of transmission error, give
 or take the ratio of the axes. For 40 teeth it puts 64 points on a flank."""
 
-_CACHED = 16
-"""Proofs that are kept."""
 
-
-@lru_cache(_CACHED)
+@kept
 def prove(params: EllipticGearParams) -> MeshProof:
     """Run the finished outline against its copy."""
     outline = outline_of(params)

@@ -247,9 +247,8 @@ def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synth
 
 def _missed(problem: _Problem, value: Mapping[str, float]) -> Finding:
     most = point_window(problem.params(value)).length
-    return Finding(
+    return Finding.error(
         "synthesis.window",
-        Severity.ERROR,
         "window",
         f"no design between these bounds has a window of {problem.window:g} rad; the nearest has {most:.3f}",
         problem.window,
@@ -288,9 +287,8 @@ def _with_teeth(params: EllipticGearParams, cutter: float) -> tuple[EllipticGear
 
 
 def _no_cutter(params: EllipticGearParams, mill: float, cutter: float) -> Finding:
-    return Finding(
+    return Finding.error(
         "synthesis.cutter",
-        Severity.ERROR,
         "cutter",
         f"{params.teeth} teeth, the least without undercut, have fillets for a mill of {mill:.3f} mm",
         cutter,

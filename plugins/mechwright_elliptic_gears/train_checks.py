@@ -5,11 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity
+from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
-from mechwright_elliptic_gears.gear_parts import Gear, Hole, gear_opening, gears_of
+from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -43,12 +43,6 @@ def train_findings(params: EllipticGearParams) -> Iterator[Finding]:
         yield _phase_note(params)
 
 
-def _error(
-    code: str, parameter: str, message: str, value: float, limit: float | None, unit: str, remedy: str
-) -> Finding:
-    return Finding(code, Severity.ERROR, parameter, message, value, limit, unit, remedy)
-
-
 def _on_coupler(params: EllipticGearParams) -> Iterator[Finding]:
     """Q within the coupler's length, and not farther beside it than half of that."""
     layout = Layout.of(params)
@@ -60,7 +54,7 @@ def _on_coupler(params: EllipticGearParams) -> Iterator[Finding]:
     ):
         if not low <= value <= high:
             nearest = low + inset if value < low else high - inset
-            yield _error(
+            yield Finding.error(
                 "point.off-coupler",
                 name,
                 f"point Q is off the coupler, which reaches from {low:g} to {high:g} {unit}".rstrip(),
@@ -84,7 +78,7 @@ def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     if layout.tracer == 0:
         return
     if layout.tracer > layout.pin:
-        yield _error(
+        yield Finding.error(
             "train.tracer",
             "tracer_diameter",
             f"a hole of {layout.tracer:g} mm at Q leaves too little of the coupler, whose eyes are made for "
@@ -97,7 +91,7 @@ def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
         return
     margin = _joint_margin(params, layout)
     if margin >= 0.5:
-        yield _error(
+        yield Finding.error(
             "train.tracer",
             "tracer_diameter",
             "there is no room for a hole between the joints",
@@ -109,14 +103,13 @@ def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
         return
     nearest = min(max(params.point_along, margin), 1 - margin)
     if nearest != params.point_along:
-        yield _error(
+        yield Finding.error(
             "train.tracer",
             "point_along",
             f"the hole at Q runs into the joint {'J' if nearest == margin else 'K'}",
             params.point_along,
             nearest,
-            "",
-            f"the nearest value with a wall is {nearest:g}; or set tracer_diameter = 0",
+            remedy=f"the nearest value with a wall is {nearest:g}; or set tracer_diameter = 0",
         )
 
 
@@ -130,20 +123,20 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     wanted = (layout.bore + layout.pin) / 2 + WALL * max(layout.pin, layout.bore)
     if layout.focus < wanted:
         nearest = _outwards(wanted / (2 * layout.semi_major), 1)
-        yield _error(
+        yield Finding.error(
             "train.joint",
             "eccentricity",
             f"the joint stands {layout.focus:.2f} mm from the shaft, and both holes need {wanted:.2f} mm",
             params.eccentricity,
             nearest,
-            "",
-            f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter smaller",
+            remedy=f"the nearest eccentricity with a wall is {nearest:g}; or make bore or pin_diameter "
+            "smaller",
         )
     module = rack_of(params).module
     free = room(params, np.array([[layout.focus, 0.0]]))
     most = 2 * (free - LEAST_RIM * module)
     if layout.pin > most:
-        yield _error(
+        yield Finding.error(
             "train.joint-rim",
             "pin_diameter",
             f"{free - layout.pin / 2:.2f} mm stay between a joint of {layout.pin:g} mm and the nearest root",
@@ -167,14 +160,13 @@ def _sweep(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
         ),
         None,
     )
-    yield _error(
+    yield Finding.error(
         "train.sweep",
         "eccentricity",
         f"the tips of gear 3 come within {gap:.2f} mm of the spacer below gear 5",
         params.eccentricity,
         nearest,
-        "",
-        "make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
+        remedy="make bore smaller" + ("" if nearest is None else f", or eccentricity at most {nearest:g}"),
     )
 
 
@@ -188,7 +180,7 @@ def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Findin
     """The dowels stand outside the spacer, and inside the rim."""
     least = layout.spacer + layout.dowel + 2 * DOWEL_GAP
     if layout.dowel_circle < least:
-        yield _error(
+        yield Finding.error(
             "train.dowels",
             "dowel_circle",
             f"dowels of {layout.dowel:g} mm on a circle of {layout.dowel_circle:g} mm run into the spacer",
@@ -202,7 +194,7 @@ def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Findin
     rim = _least_rim(params, gear3)
     module = rack_of(params).module
     if rim < LEAST_RIM * module:
-        yield _error(
+        yield Finding.error(
             "train.dowel-rim",
             "dowel_circle",
             f"{rim:.2f} mm stay between the dowels and the nearest root of gear 3, below a module",
@@ -235,7 +227,7 @@ def _turned_openings(params: EllipticGearParams) -> Iterator[Finding]:
             nearest = works[0]
             break
     smaller = "keyway_width or bore" if params.keyway_width > 0 else "dowel_circle or dowel_diameter"
-    yield _error(
+    yield Finding.error(
         "train.phase",
         "phase",
         fault,
@@ -272,7 +264,7 @@ def _phase_fault(params: EllipticGearParams) -> str | None:
     return None
 
 
-def _wall(one: Hole, other: Hole) -> float:
+def _wall(one: Bore, other: Bore) -> float:
     return math.dist(one.centre, other.centre) - (one.diameter + other.diameter) / 2
 
 
@@ -290,13 +282,10 @@ def _phase_note(params: EllipticGearParams) -> Finding:
     phase = params.phase_angle or 0.0
     turn = math.degrees(phase_offset(phase, params.eccentricity)) % 360
     what = "keyway" if params.keyway_width > 0 else "first dowel hole"
-    return Finding(
+    return Finding.note(
         "train.phase",
-        Severity.NOTE,
-        "",
         f"gear 4 stands {turn:.3f} degrees ahead of gear 3 on their shaft: its {what} lies "
         f"{-turn % 360:.3f} degrees counter-clockwise from its far vertex, seen from the coupler's side",
         turn,
-        None,
         "deg",
     )

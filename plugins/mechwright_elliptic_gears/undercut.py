@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Finding, Severity
+from mechwright import Finding
 from mechwright_elliptic_gears.gear import ellipse_of, offset_miss, rack_of, teeth_of
 from mechwright_elliptic_gears.params import MOST_TEETH, EllipticGearParams
 
@@ -31,17 +31,15 @@ def undercut_findings(params: EllipticGearParams) -> Iterator[Finding]:
         remedy = f"use {better.teeth} teeth, the least number that works"
         if params.semi_major is not None:
             remedy += f" (a module of at most {rack_of(better).module:.4f} mm)"
-    yield Finding(
+    yield Finding.error(
         "gear.undercut",
-        Severity.ERROR,
         "teeth",
         f"{int(bad.sum())} of {bad.size} flanks are undercut, most of all that on side "
         f"{int(side) * 2 - 1:+d} of space {int(space)}: its regularity falls to "
         f"{float(factor.min()):.3f} of that on the pitch curve",
         params.teeth,
         None if better is None else better.teeth,
-        "",
-        remedy,
+        remedy=remedy,
     )
 
 

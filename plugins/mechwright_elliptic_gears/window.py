@@ -11,6 +11,7 @@ reach
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,8 +90,7 @@ def near_constant(speed: Callable[[Array], Array], band: float, period: float = 
     return Window(best.start % period, min(best.length, period), best.low)
 
 
-def _length(window: Window) -> float:
-    return window.length
+_length = attrgetter("length")
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +178,11 @@ class _Search:
         low, high = np.minimum(low, at_end), np.maximum(high, at_end)
         start = self._last(start, start - most, low, high, _FINE)
         ends, low, _ = self.reach(start, _FINE)
-        return max(window, Window(float(start[0]), float(ends[0] - start[0]), float(low[0])), key=_length)
+        return max(
+            window,
+            Window(float(start[0]), float(ends[0] - start[0]), float(low[0])),
+            key=_length,
+        )
 
     def reach(self, starts: Array, rounds: int = _COARSE) -> tuple[Array, Array, Array]:
         """End of the band for each start (k,), and the least and greatest speed before it."""

@@ -6,10 +6,9 @@ sound, so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 from itertools import combinations
 
-from mechwright import Finding, GeometryError, Severity, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, speed_of
@@ -28,11 +27,8 @@ LEAST_TRANSMISSION = 1.0
 BEARING_PRESSURE = 10.0
 """N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
 
-_CACHED = 64
-"""Designs whose findings are kept: parts and motion ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(
@@ -55,9 +51,8 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
             key=lambda pair: pair[1],
         )
         limit = sum(bar.lengths) - longest
-        yield Finding(
+        yield Finding.error(
             "four-bar.closure",
-            Severity.ERROR,
             name,
             f"the links cannot be joined: the {name} of {longest:g} mm is longer than the others together, "
             f"{limit:g} mm",
@@ -72,9 +67,8 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
         return
     change = bar.kind is Kind.CHANGE_POINT or bar.crank_room >= 0
     parameter, value, near, remedy = _nearest_turning(bar, least)
-    yield Finding(
+    yield Finding.error(
         "four-bar.change-point" if change else "four-bar.rotation",
-        Severity.ERROR,
         parameter,
         "all links line up once a turn, and nothing decides how the linkage goes on"
         if change
@@ -144,9 +138,8 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
             if distance >= needed:
                 continue
             point = "coupler-point" in (one.tag, two.tag)
-            yield Finding(
+            yield Finding.error(
                 "four-bar.bores",
-                Severity.ERROR,
                 "coupler_point_x" if point else name,
                 f"the bores of the {name} are {distance:.4g} mm apart and leave less than the rim of "
                 f"{params.rim:g} mm",
@@ -160,15 +153,13 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
     try:
         outlines_of(params)
     except GeometryError as error:
-        yield Finding(
+        yield Finding.error(
             "four-bar.bend",
-            Severity.ERROR,
             "coupler_bend",
             str(error),
             params.coupler_bend,
-            None,
-            "mm",
-            "make coupler_bend or web_width smaller, or rim larger",
+            unit="mm",
+            remedy="make coupler_bend or web_width smaller, or rim larger",
         )
 
 
@@ -177,27 +168,22 @@ def _layers(params: FourBarParams) -> Iterator[Finding]:
     try:
         layers = stack_of(params)
     except GeometryError as error:
-        yield Finding(
+        yield Finding.error(
             "four-bar.layers",
-            Severity.ERROR,
             "clearance",
             str(error),
             params.clearance,
-            None,
-            "mm",
-            "make pins, rims, webs or clearance smaller, or bend the coupler",
+            unit="mm",
+            remedy="make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layers.spans.values())
-    yield Finding(
+    yield Finding.note(
         "four-bar.stack",
-        Severity.NOTE,
-        "",
         f"{len(layers.layers)} layers, {height:.4g} mm high: "
         + ", ".join(f"{name} in {number}" for name, number in order),
         height,
-        None,
         "mm",
     )
 
@@ -212,14 +198,11 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
         f"{limits.time_ratio:.5f}"
     )
     least, most = bar.least_transmission_angle(), bar.greatest_transmission_angle()
-    yield Finding(
+    yield Finding.note(
         "four-bar.motion",
-        Severity.NOTE,
-        "",
         f"{bar.kind.value}, {motion}; transmission angle {math.degrees(least):.3f} to "
         f"{math.degrees(most):.3f} degrees",
         math.degrees(least),
-        None,
         "deg",
     )
 
@@ -237,9 +220,8 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
     )
     force = peaks[f"force_{joint}"].value
     if pressure > BEARING_PRESSURE:
-        yield Finding(
+        yield Finding.warning(
             "four-bar.bearing-pressure",
-            Severity.WARNING,
             "pin_diameter",
             f"joint {joint} carries up to {force:.4g} N, {pressure:.4g} N/mm² on its bearing",
             pressure,
@@ -247,14 +229,11 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
             "N/mm^2",
             "take thicker pins or plates, a smaller load or a lower speed",
         )
-    yield Finding(
+    yield Finding.note(
         "four-bar.forces",
-        Severity.NOTE,
-        "",
         f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to "
         f"{force:.4g} N, and the moving masses shake the ground with up to "
         f"{peaks['shaking_force'].value:.4g} N",
         peaks["drive_torque"].value,
-        None,
         "N*m",
     )

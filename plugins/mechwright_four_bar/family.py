@@ -1,6 +1,6 @@
 """The family ``four-bar``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, refuse
@@ -8,7 +8,7 @@ from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class FourBars(Family[FourBarParams]):
@@ -33,18 +33,24 @@ class FourBars(Family[FourBarParams]):
         return motion_of(params, samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
-        """Ground, crank, coupler and follower as plates, their pins and bushings.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Ground, crank, coupler and follower as plates, their pins and bushings."""
         from mechwright_four_bar.checks import findings
         from mechwright_four_bar.plates import parts_of
 
         refuse(findings(params))
         return parts_of(params)
+
+    def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Error of the follower and of the coupler point, from bores and pins."""
+        from mechwright_four_bar.as_made import as_made
+
+        return as_made(params, made)
+
+    def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the follower's angle and of the coupler point, from links and pins."""
+        from mechwright_four_bar.tolerances import FourBarTolerances
+
+        return FourBarTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -8,8 +8,7 @@ tan(φ/2) = t any residue, sin φ and cos φ are residues, and so is W for every
 formulas of the plane, with i as a symbol. F is the polynomial of least degree D in ρ and X, counting both
 alike, that vanishes at more such points than it has coefficients: one null vector of a matrix over the field.
 The null vectors of many primes are put together by the Chinese remainder theorem, and their fractions follow
-by rational reconstruction. What comes out is then put to the test at positions over the rational numbers, in
-exact arithmetic.
+by rational reconstruction, and hold when the null vector of one more prime is theirs.
 
 Nothing here depends on the dimensions: degree and circular points of the special cases (equal links, kites,
 links that line up) come out by themselves.
@@ -17,18 +16,17 @@ links that line up) come out by themselves.
 
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import lru_cache
 from math import isqrt, lcm
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from flint import fmpq, nmod_mat
+from flint import fmpz, nmod_mat
 from numpy.typing import NDArray
 
-from mechwright import GeometryError
+from mechwright import GeometryError, kept
 from mechwright.mechanics.algebra import PlaneCurve
-from mechwright_four_bar.exact_poles import Plane, Quadratic, exact_poles
 
+Plane = Literal["fixed", "coupler"]
 Residues = NDArray[np.int64]
 
 HIGHEST = 15
@@ -43,11 +41,8 @@ FIRST_PRIME = 2**31 - 1
 MOST_PRIMES = 1000
 """Primes after which the search ends: coefficients of 15,000 bits, from lengths of some 25 digits."""
 
-PROOFS = 6
-"""Positions over the rational numbers at which the result is tested, different from all that made it."""
 
-
-@lru_cache(16)
+@kept
 def locus(
     crank: Fraction, coupler: Fraction, follower: Fraction, ground: Fraction, plane: Plane
 ) -> PlaneCurve:
@@ -94,6 +89,7 @@ def _reconstructed(lengths: tuple[int, ...], plane: Plane) -> dict[tuple[int, in
     modulus, found, wanted = 1, [], 4
     count = 0
     keys: list[tuple[int, int]] = []
+    fractions: list[Fraction | None] = [None]
     for prime in _primes():
         if any(length % prime == 0 for length in lengths):
             continue
@@ -104,6 +100,11 @@ def _reconstructed(lengths: tuple[int, ...], plane: Plane) -> dict[tuple[int, in
         vector = _null_vector(lengths, plane, prime, degree)
         if vector is None:
             continue
+        if all(
+            value is not None and (value.numerator - residue * value.denominator) % prime == 0
+            for value, residue in zip(fractions, vector, strict=False)
+        ):
+            return {key: value for key, value in zip(keys, fractions, strict=True) if value}
         inverse = pow(modulus, -1, prime)
         found = [
             old + modulus * ((new - old) * inverse % prime) for old, new in zip(found, vector, strict=True)
@@ -112,15 +113,10 @@ def _reconstructed(lengths: tuple[int, ...], plane: Plane) -> dict[tuple[int, in
         count += 1
         if count > MOST_PRIMES:
             break
-        if count < wanted:
-            continue
-        wanted = count + max(2, count // 4)
-        fractions = [_fraction(value, modulus) for value in found]
-        if any(value is None for value in fractions):
-            continue
-        terms = {key: value for key, value in zip(keys, fractions, strict=True) if value}
-        if _holds(terms, lengths, plane):
-            return terms
+        fractions = [None]
+        if count >= wanted:
+            wanted = count + max(2, count // 4)
+            fractions = [_fraction(value, modulus) for value in found]
     raise GeometryError(
         "the locus is no single curve, or its lengths have too many digits; round them to fewer"
     )
@@ -130,27 +126,9 @@ def _primes() -> Iterator[int]:
     """Primes p = 3 (mod 4), downwards: there -1 is no square, so that i is a symbol of its own."""
     candidate = FIRST_PRIME
     while True:
-        if candidate % 4 == 3 and all(candidate % d for d in range(3, 50, 2)) and _is_prime(candidate):
+        if candidate % 4 == 3 and fmpz(candidate).is_prime():
             yield candidate
         candidate -= 2
-
-
-def _is_prime(number: int) -> bool:
-    """Miller and Rabin's test; these bases decide below 3.4e14."""
-    odd, twos = number - 1, 0
-    while odd % 2 == 0:
-        odd, twos = odd // 2, twos + 1
-    for base in (2, 3, 5, 7, 11, 13, 17):
-        value = pow(base, odd, number)
-        if value in (1, number - 1):
-            continue
-        for _ in range(twos - 1):
-            value = value * value % number
-            if value == number - 1:
-                break
-        else:
-            return False
-    return True
 
 
 def _monomials(degree: int) -> list[tuple[int, int]]:
@@ -284,25 +262,3 @@ def _fraction(value: int, modulus: int) -> Fraction | None:
     if now[1] == 0 or abs(now[1]) > bound:
         return None
     return Fraction(now[0], now[1])
-
-
-def _holds(terms: dict[tuple[int, int], Fraction], lengths: tuple[int, ...], plane: Plane) -> bool:
-    """Whether the polynomial is exactly 0 at positions with rational tan(φ/2)."""
-    highest = max(max(key) for key in terms)
-    for number in range(PROOFS):
-        t = fmpq(2 * number + 1, 7 + number)
-        for rho, along in exact_poles(lengths, plane, t):
-            one = Quadratic(fmpq(1), fmpq(0), rho.n)
-            powers = [[one], [one]]
-            for _ in range(highest):
-                powers[0].append(powers[0][-1] * rho)
-                powers[1].append(powers[1][-1] * along)
-            u, v = fmpq(0), fmpq(0)
-            for (i, j), value in terms.items():
-                coefficient = fmpq(value.numerator, value.denominator)
-                product = powers[0][i] * powers[1][j]
-                u += coefficient * product.u
-                v += coefficient * product.v
-            if u != 0 or v != 0:
-                return False
-    return True

@@ -83,14 +83,9 @@ def close(bar: FourBar, phi: ArrayLike) -> Loop:
     phi = np.asarray(phi, dtype=float)
     a, c, b = bar.crank, bar.coupler, bar.follower
     crank = np.exp(1j * phi)
-    d = bar.ground * np.exp(1j * np.asarray(bar.ground_angle)) - a * crank
-    distance = np.abs(d)
+    d = np.asarray(bar.ground * np.exp(1j * np.asarray(bar.ground_angle)) - a * crank, dtype=np.complex128)
     with np.errstate(invalid="ignore", divide="ignore"):
-        k = (c - b) * (c + b) + distance**2
-        w = np.sqrt((c + distance + b) * (c + distance - b) * (b + c - distance) * (b - c + distance))
-        s = d * (k + 1j * bar.branch * w) / (2 * c * distance**2)
-        p = (c * s - d) / b
-        p /= np.abs(p)  # what is left of the rounding where b is far smaller than c
+        s, p = directions(d, c, b, bar.branch)
         sine = (s * np.conj(p)).imag
         coupler, follower = -1 / (c * sine), -1 / (b * sine)
         r = -1j * a * crank
@@ -101,3 +96,19 @@ def close(bar: FourBar, phi: ArrayLike) -> Loop:
         w3, v3 = coupler * (r * np.conj(p)).real, follower * (r * np.conj(s)).real
     joint_a = np.asarray(a * crank, dtype=np.complex128)
     return Loop(phi, joint_a, joint_a + c * s, Rates(s, w1, w2, w3), Rates(p, v1, v2, v3))
+
+
+def directions(d: Plane, coupler: ArrayLike, follower: ArrayLike, branch: int) -> tuple[Plane, Plane]:
+    """Directions exp(i angle) (...) of coupler and follower over the vector d (...) from A to B0.
+
+    NaN where the two do not reach.
+    """
+    c, b = np.asarray(coupler), np.asarray(follower)
+    distance = np.abs(d)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        k = (c - b) * (c + b) + distance**2
+        w = np.sqrt((c + distance + b) * (c + distance - b) * (b + c - distance) * (b - c + distance))
+        s = d * (k + 1j * branch * w) / (2 * c * distance**2)
+        p = (c * s - d) / b
+        p /= np.abs(p)  # what is left of the rounding where b is far smaller than c
+    return s, p

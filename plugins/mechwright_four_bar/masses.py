@@ -1,12 +1,10 @@
 """Masses of the links from their real parts, forces in the joints, and the balance of the shaking force."""
 
 import cmath
-from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array
+from mechwright import Array, kept
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
@@ -37,7 +35,7 @@ MICRO = 1e-6
 """Moments are computed in mN mm."""
 
 
-@lru_cache(16)
+@kept
 def masses_of(params: FourBarParams) -> dict[str, Mass]:
     """Mass of crank, coupler and follower with what is pressed into them, in their own frames."""
     outlines, layers = outlines_of(params), stack_of(params)
@@ -104,29 +102,17 @@ def joint_forces(
     return forces(links, joints, "crank", [load])
 
 
-@dataclass(frozen=True, slots=True)
-class Balance:
-    """Counterweights that make the shaking force vanish at any speed.
+def force_balance(bar: FourBar, masses: dict[str, Mass]) -> dict[str, complex]:
+    """Counterweights on crank and follower for full force balance at any speed (Berkof and Lowen 1969).
 
-    Parameters
-    ----------
-    crank, follower
-        What is to be added to each: mass times place in its own frame, kg mm, x + i y.
-    """
-
-    crank: complex
-    follower: complex
-
-
-def force_balance(bar: FourBar, masses: dict[str, Mass]) -> Balance:
-    """Full force balance by counterweights on crank and follower (Berkof and Lowen 1969).
+    What is to be added to each is mass times place in its own frame, kg mm, x + i y.
 
     The common centre of mass rests where m2 r2 = -m3 a (1 - r3/c) and m4 r4 = -m3 r3 b/c, with r3 the centre
     of the coupler from A, along A-B and across.
     """
     crank, coupler, follower = masses["crank"], masses["coupler"], masses["follower"]
     share = coupler.centre / bar.coupler
-    return Balance(
-        -coupler.mass * bar.crank * (1 - share) - crank.mass * crank.centre,
-        -coupler.mass * bar.follower * share - follower.mass * follower.centre,
-    )
+    return {
+        "crank": -coupler.mass * bar.crank * (1 - share) - crank.mass * crank.centre,
+        "follower": -coupler.mass * bar.follower * share - follower.mass * follower.centre,
+    }

@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, DesignError, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
-from mechwright.mechanics.linkage import Mass
+from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
-from mechwright_four_bar.masses import MICRO, MILLI, Balance, force_balance, joint_forces, masses_of
+from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of, rate_peaks, speed_of, turn
-from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, pivot_of
+from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, held_by, pivot_of
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
@@ -26,13 +26,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         ``check`` finds an error of the motion; the message is that of the first one.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
@@ -64,11 +60,11 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
         channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
         figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
-        figures |= _mass_figures(bar, masses)
+        figures |= moving_figures(masses, force_balance(bar, masses))
     else:
         figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, frames_of(params, bodies), figures, traces)
+    return Motion("phi", channels, frames_of(params, bodies), figures, traces, held_by(params))
 
 
 def _figures(bar: FourBar) -> dict[str, Scalar]:
@@ -86,16 +82,3 @@ def _figures(bar: FourBar) -> dict[str, Scalar]:
             "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
         }
     return figures
-
-
-def _mass_figures(bar: FourBar, masses: dict[str, Mass]) -> dict[str, Scalar]:
-    figures = {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses.items()}
-    return figures | _balance_figures(force_balance(bar, masses))
-
-
-def _balance_figures(balance: Balance) -> dict[str, Scalar]:
-    return {
-        f"balance_{name}_{axis}": Scalar(value, "kg*mm")
-        for name, moment in (("crank", balance.crank), ("follower", balance.follower))
-        for axis, value in (("x", moment.real), ("y", moment.imag))
-    }

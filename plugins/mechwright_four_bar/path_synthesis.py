@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright.mechanics.multistart import distinct
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION
@@ -93,9 +93,8 @@ def _found(one: PathSolution) -> Found:
 
 
 def _missed(wanted: PathRequirement, residual: float) -> Finding:
-    return Finding(
+    return Finding.warning(
         "path.missed",
-        Severity.WARNING,
         "coupler_point_x",
         f"no linkage meets the points within {wanted.tolerance:g} mm in the mean: the best one found misses "
         f"them by {residual:.4g} mm",
@@ -108,26 +107,23 @@ def _missed(wanted: PathRequirement, residual: float) -> Finding:
 
 def _refusal(wanted: PathRequirement, found: list[PathSolution], good: bool, reason: str) -> Finding:
     if good:
-        return Finding(
+        return Finding.error(
             "path.unbuildable",
-            Severity.ERROR,
             "crank",
             f"no linkage through the points can be built: {reason}",
             remedy="scale the points, or change shortest_link and longest_link",
         )
     if not found:
-        return Finding(
+        return Finding.error(
             "path.none",
-            Severity.ERROR,
             "crank",
             "no linkage passes near the points in their order within one turn",
             remedy="use more starts, leave crank_turns out, or leave points out",
         )
     best = found[0]
     angle = math.degrees(best.bar.least_transmission_angle())
-    return Finding(
+    return Finding.error(
         "path.limits",
-        Severity.ERROR,
         "crank",
         "no linkage through the points keeps the limits: the nearest one misses the points by "
         f"{mean_distance(best):.3g} mm, its links are {min(best.bar.lengths):.4g} to {best.longest:.4g} mm "

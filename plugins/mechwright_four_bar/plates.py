@@ -7,11 +7,13 @@ ground plate. Shaft, coupler (twice) and follower turn in plain bushings, or in 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Colour, Instance, Outline, Part, Poses
+from mechwright import GROUND, Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright import Joint as Held
+from mechwright.contracts.joint import fixed
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import (
     Boss,
     Plate,
@@ -45,8 +47,6 @@ SHAFT = 3.0
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
-_CACHED = 16
-"""Designs whose geometry is kept: check, motion and parts ask for the same one."""
 
 COLOURS: Mapping[str, Colour] = {
     "ground": (0.62, 0.64, 0.66),
@@ -129,7 +129,7 @@ def bosses_of(params: FourBarParams) -> dict[str, tuple[Boss, ...]]:
     }
 
 
-@lru_cache(_CACHED)
+@kept
 def outlines_of(params: FourBarParams) -> dict[str, Outline]:
     """The outline of every plate, in its body's frame: origin in its first joint, x to its second.
 
@@ -192,12 +192,28 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
     return poses
 
 
+def held_by(params: FourBarParams) -> dict[str, Held]:
+    """What holds the bodies of :func:`frames_of`, the loop closed in B."""
+    held = fixed(GROUND, "ground")
+    for one in joints_of(params).values():
+        if one.place:
+            held |= fixed(one.body, one.frame)
+    return {
+        **held,
+        **fixed("coupler", "coupler-b"),
+        "A0": Held("revolute", "ground", "crank", drives=True),
+        "B0": Held("revolute", "ground", "follower", (params.ground, 0.0, 0.0)),
+        "A": Held("revolute", "crank", "coupler", (params.crank, 0.0, 0.0)),
+        "B": Held("revolute", "coupler", "follower", (params.coupler, 0.0, 0.0)),
+    }
+
+
 def crank_angles(params: FourBarParams, samples: int) -> Array:
     """Crank angles (samples,), rad, from X, over one turn in its sense."""
-    return np.linspace(0.0, math.tau if params.direction == "ccw" else -math.tau, samples)
+    return travelled(math.tau if params.direction == "ccw" else -math.tau, samples)
 
 
-@lru_cache(_CACHED)
+@kept
 def stack_of(params: FourBarParams) -> Stack:
     """The layers of plates and the heights of pins.
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Finding, Progress, Scalar, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams
@@ -62,10 +62,8 @@ def _found(one: PoleSolution) -> Found:
 def _notes(problem: PoleProblem, turning: list[PoleSolution], given: int) -> list[Finding]:
     infinite = " of infinitely many" if problem.freedom > 0 else ""
     return [
-        Finding(
+        Finding.note(
             "poles.found",
-            Severity.NOTE,
-            "",
             f"{len(turning)} linkages{infinite} with a full turn were found, {given} of them are given",
             float(len(turning)),
         )
@@ -81,18 +79,16 @@ def _refusal(
     progress: Progress,
 ) -> Finding:
     if good:
-        return Finding(
+        return Finding.error(
             "poles.unbuildable",
-            Severity.ERROR,
             "crank",
             f"{len(turning)} linkages have their poles there, but none can be built: {reason}",
             remedy="scale the places: lengths scale with them",
         )
     if turning:
         best = max(math.degrees(one.bar.least_transmission_angle()) for one in turning)
-        return Finding(
+        return Finding.error(
             "poles.transmission",
-            Severity.ERROR,
             "crank",
             f"the best linkage with its poles there has a transmission angle of {best:.3g} degrees",
             best,
@@ -107,9 +103,8 @@ def _refusal(
         lambda part: progress(0.5 + 0.5 * part, "linkages without a full turn"),
     )
     without = f"; {len(other.solutions)} others have, but their cranks cannot turn" if other.solutions else ""
-    return Finding(
+    return Finding.error(
         "poles.none",
-        Severity.ERROR,
         "crank",
         f"no linkage with a full turn was found whose poles lie there{without}: the nearest one misses them "
         f"by {nearest:.3g} mm in the mean",

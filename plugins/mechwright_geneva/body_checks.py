@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, GeometryError, Severity
+from mechwright import Finding, GeometryError
 from mechwright.contracts.finding import errors
 from mechwright_geneva.counterbore import counterbore_findings
 from mechwright_geneva.crank import boss_radius
@@ -29,18 +29,16 @@ def body_findings(m: Mechanism) -> Iterator[Finding]:
 
 
 def _construction(m: Mechanism) -> Iterator[Finding]:
-    if not m.straight and m.construction == "through":
-        yield Finding(
+    if not m.straight and m.params.slots_made == "through":
+        yield Finding.error(
             "geneva.islands-loose",
-            Severity.ERROR,
             "construction",
             f"slots that are cut through set their islands free: {m.slots} pieces fall out of the wheel",
             remedy='use construction = "blind" for grooves with a floor, or "backed" for islands on a plate',
         )
-    if m.straight and m.construction == "backed":
-        yield Finding(
+    if m.straight and m.params.slots_made == "backed":
+        yield Finding.error(
             "geneva.islands-loose",
-            Severity.ERROR,
             "construction",
             "straight slots have no islands that a backing plate could carry",
             remedy='use construction = "through" or "blind"',
@@ -53,9 +51,8 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
     most = m.greatest_lock
     horn = m.nearest - m.groove - m.arc
     if most < least:
-        yield Finding(
+        yield Finding.error(
             "geneva.lock",
-            Severity.ERROR,
             "lock_radius" if params.lock_radius else "least_wall",
             f"a locking disc needs {least:.3f} mm to reach {LEAST_BITE:g} mm into the wheel, and at most "
             f"{most:.3f} mm leave horns of {params.least_wall:g} mm beside the slots",
@@ -66,9 +63,8 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
         )
         return
     if horn < params.least_wall - 1e-9:
-        yield Finding(
+        yield Finding.error(
             "geneva.horn",
-            Severity.ERROR,
             "lock_radius",
             f"the horns between concave arcs and slots are {horn:.3f} mm thick",
             horn,
@@ -78,9 +74,8 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
         )
         return
     if m.lock < least:
-        yield Finding(
+        yield Finding.error(
             "geneva.lock",
-            Severity.ERROR,
             "lock_radius",
             f"a locking disc of {m.lock:g} mm reaches {m.lock - m.axes + m.rim:.3f} mm into the wheel",
             m.lock,
@@ -91,9 +86,8 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
         return
     bites = m.wheel_half - Wheel(m).horn_angle
     if bites * m.rim < params.least_wall / 2:
-        yield Finding(
+        yield Finding.error(
             "geneva.horn",
-            Severity.ERROR,
             "lock_radius",
             "neighbouring concave arcs leave no rim between them",
             2 * bites * m.rim,
@@ -105,9 +99,8 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
     try:
         lock_loop(m)
     except GeometryError as error:
-        yield Finding(
+        yield Finding.error(
             "geneva.lock",
-            Severity.ERROR,
             "lock_radius",
             f"no locking disc: {error}",
             m.lock,
@@ -121,9 +114,8 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     room = m.axes - m.arc - hub_radius(params)
     if room < params.least_wall:
-        yield Finding(
+        yield Finding.error(
             "geneva.hub",
-            Severity.ERROR,
             "bore" if params.hub_diameter / 2 <= reach(wheel_opening(params)) else "hub_diameter",
             f"{room:.3f} mm stay between hub or bore and the concave arcs",
             room,
@@ -135,9 +127,8 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
         inside = params.hub_diameter / 2 - reach(wheel_opening(params))
         wanted = 2 * params.least_wall + params.fixing if params.fixing else params.least_wall
         if inside < wanted:
-            yield Finding(
+            yield Finding.error(
                 "geneva.hub",
-                Severity.ERROR,
                 "hub_diameter",
                 f"the hub plate is a ring of {inside:.3f} mm; its dowels and walls need {wanted:.3f} mm",
                 inside,
@@ -146,7 +137,7 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
                 "make hub_diameter at least "
                 f"{math.ceil((params.hub_diameter + 2 * (wanted - inside)) * 10) / 10:g}, or 0 for none",
             )
-    if m.construction == "backed" and params.fixing > 0:
+    if m.params.slots_made == "backed" and params.fixing > 0:
         yield from _dowels(m)
 
 
@@ -154,9 +145,8 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
     fixing, least = m.params.fixing, m.params.least_wall
     if len(island_places(m, fixing)) < 2:
         most = greatest_island_dowel(m)
-        yield Finding(
+        yield Finding.error(
             "geneva.fixing",
-            Severity.ERROR,
             "fixing",
             f"an island has no room for two dowels of {fixing:g} mm",
             fixing,
@@ -168,9 +158,8 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
         )
     _, room = web_place(m)
     if room < fixing / 2 + least:
-        yield Finding(
+        yield Finding.error(
             "geneva.fixing",
-            Severity.ERROR,
             "fixing",
             f"the webs between slots have no room for dowels of {fixing:g} mm",
             fixing,
@@ -183,9 +172,8 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
 def _pin(m: Mechanism) -> Iterator[Finding]:
     most = 2 * m.roller * (1 - ROLLER_WALL)
     if m.params.pin_diameter > most:
-        yield Finding(
+        yield Finding.error(
             "geneva.pin",
-            Severity.ERROR,
             "pin_diameter",
             f"a pin of {m.params.pin_diameter:g} mm leaves nothing of a roller of {2 * m.roller:g} mm",
             m.params.pin_diameter,
@@ -212,9 +200,8 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
             cures.insert(
                 0, f"make fixing at most {math.floor(dowel * 10) / 10:g}" if dowel >= 1 else "set fixing to 0"
             )
-        yield Finding(
+        yield Finding.error(
             "geneva.driver",
-            Severity.ERROR,
             blame,
             f"the relief leaves {max(0.0, outer):.3f} mm of the locking disc about the crank's axis: with an "
             f"opening that reaches {inner:.3f} mm, {outer - inner:.3f} mm stay for walls and dowels",
@@ -225,13 +212,10 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
         )
     overhang = m.crank + boss_radius(m) - (m.axes - reach(wheel_opening(params)))
     if overhang > 0:
-        yield Finding(
+        yield Finding.note(
             "geneva.shaft",
-            Severity.NOTE,
-            "",
             f"the crank passes {overhang:.2f} mm over the wheel's bore: its shaft ends below "
             f"{params.thickness + params.axial_gap:g} mm",
             overhang,
-            None,
             "mm",
         )

@@ -6,26 +6,23 @@ list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, Severity, Stage, of_stage, until_error
+from mechwright import Finding, Stage, kept, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
+from mechwright_geneva.clearance_checks import clearance_findings
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.load_checks import load_findings
-from mechwright_geneva.locking import cover, free_play
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES, slot_findings
-
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
+from mechwright_geneva.wheel import Wheel
 
 
-@lru_cache(_CACHED)
+@kept
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    return until_error(params, feasibility, _mechanism_findings)
+    return until_error(params, feasibility, _mechanism_findings, clearance_findings)
 
 
 @of_stage(Stage.PARTS)
@@ -34,50 +31,39 @@ def _mechanism_findings(params: GenevaParams) -> tuple[Finding, ...]:
 
 
 def _figures(m: Mechanism) -> Iterator[Finding]:
-    yield Finding(
+    yield Finding.note(
         "geneva.size",
-        Severity.NOTE,
-        "",
         f"centre distance {m.axes:.4f} mm, crank radius {m.crank:.4f} mm, slot bottom {m.bottom:.4f} "
         f"mm from the wheel's axis, locking disc {m.lock:.3f} mm",
         m.axes,
-        None,
         "mm",
     )
     peaks = peaks_of(m)
-    yield Finding(
+    yield Finding.note(
         "geneva.motion",
-        Severity.NOTE,
-        "",
         f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the "
         f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
         peaks.a,
-        None,
-        "",
     )
-    play = math.degrees(free_play(m))
-    yield Finding(
+    wheel = Wheel(m)
+    play = math.degrees(wheel.free_play)
+    yield Finding.note(
         "geneva.play",
-        Severity.NOTE,
-        "",
         f"in the middle of the dwell the locked wheel can turn by {play:.4f} degrees either way; within "
-        f"{math.degrees(cover(m)):.1f} degrees of its ends the disc covers one horn only, and it is more",
+        f"{math.degrees(wheel.arc_half):.1f} degrees of its ends the disc covers one horn only, and it is "
+        "more",
         play,
-        None,
         "deg",
     )
     if m.straight:
         return
     found = m.measures
     limit = float(found.island_limit[0])
-    yield Finding(
+    yield Finding.note(
         "geneva.slot",
-        Severity.NOTE,
-        "",
         f"regime {REGIMES[m.side]}: critical roller radius {limit:.4f} mm, tip of the island "
         f"{limit - m.groove:.3f} mm, neck {2 * float(found.neck[0]):.3f} mm, web "
         f"{float(found.web[0]):.3f} mm; cutters up to {2 * m.groove:.3f} mm cut the groove",
         limit,
-        None,
         "mm",
     )

@@ -13,12 +13,11 @@ does. In the blocked zone about it the wheel's own kinetic energy has to carry t
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, material
+from mechwright import Array, kept, material
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
 
@@ -105,7 +104,7 @@ def contact(mechanism: Mechanism, run: Stroke) -> Contact:
         params.load_inertia,
         params.load_torque,
         m.roller,
-        max(m.roller_length, _SHORTEST),
+        max(m.params.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
     )
     return _straight(run, drive) if m.straight else curved(run, drive)
@@ -191,7 +190,7 @@ class Loads:
     carried: float
 
 
-@lru_cache(64)
+@kept
 def loads(mechanism: Mechanism) -> Loads:
     """The peaks of the contact over one stroke."""
     u = np.linspace(0, 1, _SAMPLES)

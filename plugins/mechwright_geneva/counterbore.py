@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Loop, Pocket, Severity, circle
+from mechwright import Finding, Loop, Pocket, circle
 from mechwright_geneva.fixings import hub_dowels, web_place
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.openings import reach, wheel_opening
@@ -28,7 +28,7 @@ def _greatest(m: Mechanism) -> float:
     params = m.params
     nearest = [m.bottom - m.groove, m.axes - m.arc]
     nearest += [math.hypot(*place) - params.fixing / 2 for place in hub_dowels(m)]
-    if m.construction == "backed" and params.fixing > 0:
+    if m.params.slots_made == "backed" and params.fixing > 0:
         nearest.append(math.hypot(*web_place(m)[0]) - params.fixing / 2)
     return min(nearest) - params.least_wall
 
@@ -38,10 +38,10 @@ def counterbore_findings(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     if params.counterbore_diameter == 0:
         return
-    plate = m.groove_depth if m.construction == "backed" else params.thickness
+    plate = m.params.groove_depth if m.params.slots_made == "backed" else params.thickness
     depth, radius = params.counterbore_depth, params.counterbore_radius
     below = params.counterbore_side == "underside"
-    if below and (params.hub_diameter > 0 or m.construction == "backed"):
+    if below and (params.hub_diameter > 0 or m.params.slots_made == "backed"):
         cover = "hub plate" if params.hub_diameter > 0 else "backing plate"
         yield _error("counterbore_side", f"the {cover} covers the wheel's underside", remedy="use the top")
     if below and radius > 0:
@@ -70,4 +70,4 @@ def _error(
     key: str, said: str, value: float | None = None, limit: float | None = None, remedy: str = ""
 ) -> Finding:
     unit = "" if value is None else "mm"
-    return Finding("geneva.counterbore", Severity.ERROR, key, said, value, limit, unit, remedy)
+    return Finding.error("geneva.counterbore", key, said, value, limit, unit, remedy)

@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Family, Finding, Parameters, refuse
+from mechwright import Family, Finding, Parameters, Stage, refuse
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class Geneva(Family[GenevaParams]):
@@ -33,18 +33,24 @@ class Geneva(Family[GenevaParams]):
         return motion_of(params, samples)
 
     def parts(self, params: GenevaParams) -> "Sequence[Part]":
-        """Wheel, driver and rollers.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Wheel, driver and rollers."""
         from mechwright_geneva.checks import findings
         from mechwright_geneva.parts import parts_of
 
-        refuse(findings(params))
+        refuse(findings(params), Stage.PARTS)
         return parts_of(params)
+
+    def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Roller in its slot, error of the wheel in motion, and the lock."""
+        from mechwright_geneva.as_made import as_made
+
+        return as_made(params, made)
+
+    def tolerances(self, params: GenevaParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the wheel's angle, and its plays in the slot and in the lock."""
+        from mechwright_geneva.tolerances import GenevaTolerances
+
+        return GenevaTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
-from mechwright import Finding, Severity, Stage, of_stage
+from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
-from mechwright_geneva.mechanism import construction_of, frame_of, roller_length_of
+from mechwright_geneva.mechanism import frame_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.sound import LEAST_LOCKED
 
@@ -22,7 +21,7 @@ FLATTEST = 1.0
 the crank has no length."""
 
 
-@lru_cache(64)
+@kept
 def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
     """Errors that leave nothing to compute."""
     found = list(_law(params))
@@ -39,24 +38,21 @@ def _law(params: GenevaParams) -> Iterator[Finding]:
     elif params.law == "table":
         faults = table_faults(params.table or ())
     for fault in faults:
-        yield Finding(
+        yield Finding.error(
             "geneva.law",
-            Severity.ERROR,
             params.law,
             fault.message,
             fault.value,
             fault.limit,
-            "",
-            fault.remedy,
+            remedy=fault.remedy,
         )
 
 
 def _straight(params: GenevaParams) -> Iterator[Finding]:
     wanted = 90 - 180 / params.slots
     if params.crank_half_angle is not None and abs(params.crank_half_angle - wanted) > ANGLE_SLACK:
-        yield Finding(
+        yield Finding.error(
             "geneva.straight",
-            Severity.ERROR,
             "crank_half_angle",
             f"a straight slot turns the crank by {wanted:g} degrees on either side",
             params.crank_half_angle,
@@ -65,9 +61,8 @@ def _straight(params: GenevaParams) -> Iterator[Finding]:
             f"use crank_half_angle = {wanted:g}, leave it out, or choose another law",
         )
     if params.offset_angle is not None and params.offset_angle != 0:
-        yield Finding(
+        yield Finding.error(
             "geneva.straight",
-            Severity.ERROR,
             "offset_angle",
             "a straight slot has one mouth",
             params.offset_angle,
@@ -89,9 +84,8 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
         if most >= 5:
             cures.append(f"make crank_half_angle at most {math.floor(most * 100) / 100:g}")
         cures.append(f"make offset_angle at most {math.floor(offset * 100) / 100:g}")
-        yield Finding(
+        yield Finding.error(
             "geneva.angles",
-            Severity.ERROR,
             "crank_half_angle",
             f"180/n + offset_angle + crank_half_angle/2 is {reach:.4g} degrees: the slot's bottom would be "
             + ("on" if reach < 90 else "beyond")
@@ -102,9 +96,8 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
             ", or ".join(cures),
         )
     elif entry < FLATTEST:
-        yield Finding(
+        yield Finding.error(
             "geneva.angles",
-            Severity.ERROR,
             "offset_angle",
             f"180/n + offset_angle is {entry:.4g} degrees: nothing is left of the crank",
             entry,
@@ -123,9 +116,8 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
         return
     most = max(1, math.floor(360 / (2 * half + least)))
     cure = f"make crank_half_angle at most {math.floor((turn - least) * 50) / 100:g}"
-    yield Finding(
+    yield Finding.error(
         "geneva.rollers",
-        Severity.ERROR,
         "rollers",
         f"{params.rollers} rollers, {turn:g} degrees apart, leave {locked:.4g} degrees of the crank's "
         f"turn to lock the wheel between strokes of {2 * half:g} degrees",
@@ -139,13 +131,11 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
 
 @of_stage(Stage.PARTS)
 def _floor(params: GenevaParams) -> Iterator[Finding]:
-    construction = construction_of(params)
-    length = roller_length_of(params)
-    if construction != "through" and length < LEAST_FLOOR:
+    length = params.roller_length
+    if params.slots_made != "through" and length < LEAST_FLOOR:
         most = params.thickness - params.axial_gap - LEAST_FLOOR
-        yield Finding(
+        yield Finding.error(
             "geneva.floor",
-            Severity.ERROR,
             "floor",
             f"a floor of {params.floor:g} mm and a gap of {params.axial_gap:g} mm leave "
             f"{length:.3g} mm of the wheel's {params.thickness:g} mm for the rollers",

@@ -30,7 +30,7 @@ axis of symmetry then lies at -θw0. With W = θw0 + θoff:
 Every array has the design axis first and the sample axis last.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,6 +61,11 @@ class Frame:
         """Scalars stay scalars, arrays (m,) become columns (m, 1)."""
         values = (np.asarray(v, dtype=float) for v in (wheel_half, crank_half, offset, entry_radius))
         return cls(*(v[:, None] if v.ndim else v for v in values))
+
+    def rows(self, chosen: slice | NDArray[np.bool_]) -> "Frame":
+        """Some of many designs."""
+        values = (getattr(self, field.name) for field in fields(self))
+        return Frame(*(value[chosen] if value.ndim else value for value in values))
 
     @property
     def entry_angle(self) -> Array:

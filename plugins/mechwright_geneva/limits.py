@@ -24,7 +24,7 @@ import numpy as np
 
 from mechwright import Array
 from mechwright.mechanics.laws import Law
-from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, Points, Stroke, regime, stroke
+from mechwright_geneva.kinematics import Frame, Points, Stroke, regime, stroke
 
 SWEEP_SAMPLES = 65
 """Samples of half a stroke in a sweep; with the parabola through the largest three, critical radii come out
@@ -46,10 +46,6 @@ class Measures:
 
     Parameters
     ----------
-    reach
-        θw0 + θoff + θd0/2, rad: from π/2 on the crank reaches past the wheel's axis.
-    bottom
-        Distance a - b of the slot's bottom from the wheel's axis, on the roller's centre.
     side
         -1 in regime A, +1 in B, see :func:`mechwright_geneva.kinematics.regime`.
     mouth
@@ -67,8 +63,6 @@ class Measures:
         Least distance of the roller's way from the crank's axis, wheel at rest.
     """
 
-    reach: Array
-    bottom: Array
     side: Array
     mouth: Array
     island_limit: Array
@@ -98,8 +92,7 @@ def measure(frame: Frame, law: Law, radius: Array, samples: int = SWEEP_SAMPLES)
     blocks = []
     for start in range(0, count, _BLOCK):
         rows = slice(start, start + _BLOCK)
-        part = Frame(*(_rows(getattr(frame, f.name), rows) for f in fields(Frame)))
-        blocks.append(_measure(part, law, _rows(radius, rows), u))
+        blocks.append(_measure(frame.rows(rows), law, radius[rows], u))
     return Measures(*(np.concatenate([getattr(b, f.name) for b in blocks]) for f in fields(Measures)))
 
 
@@ -107,10 +100,6 @@ def samples_of(law: Law, samples: int) -> Array:
     """Shares u, dense about mid stroke, where curvatures change fastest; half a stroke of a symmetric law."""
     half = np.sin(np.linspace(0, np.pi / 2, samples)) / 2
     return half if law.symmetric else np.concatenate((half, 1 - half[-2::-1]))
-
-
-def _rows(values: Array, rows: slice) -> Array:
-    return values[rows] if values.ndim else values
 
 
 def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
@@ -127,23 +116,8 @@ def _measure(frame: Frame, law: Law, radius: Array, u: Array) -> Measures:
     nearest = -np.maximum(*(_largest(-np.abs(way - place)) for place in places))
     mouth = -side * frame.entry_radius * np.sin(frame.offset)
     mouth = mouth - radius * np.sin(frame.wheel_half + frame.crank_half)
-    reach = frame.entry_angle + frame.crank_half / 2
-
-    def flat(values: Array) -> Array:
-        return np.broadcast_to(values, side.shape)[:, 0]
-
-    return Measures(
-        flat(reach),
-        flat(frame.bottom),
-        flat(side),
-        flat(mouth),
-        island,
-        hub,
-        neck,
-        width,
-        web - 2 * flat(radius),
-        nearest,
-    )
+    mouth, wide = (np.broadcast_to(values, side.shape)[:, 0] for values in (mouth, 2 * radius))
+    return Measures(side[:, 0], mouth, island, hub, neck, width, web - wide, nearest)
 
 
 def _limit(kappa: Array) -> Array:
@@ -195,6 +169,3 @@ def _compared(run: Stroke, wall: Points, way: Points) -> tuple[Array, Array, Arr
     turn = np.exp(2j * run.frame.wheel_half)
     web = np.abs((way * turn)[:, :, None] - way[:, None, :]).min(axis=(-1, -2))
     return neck, width, web
-
-
-__all__ = ["FINE_SAMPLES", "LEFT", "RIGHT", "SWEEP_SAMPLES", "Measures", "measure", "samples_of"]

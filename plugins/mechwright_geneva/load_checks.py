@@ -21,28 +21,24 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
     own, straight = peaks_of(m), straight_peaks(m.slots)
     if own.a > straight.a:
         half = m.crank_half * math.sqrt(own.a / straight.a)
-        yield Finding(
+        yield Finding.warning(
             "geneva.acceleration",
-            Severity.WARNING,
             "law",
             f"the wheel accelerates more than with {m.slots} straight slots: {own.a:.4g} against "
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
             own.a,
             straight.a,
-            "",
-            f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a law "
-            "with a lower peak, or accept it for the sake of the jerk",
+            remedy=f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a "
+            "law with a lower peak, or accept it for the sake of the jerk",
         )
     if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
-        yield Finding(
+        yield Finding.warning(
             "geneva.jump",
-            Severity.WARNING,
             "law",
             f"{m.law.name} starts or ends with a jump of the acceleration: an impact in every stroke",
             max(abs(jump) for jump in m.law.jumps),
             0.0,
-            "",
-            "choose a law whose acceleration is 0 at both ends",
+            remedy="choose a law whose acceleration is 0 at both ends",
         )
 
 
@@ -80,9 +76,8 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
 def _pressure(m: Mechanism) -> Iterator[Finding]:
     load, limit = loads(m), strength(m.params.material, m.params.roller_material)
     if load.pressure > limit:
-        yield Finding(
+        yield Finding.warning(
             "geneva.pressure",
-            Severity.WARNING,
             "load_inertia",
             f"the Hertz pressure reaches {load.pressure:.0f} MPa at "
             f"{math.degrees(load.pressure_at):.1f} degrees of the crank; {m.params.material} on "
@@ -96,14 +91,11 @@ def _pressure(m: Mechanism) -> Iterator[Finding]:
     steep = (
         "" if m.straight else f"; over {math.degrees(load.steep):.1f} degrees the pressure angle is above 45"
     )
-    yield Finding(
+    yield Finding.note(
         "geneva.contact",
-        Severity.NOTE,
-        "",
         f"greatest contact force {load.force:.4g} N at {math.degrees(load.force_at):.2f} degrees of "
         f"the crank, on {carrier}; Hertz pressure {load.pressure:.4g} MPa, crank torque "
         f"{load.crank_torque:.4g} N·m{steep}",
         load.force,
-        None,
         "N",
     )

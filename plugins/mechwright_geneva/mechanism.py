@@ -2,11 +2,11 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 
+from mechwright import kept
 from mechwright.mechanics.laws import LAWS, Law, Polynomial
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
@@ -17,14 +17,9 @@ OFFSET = 5.0
 """Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
 slots the crank then turns: both are those of the worked reference."""
 
-Construction = Literal["through", "blind", "backed"]
-
 _COARSE, _ZOOMS = 65, 4
 """Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
 parabola about the bend is flat to rounding."""
-
-_CACHED = 64
-"""Mechanisms that are kept: motion, checks and parts ask for the same one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,21 +111,6 @@ class Mechanism:
         return self.crank if self.straight else float(self.measures.nearest[0])
 
     @property
-    def construction(self) -> Construction:
-        """How the slots are made."""
-        return construction_of(self.params)
-
-    @property
-    def groove_depth(self) -> float:
-        """Depth of the slots."""
-        return groove_depth_of(self.params)
-
-    @property
-    def roller_length(self) -> float:
-        """Length of the roller in the slot."""
-        return roller_length_of(self.params)
-
-    @property
     def greatest_lock(self) -> float:
         """Largest locking disc that leaves the least wall between its arcs and the slots."""
         return self.nearest - self.groove - self.params.lock_clearance - self.params.least_wall
@@ -152,7 +132,8 @@ class Mechanism:
 
 def measure_at(mechanism: Mechanism, radius: float, samples: int = FINE_SAMPLES) -> Measures:
     """The figures of a curved slot for a roller of another radius, its critical radii to rounding."""
-    one = Frame(*(np.array([[float(v)]]) for v in _values(mechanism.frame)))
+    frame = mechanism.frame
+    one = Frame.of([frame.wheel_half], [frame.crank_half], [frame.offset], [frame.entry_radius])
     found = measure(one, mechanism.law, np.array([[radius]]), samples)
     side = mechanism.side
     return replace(
@@ -176,33 +157,7 @@ def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
     return 1 / best if best > 0 else math.inf
 
 
-def _values(frame: Frame) -> tuple[float, float, float, float]:
-    return (
-        float(frame.wheel_half),
-        float(frame.crank_half),
-        float(frame.offset),
-        float(frame.entry_radius),
-    )
-
-
-def construction_of(params: GenevaParams) -> Construction:
-    """How the slots are made."""
-    if params.construction != "auto":
-        return params.construction
-    return "through" if params.law == "straight" else "blind"
-
-
-def groove_depth_of(params: GenevaParams) -> float:
-    """Depth of the slots, mm."""
-    return params.thickness - (0.0 if construction_of(params) == "through" else params.floor)
-
-
-def roller_length_of(params: GenevaParams) -> float:
-    """Length of the roller in the slot, mm: over a floor it keeps the axial gap."""
-    return groove_depth_of(params) - (0.0 if construction_of(params) == "through" else params.axial_gap)
-
-
-@lru_cache(_CACHED)
+@kept
 def mechanism_of(params: GenevaParams) -> Mechanism:
     """The mechanism of a design that has no faulty law."""
     return Mechanism(params, law_of(params), frame_of(params))
@@ -221,7 +176,7 @@ def frame_of(params: GenevaParams) -> Frame:
     )
 
 
-@lru_cache(_CACHED)
+@kept
 def law_of(params: GenevaParams) -> Law:
     """The law; a table or polynomial has been found free of faults before."""
     match params.law:

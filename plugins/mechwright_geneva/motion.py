@@ -4,7 +4,9 @@ import math
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Poses, Scalar, Stage, refuse
+from mechwright import GROUND, Array, Channel, Joint, Motion, Poses, Scalar, Stage, refuse
+from mechwright.contracts.joint import fixed
+from mechwright.contracts.motion import travelled
 from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.feasible import feasibility
@@ -46,12 +48,10 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     DesignError
         Fewer than two samples, or a mechanism that cannot move.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     refuse(feasibility(params), Stage.MOTION)
     m = mechanism_of(params)
     omega = params.speed * math.tau / 60
-    theta_d = np.linspace(0, math.tau, samples)
+    theta_d = travelled(math.tau, samples)
     turn = np.floor((theta_d + _END) / m.pitch)
     within = np.clip(theta_d - turn * m.pitch, 0, None)
     moving = within <= 2 * m.crank_half + _END
@@ -73,7 +73,9 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         "jerk_w": Channel(still(run.third) * omega**3, "rad/s^3"),
         "pressure_angle": Channel(still(forces.pressure_angle), "rad"),
         "contact_force": Channel(still(forces.force), "N"),
-        **({"contact_pressure": Channel(still(forces.pressure), "MPa")} if m.roller_length > 0 else {}),
+        **(
+            {"contact_pressure": Channel(still(forces.pressure), "MPa")} if m.params.roller_length > 0 else {}
+        ),
         "crank_torque": Channel(still(forces.crank_torque), "N*m"),
     }
     poses = {
@@ -86,10 +88,28 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         turned = m.axes + (arm - m.axes) * np.exp(1j * k * m.pitch)
         angle = math.pi + m.crank_half - theta_d + k * m.pitch
         poses[roller_body(k)] = Poses.planar(turned.real, turned.imag, angle)
-    if m.construction == "backed":
+    if m.params.slots_made == "backed":
         for k in range(m.slots):
             poses[island_body(k)] = Poses.planar(0.0, 0.0, theta_w + 2 * m.wheel_half * k)
-    return Motion("theta_d", channels, poses, _figures(m, omega))
+    return Motion("theta_d", channels, poses, _figures(m, omega), joints=_joints(m))
+
+
+def _joints(m: Mechanism) -> dict[str, Joint]:
+    """Two shafts; rollers push the walls of the slots, and the driver's disc holds the wheel."""
+    rollers = [roller_body(k) for k in range(m.params.rollers)]
+    islands = [island_body(k) for k in range(m.slots)] if m.params.slots_made == "backed" else []
+    return {
+        "driver-shaft": Joint("revolute", GROUND, DRIVER, (m.axes, 0.0, 0.0), (0.0, 0.0, -1.0), drives=True),
+        "wheel-shaft": Joint("revolute", GROUND, WHEEL),
+        **fixed(DRIVER, *rollers),
+        **fixed(WHEEL, *islands),
+        "lock": Joint("contact", DRIVER, WHEEL),
+        **{
+            f"{roller}-in-{body}": Joint("contact", roller, body, radius=m.roller)
+            for roller in rollers
+            for body in (WHEEL, *islands)
+        },
+    }
 
 
 def roller_body(k: int) -> str:
@@ -123,6 +143,6 @@ def _figures(m: Mechanism, omega: float) -> dict[str, Scalar]:
         "straight_jerk_peak": Scalar(straight.j, ""),
         "entry_acceleration_jump": Scalar(abs(m.law.jumps[0]) * m.wheel_half / (2 * m.crank_half**2), ""),
         "contact_force_max": Scalar(load.force, "N"),
-        **({"contact_pressure_max": Scalar(load.pressure, "MPa")} if m.roller_length > 0 else {}),
+        **({"contact_pressure_max": Scalar(load.pressure, "MPa")} if m.params.roller_length > 0 else {}),
         "crank_torque_max": Scalar(load.crank_torque, "N*m"),
     }

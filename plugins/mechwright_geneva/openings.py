@@ -3,15 +3,9 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Severity
-from mechwright.geometry.keyway import (
-    KEYS,
-    LEAST_WIDTH,
-    SMALLEST_EDGE,
-    Opening,
-    key_for_bore,
-    key_of_width,
-)
+from mechwright import Finding
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
+from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright_geneva.params import GenevaParams
 
 
@@ -56,82 +50,29 @@ def driver_radius(bore: float, least_wall: float, fixing: float) -> float:
 
 def opening_findings(params: GenevaParams) -> Iterator[Finding]:
     """What is wrong with bores and keyways by themselves."""
-    yield from _one(params, "bore", "keyway_width")
-    yield from _one(params, "driver_bore", "driver_keyway_width")
-    if 0 < params.keyway_relief < LEAST_WIDTH:
-        yield _too_small("keyway_relief", params.keyway_relief)
-
-
-def _too_small(name: str, value: float) -> Finding:
-    return Finding(
-        "bore.size",
-        Severity.ERROR,
-        name,
-        f"{value:.3g} mm is too small to be milled",
-        value,
-        LEAST_WIDTH,
-        "mm",
-        f"set {name} to 0 for none, or to {LEAST_WIDTH:g} or more",
-    )
+    for bore, width in (("bore", "keyway_width"), ("driver_bore", "driver_keyway_width")):
+        yield from _one(params, bore, width)
+    yield from too_small({"keyway_relief": params.keyway_relief})
 
 
 def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Finding]:
     bore, width = float(getattr(params, bore_name)), float(getattr(params, width_name))
-    for name, value in ((bore_name, bore), (width_name, width)):
-        if 0 < value < LEAST_WIDTH:
-            yield _too_small(name, value)
-            return
-    if width == 0:
-        return
-    fitting = key_for_bore(bore)
-    advice = f"the standard is {fitting.width:g}" if fitting else "0 for none"
-    if width >= bore:
-        yield Finding(
-            "bore.keyway-width",
-            Severity.ERROR,
-            width_name,
-            f"a keyway {width:g} mm wide swallows the bore of {bore:g} mm",
-            width,
-            bore,
-            "mm",
-            f"make {width_name} smaller than {bore_name}; {advice}",
-        )
+    small = list(too_small({bore_name: bore, width_name: width}))
+    yield from small
+    if small or width == 0:
         return
     key = key_of_width(width)
-    if key is None:
-        widths = ", ".join(f"{one.width:g}" for one in KEYS)
-        yield Finding(
-            "bore.keyway-width",
-            Severity.ERROR,
-            width_name,
-            f"no standard key is {width:g} mm wide",
-            width,
-            fitting.width if fitting else None,
-            "mm",
-            f"use one of {widths}",
-        )
+    if key is not None:
+        opening = Opening(bore, key.width, key.hub_depth, params.keyway_relief)
+        yield from keyway_findings(opening, bore_name, width_name)
         return
-    if fitting is None or fitting.width != width:
-        yield Finding(
-            "bore.keyway-series",
-            Severity.WARNING,
-            width_name,
-            f"DIN 6885-1 has another key for a bore of {bore:g} mm",
-            width,
-            fitting.width if fitting else None,
-            "mm",
-            f"use {width_name} = {fitting.width:g}" if fitting else "make sure that such a key is at hand",
-        )
-    opening = Opening(bore, key.width, key.hub_depth, params.keyway_relief)
-    most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
-    if params.keyway_relief > most:
-        yield Finding(
-            "bore.keyway-relief",
-            Severity.ERROR,
-            "keyway_relief",
-            f"reliefs of {params.keyway_relief:g} mm leave nothing of the keyway's floor or sides",
-            params.keyway_relief,
-            most,
-            "mm",
-            f"make keyway_relief at most {math.floor(most * 100) / 100:g}",
-        )
+    fitting = key_for_bore(bore)
+    yield Finding.error(
+        "bore.keyway-width",
+        width_name,
+        f"no standard key is {width:g} mm wide",
+        width,
+        fitting.width if fitting else None,
+        "mm",
+        f"use one of {', '.join(f'{one.width:g}' for one in KEYS)}",
+    )

@@ -59,7 +59,7 @@ class GenevaParams(Parameters):
     )
     roller_radius: Millimetres = Field(5.0, ge=0.5, le=100, description="Radius of the rollers.")
     groove_clearance: Millimetres = Field(
-        0.05, ge=0, le=2, description="How much wider a slot is than the roller."
+        0.08, ge=0, le=2, description="How much wider a slot is than the roller; 0.08 runs as made."
     )
     rollers: int = Field(1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.")
     lock_radius: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
@@ -133,6 +133,23 @@ class GenevaParams(Parameters):
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
         0.0, description="Constant torque against the wheel's turning."
     )
+
+    @property
+    def slots_made(self) -> Literal["through", "blind", "backed"]:
+        """How the slots are made."""
+        if self.construction != "auto":
+            return self.construction
+        return "through" if self.law == "straight" else "blind"
+
+    @property
+    def groove_depth(self) -> float:
+        """Depth of the slots, mm."""
+        return self.thickness - (0.0 if self.slots_made == "through" else self.floor)
+
+    @property
+    def roller_length(self) -> float:
+        """Length of the roller in the slot, mm: over a floor it keeps the axial gap."""
+        return self.groove_depth - (0.0 if self.slots_made == "through" else self.axial_gap)
 
     @model_validator(mode="after")
     def _together(self) -> Self:

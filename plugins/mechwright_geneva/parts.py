@@ -6,10 +6,22 @@ the rollers hang into the slots.
 """
 
 import math
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Pocket, Point, Profile, circle
+from mechwright import (
+    Bore,
+    Colour,
+    Feature,
+    Instance,
+    Loop,
+    Outline,
+    Part,
+    Pocket,
+    Point,
+    Profile,
+    circle,
+    kept,
+)
 from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.counterbore import counterbore
@@ -33,7 +45,7 @@ _RELIEVED = 0.1
 """Share of its depth from which on a relief takes tabs."""
 
 
-@lru_cache(32)
+@kept
 def parts_of(params: GenevaParams) -> tuple[Part, ...]:
     """All parts of a design without error findings."""
     m = mechanism_of(params)
@@ -46,17 +58,17 @@ def _wheel(m: Mechanism) -> list[Part]:
     dowels = [*hub_dowels(m)]
     depth = params.thickness
     made: list[Part] = []
-    if m.construction == "blind":
+    if m.params.slots_made == "blind":
         loop, deviation = wheel.slot.loop()
         grooves = [
-            Pocket(f"groove-{k + 1}", loop.moved(0, 0, 2 * k * m.wheel_half), (), 0, m.groove_depth)
+            Pocket(f"groove-{k + 1}", loop.moved(0, 0, 2 * k * m.wheel_half), (), 0, m.params.groove_depth)
             for k in range(m.slots)
         ]
         grooves += counterbore(m, depth)
         made.append(
             _plate(m, "wheel", wheel.disc(), deviation, opening, dowels, depth, WHEEL, 0, BRONZE, grooves)
         )
-    elif m.construction == "through":
+    elif m.params.slots_made == "through":
         loop, deviation = wheel.slotted()
         recess = counterbore(m, depth)
         made.append(_plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE, recess))
@@ -72,7 +84,7 @@ def _wheel(m: Mechanism) -> list[Part]:
 
 def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point]) -> list[Part]:
     params, step = m.params, 2 * m.wheel_half
-    depth = m.groove_depth
+    depth = m.params.groove_depth
     webs: list[Point] = []
     own: list[Point] = []
     if params.fixing > 0:
@@ -138,14 +150,14 @@ def _roller(m: Mechanism) -> Part:
     """The roller with its stud, a part to buy or to turn; a stud pressed in is shown as it then is."""
     params, fit = m.params, _pin_fit(m.params)
     shown = params.pin_diameter if fit is None else min(params.pin_diameter, fit.middle)
-    foot = m.params.thickness - m.roller_length
+    foot = m.params.thickness - m.params.roller_length
     stud = params.axial_gap + params.crank_thickness
 
     def build() -> "cq.Solid":
         import cadquery as cq
 
-        roller = cq.Solid.makeCylinder(m.roller, m.roller_length)
-        pin = cq.Solid.makeCylinder(shown / 2, stud, cq.Vector(0, 0, m.roller_length))
+        roller = cq.Solid.makeCylinder(m.roller, m.params.roller_length)
+        pin = cq.Solid.makeCylinder(shown / 2, stud, cq.Vector(0, 0, m.params.roller_length))
         fused = roller.fuse(pin)
         return fused if isinstance(fused, cq.Solid) else fused.Solids()[0]
 

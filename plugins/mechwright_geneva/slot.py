@@ -19,12 +19,12 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment
+from mechwright import TOLERANCES, Arc, Array, GeometryError, Line, Loop, Point, Segment, kept
 from mechwright.geometry.fit import fit_curves
 from mechwright_geneva.kinematics import LEFT, RIGHT, Points
 from mechwright_geneva.mechanism import Mechanism
@@ -103,11 +103,10 @@ class Slot:
         lead_out = self._lead(side, trimmed, 1)
         first = 0.0 if lead_in else self._mouth(side, 0)
         last = 1.0 if lead_out else self._mouth(side, 1)
-        walls = _fitted(self.mechanism, self.radius, first, last)
-        index = 0 if side == LEFT else 1
-        chain = walls.chains[index]
+        chains, deviation = _fitted(self.mechanism, self.radius, first, last)
+        chain = chains[0 if side == LEFT else 1]
         segments: list[Segment] = [*lead_in, *chain, *lead_out]
-        return Wall(tuple(_joined(segments)), walls.deviation)
+        return Wall(tuple(_joined(segments)), deviation)
 
     def exact(self, side: int, u: Array) -> Points:
         """Points of the exact wall at shares u of the stroke."""
@@ -183,15 +182,11 @@ class Slot:
         return (loop if loop.area > 0 else loop.reversed()), max(left.deviation, right.deviation)
 
 
-@dataclass(frozen=True)
-class _Walls:
-    chains: list[list[Segment]]
-    deviation: float
-
-
-@lru_cache(64)
-def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _Walls:
-    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps.
+@kept
+def _fitted(
+    mechanism: Mechanism, radius: float, first: float, last: float
+) -> tuple[list[list[Segment]], float]:
+    """Both walls between two shares of the stroke, fitted together, cut where the jerk jumps; deviation.
 
     The way out of a symmetric law is the way in, mirrored about the slot's axis.
     """
@@ -217,7 +212,7 @@ def _fitted(mechanism: Mechanism, radius: float, first: float, last: float) -> _
     if halved:
         for chain in chains:
             chain.extend([mirrored(segment, -mechanism.wheel_half) for segment in chain[::-1]])
-    return _Walls(chains, deviation)
+    return chains, deviation
 
 
 def _joined(segments: list[Segment]) -> list[Segment]:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from mechwright import Finding, Severity
+from mechwright import Finding
 from mechwright_geneva.cures import greatest_roller, least_offset, walls_of
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.mechanism import Mechanism
@@ -30,9 +30,8 @@ def _bottom(m: Mechanism) -> Iterator[Finding]:
         cure = "make entry_radius larger, or bore or hub smaller"
     else:
         cure = "make crank_half_angle or offset_angle smaller, or entry_radius larger"
-    yield Finding(
+    yield Finding.error(
         "geneva.slot-bottom",
-        Severity.ERROR,
         "roller_radius",
         f"the slots come within {room:.3f} mm of the wheel's axis; hub and wall need {wanted:.3f} mm",
         m.roller,
@@ -50,9 +49,8 @@ def _straight(m: Mechanism) -> Iterator[Finding]:
 
 
 def _web(m: Mechanism, web: float, cure: str) -> Finding:
-    return Finding(
+    return Finding.error(
         "geneva.web",
-        Severity.ERROR,
         "roller_radius",
         "neighbouring slots run into each other" if web <= 0 else "the web between slots is too thin",
         web,
@@ -81,9 +79,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
     regime = REGIMES.get(m.side)
     if regime is None or offset * m.side >= 0:
         wanted = "above 0" if m.side <= 0 else "below 0"
-        yield Finding(
+        yield Finding.error(
             "geneva.offset-sign",
-            Severity.ERROR,
             "offset_angle",
             f"the wheel turns {_ratio(m):.4g} times as fast as the crank at mid stroke, b/(a - b) is "
             f"{float(m.frame.turning_ratio):.4g}: in this regime {regime or '(a cusp)'} the two ways "
@@ -96,9 +93,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
         return
     if not found.mouth[0] > 0:
         least = _least_mouth(m.frame, m.groove)
-        yield Finding(
+        yield Finding.error(
             "geneva.mouth",
-            Severity.ERROR,
             "offset_angle",
             "the two mouths of a slot overlap",
             math.degrees(abs(offset)),
@@ -110,9 +106,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
     limits = {"island's": float(found.island_limit[0]), "hub's": float(found.hub_limit[0])}
     for which, limit in limits.items():
         if m.groove >= limit:
-            yield Finding(
+            yield Finding.error(
                 "geneva.undercut",
-                Severity.ERROR,
                 "roller_radius",
                 f"the wall on the {which} side is undercut: its way is curved more sharply than the roller, "
                 f"whose critical radius M b is {limit:.4f} mm with M = {limit / m.crank:.6f}",
@@ -123,9 +118,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             )
             return
     if not found.width[0] > 0:
-        yield Finding(
+        yield Finding.error(
             "geneva.loop",
-            Severity.ERROR,
             "offset_angle",
             "the island's wall crosses itself in a loop: the roller's ways in and out are too close together",
             float(found.width[0]) * 2,
@@ -136,9 +130,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
         return
     tip = limits["island's"] - m.groove
     if tip < LEAST_TIP:
-        yield Finding(
+        yield Finding.error(
             "geneva.island-tip",
-            Severity.ERROR,
             "roller_radius",
             f"the island's tip has a radius of {tip:.3f} mm",
             tip,
@@ -148,9 +141,8 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
         )
     neck = 2 * float(found.neck[0])
     if neck < walls.least:
-        yield Finding(
+        yield Finding.error(
             "geneva.island",
-            Severity.ERROR,
             "offset_angle",
             f"the island is {neck:.3f} mm wide at its neck",
             neck,

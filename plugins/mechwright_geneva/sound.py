@@ -46,25 +46,33 @@ class Walls:
     rollers: int
 
 
-def conditions(frame: Frame, radius: Array, found: Measures, walls: Walls) -> dict[str, NDArray[np.bool_]]:
-    """Condition to which of m designs satisfy it, (m,) each; ``radius`` is (m, 1)."""
-    r = np.broadcast_to(radius, (found.reach.size, 1))[:, 0]
-    half = np.broadcast_to(frame.crank_half, (found.reach.size, 1))[:, 0]
+def possible(frame: Frame, radius: Array, walls: Walls) -> dict[str, NDArray[np.bool_]]:
+    """Condition that needs no stroke to which of m designs satisfy it, (m,) each; ``radius`` is (m, 1)."""
+    entry = frame.entry_angle
+    mouth = frame.entry_radius * np.sin(np.abs(frame.offset))
+    held = {
+        "angles": (entry + frame.crank_half / 2 < math.pi / 2) & (entry > 0),
+        "rollers": frame.crank_half <= math.pi / walls.rollers - LEAST_LOCKED / 2,
+        "bottom": frame.bottom - radius >= walls.hub + walls.least,
+        "driver": frame.axes - frame.entry_radius - walls.clearance >= walls.driver,
+        "mouth": mouth > radius * np.sin(frame.wheel_half + frame.crank_half),
+    }
+    return {name: np.broadcast_to(values, radius.shape)[:, 0] for name, values in held.items()}
+
+
+def measured(frame: Frame, radius: Array, found: Measures, walls: Walls) -> dict[str, NDArray[np.bool_]]:
+    """The same for the conditions on what has been measured."""
+    r = radius[:, 0]
+    overlap = np.broadcast_to(frame.axes - frame.entry_radius, radius.shape)[:, 0]
     greatest_lock = found.nearest - r - walls.clearance - walls.least
-    axes = np.broadcast_to(frame.axes, (found.reach.size, 1))[:, 0]
-    rim = np.broadcast_to(frame.entry_radius, (found.reach.size, 1))[:, 0]
     return {
-        "angles": found.reach < math.pi / 2,
-        "rollers": half <= math.pi / walls.rollers - LEAST_LOCKED / 2,
-        "bottom": found.bottom - r >= walls.hub + walls.least,
-        "mouth": found.mouth > 0,
+        "side": found.mouth > 0,
         "undercut": (found.island_limit > r) & (found.hub_limit > r),
         "tip": found.island_limit - r >= LEAST_TIP,
         "loop": found.width > 0,
         "island": 2 * found.neck >= walls.least,
         "web": found.web >= walls.least,
-        "driver": axes - rim - walls.clearance >= walls.driver,
-        "lock": greatest_lock + walls.clearance >= axes - rim + LEAST_BITE,
+        "lock": greatest_lock + walls.clearance >= overlap + LEAST_BITE,
     }
 
 
@@ -103,29 +111,10 @@ def sound(
     frame = Frame.of(wheel_half, crank, offset, entry_radius)
     wide = np.broadcast_to(np.asarray(radius, dtype=float), shape)[:, None]
     # Most designs of a sweep fail a condition that costs nothing: only the rest are measured.
-    able = _possible(frame, wide, walls)
+    able = np.logical_and.reduce(list(possible(frame, wide, walls).values()))
     good = np.zeros(shape, dtype=bool)
     if able.any():
-        part = Frame(
-            *(
-                value[able] if value.ndim else value
-                for value in (frame.wheel_half, frame.crank_half, frame.offset, frame.entry_radius)
-            )
-        )
+        part = frame.rows(able)
         found = measure(part, law, wide[able], samples)
-        good[able] = np.logical_and.reduce(list(conditions(part, wide[able], found, walls).values()))
+        good[able] = np.logical_and.reduce(list(measured(part, wide[able], found, walls).values()))
     return good
-
-
-def _possible(frame: Frame, radius: Array, walls: Walls) -> NDArray[np.bool_]:
-    """The conditions that need no stroke."""
-    able = (frame.entry_angle + frame.crank_half / 2 < math.pi / 2) & (frame.entry_angle > 0)
-    able = able & (frame.bottom - radius >= walls.hub + walls.least)
-    able = able & (frame.axes - frame.entry_radius - walls.clearance >= walls.driver)
-    able = able & (frame.crank_half <= math.pi / walls.rollers - LEAST_LOCKED / 2)
-    able = able & (
-        frame.entry_radius * np.sin(np.abs(frame.offset))
-        > radius * np.sin(frame.wheel_half + frame.crank_half)
-    )
-    possible: NDArray[np.bool_] = np.broadcast_to(able, radius.shape)[:, 0]
-    return possible

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
@@ -205,35 +205,25 @@ def _alike(one: GenevaParams, two: GenevaParams) -> bool:
 
 
 def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> GenevaParams:
+    """A design with all that the requirement says of it."""
     radius = float(tried.radius[row])
     return GenevaParams.model_validate(
         {
-            "slots": wanted.slots,
+            **wanted.model_dump(include=set(GenevaParams.model_fields)),
             "law": law,
             "crank_half_angle": float(tried.half[row]),
             "offset_angle": float(tried.offset[row]),
             "entry_radius": float(tried.rim[row]),
             "roller_radius": radius,
             "pin_diameter": max(0.5, round(radius * BORE_ROOM / 2, 1)),
-            "least_wall": wanted.least_wall,
-            "thickness": wanted.thickness,
-            "floor": wanted.floor,
-            "bore": wanted.bore,
-            "driver_bore": wanted.driver_bore,
-            "material": wanted.material,
-            "roller_material": wanted.roller_material,
-            "speed": wanted.speed,
-            "load_inertia": wanted.load_inertia,
-            "load_torque": wanted.load_torque,
         }
     )
 
 
 def _too_fast(wanted: IndexingRequirement, longest: float) -> Finding:
     least = LEAST_HALF / 180 * 60 / wanted.speed
-    return Finding(
+    return Finding.error(
         "geneva.requirement",
-        Severity.ERROR,
         "index_time",
         f"a movement within {wanted.index_time:g} s is over after {2 * longest:.3g} degrees of the crank",
         wanted.index_time,
@@ -249,22 +239,19 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
     able = [tried.take(np.flatnonzero(tried.sound)) for tried in near]
     count = sum(tried.half.size for tried in able)
     if count == 0:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "overall_length",
             f"none of {total} designs within {wanted.overall_length:g} mm has sound slots",
             wanted.overall_length,
-            None,
-            "mm",
-            "allow more overall_length or index_time, or smaller bore and least_wall",
+            unit="mm",
+            remedy="allow more overall_length or index_time, or smaller bore and least_wall",
         )
     most = wanted.acceleration_limit
     slowest = min(float(tried.acceleration.min()) for tried in able if tried.half.size)
     if most is not None and slowest > most:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "acceleration_limit",
             f"of {count} sound designs the slowest accelerates the wheel by {slowest:.4g} rad/s²",
             most,
@@ -277,9 +264,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
         float(tried.pressure[rows].min()) for tried, rows in zip(able, within, strict=True) if rows.any()
     )
     if least > limit:
-        return Finding(
+        return Finding.error(
             "geneva.requirement",
-            Severity.ERROR,
             "pressure_limit",
             f"of {count} sound designs the best has a Hertz pressure of {least:.4g} MPa",
             limit,
@@ -287,13 +273,11 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             "MPa",
             "allow more overall_length, a thicker wheel or a longer index_time, or take a stronger material",
         )
-    return Finding(
+    return Finding.error(
         "geneva.requirement",
-        Severity.ERROR,
         "driver_bore",
         f"{count} designs have sound slots, but none a driver that can be made",
         wanted.driver_bore,
-        None,
-        "mm",
-        "make driver_bore or bore smaller, or allow more overall_length",
+        unit="mm",
+        remedy="make driver_bore or bore smaller, or allow more overall_length",
     )

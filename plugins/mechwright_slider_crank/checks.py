@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Finding, GeometryError, MechwrightError, Severity, Stage, of_stage, until_error
+from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
+from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.figures import least_transmission_angle, limits
-from mechwright_slider_crank.forces import JointForces, balance, joint_forces
+from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
 from mechwright_slider_crank.sizes import sizes_of
@@ -33,10 +33,8 @@ MAX_BENDING = 250.0
 MOST_BEND = 0.5
 """Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""
 
-_CACHED = 16
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
     return until_error(params, _turns, _webs, _drawn, _carried, _figures)
@@ -50,9 +48,8 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
         offset = params.rod / (1 + TURN_MARGIN) - params.crank
         others = [f"crank at most {crank:.6g} mm"] if crank > 0 else []
         others += [f"offset at most {offset:.6g} mm"] if offset > 0 else []
-        yield Finding(
+        yield Finding.error(
             "slider-crank.crank-turn",
-            Severity.ERROR,
             "rod",
             f"the crank cannot turn fully: a rod of {params.rod:g} mm does not span crank and offset, "
             f"{reach:.6g} mm",
@@ -65,9 +62,8 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
     angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
     if angle < LEAST_TRANSMISSION:
         wanted = reach / math.cos(math.radians(LEAST_TRANSMISSION))
-        yield Finding(
+        yield Finding.warning(
             "slider-crank.transmission",
-            Severity.WARNING,
             "rod",
             f"the transmission angle falls to {angle:.4g}°, below {LEAST_TRANSMISSION:g}°: the rod pushes "
             "the slider against its guide more than along it",
@@ -129,7 +125,7 @@ def _webs(params: SliderCrankParams) -> Iterator[Finding]:
 def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iterator[Finding]:
     if web < LEAST_WEB:
         message = f"{web:.3g} mm are left {where}, the limit is {LEAST_WEB:g} mm"
-        yield Finding(code, Severity.ERROR, parameter, message, web, LEAST_WEB, "mm", remedy)
+        yield Finding.error(code, parameter, message, web, LEAST_WEB, "mm", remedy)
 
 
 @of_stage(Stage.PARTS)
@@ -137,9 +133,8 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether the rod can be drawn, and all plates find their layers."""
     most = MOST_BEND * params.rod
     if abs(params.rod_bend) > most:
-        yield Finding(
+        yield Finding.error(
             "slider-crank.rod-bend",
-            Severity.ERROR,
             "rod_bend",
             f"the rod leaves the straight line by {abs(params.rod_bend):g} mm, half its length is {most:g}",
             abs(params.rod_bend),
@@ -153,9 +148,8 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
         outline.polygon()
     except GeometryError as error:
         parameter = "rod_bend" if params.rod_bend else "rod_width"
-        yield Finding(
+        yield Finding.error(
             "slider-crank.rod-shape",
-            Severity.ERROR,
             parameter,
             f"the rod cannot be drawn: {error}",
             remedy=f"change {parameter}, or make wall smaller",
@@ -167,16 +161,15 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
         remedy = (
             "use crank_shape = 'arm', or a longer rod" if params.crank_shape == "disc" else "use a longer rod"
         )
-        yield Finding(
+        yield Finding.error(
             "slider-crank.layers",
-            Severity.ERROR,
             "crank_shape",
             str(error),
             remedy=f"{remedy}, a narrower rail, or thinner pins and walls",
         )
 
 
-def _at_work(params: SliderCrankParams) -> JointForces:
+def _at_work(params: SliderCrankParams) -> Forces:
     bodies = params.linkage.bodies(np.linspace(0, math.tau, TURN_SAMPLES), params.omega)
     return joint_forces(params.linkage, bodies, masses_of(params), params.load)
 
@@ -184,12 +177,11 @@ def _at_work(params: SliderCrankParams) -> JointForces:
 @of_stage(Stage.PARTS)
 def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     sizes, carried = sizes_of(params), _at_work(params)
-    force = float(max(np.abs(carried.crank_pin).max(), np.abs(carried.wrist_pin).max()))
+    force = float(max(np.abs(carried.joints["crank-pin"]).max(), np.abs(carried.joints["wrist-pin"]).max()))
     pressure = force / (sizes.pin * params.thickness)
     if pressure > MAX_PRESSURE:
-        yield Finding(
+        yield Finding.warning(
             "slider-crank.pin-pressure",
-            Severity.WARNING,
             "pin",
             f"{force:.4g} N press on the rod's bores with {pressure:.4g} MPa, the limit is "
             f"{MAX_PRESSURE:g} MPa",
@@ -203,9 +195,8 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     lever = params.gap + params.thickness / 2
     bending = 32 * force * lever / (math.pi * sizes.pin**3)
     if bending > MAX_BENDING:
-        yield Finding(
+        yield Finding.warning(
             "slider-crank.pin-bending",
-            Severity.WARNING,
             "pin",
             f"{force:.4g} N bend the pins with {bending:.4g} MPa, the limit is {MAX_BENDING:g} MPa",
             bending,
@@ -219,41 +210,33 @@ def _figures(params: SliderCrankParams) -> Iterator[Finding]:
     ends, layout, carried = limits(params.linkage), layout_of(params), _at_work(params)
     sense = "away from the crank" if ends.slow_outward != params.clockwise else "towards the crank"
     angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
-    yield Finding(
+    yield Finding.note(
         "slider-crank.stroke",
-        Severity.NOTE,
-        "",
         f"stroke {ends.stroke:.6g} mm, time ratio {ends.time_ratio:.6g}"
         + (f", slower {sense}" if ends.time_ratio > 1 + 1e-9 else "")
         + f"; limits at crank angles {math.degrees(ends.far):.4f}° and {math.degrees(ends.near):.4f}°; least "
         f"transmission angle {angle:.4f}°",
         ends.stroke,
-        None,
         "mm",
     )
     yield _layers(layout)
     masses = masses_of(params)
+    joints = {name: np.abs(carried.joints[name]).max() for name in ("crank-pin", "wrist-pin", "guide")}
     weights = balance(params.crank, params.rod, masses)
-    yield Finding(
+    yield Finding.note(
         "slider-crank.forces",
-        Severity.NOTE,
-        "",
-        f"torque up to {np.abs(carried.torque).max() / 1e3:.4g} N m, crank pin "
-        f"{np.abs(carried.crank_pin).max():.4g} N, wrist pin {np.abs(carried.wrist_pin).max():.4g} N, guide "
-        f"{np.abs(carried.guide).max():.4g} N, shaking force {np.abs(carried.shaking).max():.4g} N",
-        float(np.abs(carried.torque).max()) / 1e3,
-        None,
+        f"torque up to {np.abs(carried.drive).max() / 1e3:.4g} N m, "
+        + ", ".join(f"{name.replace('-', ' ')} {peak:.4g} N" for name, peak in joints.items())
+        + f", shaking force {np.abs(carried.shaking).max():.4g} N",
+        float(np.abs(carried.drive).max()) / 1e3,
         "N*m",
     )
-    yield Finding(
+    yield Finding.note(
         "slider-crank.balance",
-        Severity.NOTE,
-        "",
         f"moving masses {masses['crank'].mass * 1e3:.4g} g crank, {masses['rod'].mass * 1e3:.4g} g rod, "
         f"{masses['slider'].mass * 1e3:.4g} g slider; full force balance takes {abs(weights.rod):.4g} kg mm "
         f"on the rod behind the crank pin and {abs(weights.crank):.4g} kg mm on the crank",
         abs(weights.crank),
-        None,
         "kg*mm",
     )
 
@@ -266,10 +249,8 @@ def _layers(layout: Layout) -> Finding:
     ]
     words = ", ".join(order).replace("rail-1", "rails")
     top = layout.stack.layers[-1]
-    return Finding(
+    return Finding.note(
         "slider-crank.stack",
-        Severity.NOTE,
-        "",
         f"layers from below: {words}; {top.bottom + top.thickness:.4g} mm high"
         + ("" if layout.heads else "; the pins end flush, secure the rod with rings or adhesive"),
         float(len(layout.stack.layers)),

@@ -8,7 +8,7 @@ from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.requirements import PolesRequirement, StrokeRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part, Progress, Synthesis
+    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
 
 
 class SliderCrankFamily(Family[SliderCrankParams]):
@@ -36,18 +36,24 @@ class SliderCrankFamily(Family[SliderCrankParams]):
         return motion_of(params, samples)
 
     def parts(self, params: SliderCrankParams) -> "Sequence[Part]":
-        """Base, rails, crank, rod, slider, and the turned parts that join them.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Base, rails, crank, rod, slider, and the turned parts that join them."""
         from mechwright_slider_crank.checks import findings
         from mechwright_slider_crank.plates import parts_of
 
         refuse(findings(params))
         return parts_of(params)
+
+    def as_made(self, params: SliderCrankParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Error of the slider, and its play in the guide."""
+        from mechwright_slider_crank.as_made import as_made
+
+        return as_made(params, made)
+
+    def tolerances(self, params: SliderCrankParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the slider's position and of the coupler point, from links, pins and guide."""
+        from mechwright_slider_crank.tolerances import SliderCrankTolerances
+
+        return SliderCrankTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

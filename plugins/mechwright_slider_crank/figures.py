@@ -49,11 +49,6 @@ class Limits:
         """H, mm."""
         return abs(self.far_position - self.near_position)
 
-    @property
-    def rocking_angle(self) -> float:
-        """θ, rad, by which the slower stroke's crank angle passes 180°."""
-        return math.pi * (self.time_ratio - 1) / (self.time_ratio + 1)
-
 
 def limits(linkage: SliderCrank) -> Limits:
     """The limit positions.

@@ -4,51 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array
 from mechwright.mechanics.linkage import Mass
-from mechwright.mechanics.planar import Plane
-from mechwright.mechanics.planar.dynamics import GROUND, Link, Load, Pin, Slide, forces
+from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, Slide, forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 
 MILLI = 1e-3
 """From mN, which kg, mm and s give, to N, from mN mm to N mm, and from N mm to N m."""
 
 
-@dataclass(frozen=True, slots=True)
-class JointForces:
-    """Forces (n,) in N as x + i y on the ground, moments in N mm.
-
-    Parameters
-    ----------
-    shaft
-        Of the base on the crank.
-    crank_pin
-        Of the crank on the rod.
-    wrist_pin
-        Of the rod on the slider.
-    guide
-        Of the rails on the slider, across the slide.
-    guide_moment
-        Of the rails on the slider; 0 where the load and the mass act through its pin.
-    torque
-        That the drive gives the crank.
-    shaking
-        Of the moving masses on the base.
-    """
-
-    shaft: Plane
-    crank_pin: Plane
-    wrist_pin: Plane
-    guide: Plane
-    guide_moment: Array
-    torque: Array
-    shaking: Plane
-
-
-def joint_forces(
-    linkage: SliderCrank, bodies: Bodies, masses: dict[str, Mass], load: float = 0.0
-) -> JointForces:
-    """Forces at the samples of a motion.
+def joint_forces(linkage: SliderCrank, bodies: Bodies, masses: dict[str, Mass], load: float = 0.0) -> Forces:
+    """Forces at the samples of a motion, N and N mm: of shaft, crank-pin, wrist-pin and guide.
 
     Parameters
     ----------
@@ -74,16 +39,8 @@ def joint_forces(
         Pin("wrist-pin", "rod", "slider", end),
         Slide("guide", GROUND, "slider", along, end),
     ]
-    found = forces(links, joints, "crank", [Load("slider", load / MILLI * along, end)])
-    return JointForces(
-        found.joints["shaft"] * MILLI,
-        found.joints["crank-pin"] * MILLI,
-        found.joints["wrist-pin"] * MILLI,
-        found.joints["guide"] * MILLI,
-        found.moments["guide"] * MILLI,
-        found.drive * MILLI,
-        found.shaking * MILLI,
-    )
+    load_on_slider = Load("slider", load / MILLI * along, end)
+    return forces(links, joints, "crank", [load_on_slider]).scaled(MILLI)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,13 +8,10 @@ w = ±√(c² - t²), the two assemblies, per crank radian:
 * σ'  : ω = -a cos φ' / w, α = (a sin φ' + t ω²) / w, j = (a cos φ' + 3 t ω α + w ω³) / w;
 * s   : v = -a sin φ' - t ω, -a cos φ' - w ω² - t α, a sin φ' + t ω³ - 3 w ω α - t j.
 
-The formulas stand once, in :func:`slide` and :func:`jerks`: arrays go through them as they are, and
-:mod:`mechwright_slider_crank.compiled` compiles the same functions for single numbers.
 """
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,25 +20,17 @@ from mechwright import Array, KinematicsError
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
 
 
-def slide(cos: Any, sin: Any, w: Any, crank: Any, offset: Any) -> Any:
-    """Slide position and its first two rates, and the coupler's first two rates, per crank radian.
-
-    ``cos`` and ``sin`` are those of φ', ``w`` is the signed x of the coupler; numbers or arrays.
-    """
+def _rates(cos: Array, sin: Array, w: Array, crank: float, offset: float) -> tuple[Array, ...]:
+    """Slide position, its three rates and the coupler's three per crank radian; ``w`` is signed."""
     x, y = crank * cos, crank * sin
     t = offset - y
     turn = -x / w
     turned = t * turn
     bend = (y + turned * turn) / w
-    return x + w, -y - turned, -x - w * turn * turn - t * bend, turn, bend
-
-
-def jerks(cos: Any, sin: Any, w: Any, crank: Any, offset: Any, turn: Any, bend: Any) -> Any:
-    """Third rates of the slide position and of the coupler's angle, per crank radian."""
-    x, y = crank * cos, crank * sin
-    t = offset - y
     third = (x + 3 * t * turn * bend + w * turn**3) / w
-    return y + t * turn**3 - 3 * w * turn * bend - t * third, third
+    acceleration = -x - w * turn * turn - t * bend
+    jerk = y + t * turn**3 - 3 * w * turn * bend - t * third
+    return x + w, -y - turned, acceleration, jerk, turn, bend, third
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,8 +81,8 @@ class SliderCrank:
         """
         angle = np.asarray(phi, dtype=float) - self.direction
         cos, sin = np.cos(angle), np.sin(angle)
-        found = slide(cos, sin, self._coupler_x(sin), self.crank, self.offset)
-        return found[0], found[1], found[2]
+        s, v, acceleration, *_ = _rates(cos, sin, self._coupler_x(sin), self.crank, self.offset)
+        return s, v, acceleration
 
     def bodies(self, phi: ArrayLike, omega: float = 1.0) -> "Bodies":
         """Motion of crank, coupler and slider at crank angles (n,), rad, at constant speed, rad/s.
@@ -115,8 +104,7 @@ class SliderCrank:
                 f"the linkage cannot move at a crank angle of {math.degrees(phi[worst]):.6g}°: the rod of "
                 f"{np.broadcast_to(self.rod, phi.shape)[worst]:g} mm has to be longer than {reach:.6g} mm"
             )
-        s, v, acceleration, turn, bend = slide(cos, sin, w, self.crank, self.offset)
-        jerk, third = jerks(cos, sin, w, self.crank, self.offset, turn, bend)
+        s, v, acceleration, jerk, turn, bend, third = _rates(cos, sin, w, self.crank, self.offset)
         # The coupler never turns past ±90° of the slide, or of its opposite: the angle has no jumps.
         sigma = np.arctan((self.offset - self.crank * sin) / w) + np.where(self.branch > 0, 0.0, math.pi)
         along = np.exp(1j * self.direction)

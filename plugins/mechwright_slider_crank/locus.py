@@ -12,18 +12,17 @@ it the assembly. Their resultant with respect to S is the locus.
 """
 
 from fractions import Fraction
-from functools import lru_cache
 from typing import Literal
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
-from mechwright import GeometryError
+from mechwright import GeometryError, kept
 from mechwright.mechanics.algebra import PlaneCurve, eliminate, rational
 
 Plane = Literal["fixed", "coupler"]
 
 
-@lru_cache(16)
+@kept
 def locus(crank: Fraction, rod: Fraction, offset: Fraction, plane: Plane) -> tuple[PlaneCurve, int]:
     """The curve of the acceleration pole on the ground or in the coupler.
 

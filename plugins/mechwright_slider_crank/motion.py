@@ -5,16 +5,18 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright import Array, Channel, DesignError, Motion, Scalar, Trace
+from mechwright import Array, Channel, Motion, Scalar, Trace
 from mechwright.contracts.finding import errors
-from mechwright.mechanics.linkage import Mass
-from mechwright.mechanics.planar import Plane, acceleration_pole
+from mechwright.contracts.motion import travelled
+from mechwright.mechanics.linkage import Mass, moving_figures
+from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
+from mechwright.mechanics.planar.dynamics import Forces
 from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
-from mechwright_slider_crank.forces import MILLI, JointForces, balance, joint_forces
+from mechwright_slider_crank.forces import MILLI, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
-from mechwright_slider_crank.plates import body_poses, masses_of
+from mechwright_slider_crank.plates import body_poses, held_by, masses_of
 
 _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 """Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
@@ -27,17 +29,13 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         The crank cannot turn.
     """
     from mechwright_slider_crank.checks import findings
 
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a turn; take at least 2")
     linkage, omega = params.linkage, params.omega
-    phi = np.linspace(0, math.copysign(math.tau, omega), samples)
+    phi = travelled(math.copysign(math.tau, omega), samples)
     bodies = linkage.bodies(phi, omega)
     masses = None if errors(findings(params)) else masses_of(params)
     channels = {
@@ -53,7 +51,8 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     }
     point = params.coupler_point
     traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, body_poses(params, phi), _figures(params, omega, masses), traces)
+    figures = _figures(params, omega, masses)
+    return Motion("phi", channels, body_poses(params, phi), figures, traces, held_by(params))
 
 
 def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
@@ -76,17 +75,16 @@ def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channe
     )
 
 
-def _forces(carried: JointForces) -> dict[str, Channel]:
-    named: dict[str, Plane] = {
-        "force_shaft": carried.shaft,
-        "force_crank_pin": carried.crank_pin,
-        "force_wrist_pin": carried.wrist_pin,
-        "force_guide": carried.guide,
-        "shaking_force": carried.shaking,
-    }
-    found = {name: Channel(np.abs(force), "N") for name, force in named.items()}
-    found["moment_guide"] = Channel(carried.guide_moment * MILLI, "N*m")
-    found["drive_torque"] = Channel(carried.torque * MILLI, "N*m")
+def _sizes(carried: Forces) -> dict[str, Array]:
+    """Sizes of the forces, N."""
+    found = {f"force_{name.replace('-', '_')}": np.abs(force) for name, force in carried.joints.items()}
+    return found | {"shaking_force": np.abs(carried.shaking)}
+
+
+def _forces(carried: Forces) -> dict[str, Channel]:
+    found = {name: Channel(size, "N") for name, size in _sizes(carried).items()}
+    found["moment_guide"] = Channel(carried.moments["guide"] * MILLI, "N*m")
+    found["drive_torque"] = Channel(carried.drive * MILLI, "N*m")
     return found
 
 
@@ -102,14 +100,8 @@ def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | 
         if masses is None:
             return rates
         carried = joint_forces(linkage, bodies, masses, params.load)
-        return rates | {
-            "drive_torque_max": np.abs(carried.torque) * MILLI,
-            "force_shaft_max": np.abs(carried.shaft),
-            "force_crank_pin_max": np.abs(carried.crank_pin),
-            "force_wrist_pin_max": np.abs(carried.wrist_pin),
-            "force_guide_max": np.abs(carried.guide),
-            "shaking_force_max": np.abs(carried.shaking),
-        }
+        forces = {f"{name}_max": size for name, size in _sizes(carried).items()}
+        return rates | {"drive_torque_max": np.abs(carried.drive) * MILLI, **forces}
 
     most = peaks(sizes)
     units = {"v_max": "mm/s", "a_max": "mm/s^2", "drive_torque_max": "N*m"}
@@ -131,13 +123,7 @@ def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | 
 def _mass_figures(params: SliderCrankParams, masses: dict[str, Mass]) -> dict[str, Scalar]:
     weights = balance(params.crank, params.rod, masses)
     return {
-        "mass_crank": Scalar(masses["crank"].mass, "kg"),
-        "mass_rod": Scalar(masses["rod"].mass, "kg"),
-        "mass_slider": Scalar(masses["slider"].mass, "kg"),
-        "balance_rod_x": Scalar(weights.rod.real, "kg*mm"),
-        "balance_rod_y": Scalar(weights.rod.imag, "kg*mm"),
-        "balance_crank_x": Scalar(weights.crank.real, "kg*mm"),
-        "balance_crank_y": Scalar(weights.crank.imag, "kg*mm"),
+        **moving_figures(masses, {"rod": weights.rod, "crank": weights.crank}),
         "balance_rod_weight": Scalar(weights.rod_weight, "kg"),
     }
 

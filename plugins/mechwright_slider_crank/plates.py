@@ -6,11 +6,11 @@ dowels into rails and base. Rod and base carry bushings.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Colour, GeometryError, Instance, Outline, Part, Poses
+from mechwright import GROUND, Array, Colour, GeometryError, Instance, Joint, Outline, Part, Poses, kept
+from mechwright.contracts.joint import fixed
 from mechwright.mechanics.linkage import (
     BUSHING_MATERIAL,
     PIN_MATERIAL,
@@ -55,9 +55,6 @@ COLOURS: dict[str, Colour] = {
 
 TAIL_SHARE = 1.5
 """How far the shaft sticks out under the base, over its diameter: room for a coupling or a crank handle."""
-
-_CACHED = 16
-"""Designs whose layout is kept: check, parts, motion and forces ask for the same one."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +121,7 @@ def rod_outline(params: SliderCrankParams) -> Outline:
     return web_link(one, two, width, FILLET_SHARE * sizes.rod_boss)
 
 
-@lru_cache(_CACHED)
+@kept
 def layout_of(params: SliderCrankParams) -> Layout:
     """Draw all plates and find their layers.
 
@@ -246,6 +243,22 @@ def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
     for name, (body, place) in fixed.items():
         poses[name] = BodyMotion(body.point(place), body.turning).poses()
     return poses
+
+
+def held_by(params: SliderCrankParams) -> dict[str, Joint]:
+    """What holds the bodies of :func:`body_poses`, the loop closed in the slider's pin."""
+    rails = [f"rail-{number}" for number in (1, 2)]
+    dowels = [f"dowel-{number}" for number in range(1, 5)]
+    return {
+        **fixed(GROUND, "base"),
+        **fixed("base", *rails, *dowels),
+        **fixed("crank", "crank-pin"),
+        **fixed("rod", "rod-end"),
+        "shaft": Joint("revolute", "base", "crank", drives=True),
+        "guide": Joint("prismatic", "base", "slider", (0.0, params.offset, 0.0), (1.0, 0.0, 0.0)),
+        "pin-a": Joint("revolute", "crank", "rod", (params.crank, 0.0, 0.0)),
+        "pin-b": Joint("revolute", "rod", "slider", (params.rod, 0.0, 0.0)),
+    }
 
 
 def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:

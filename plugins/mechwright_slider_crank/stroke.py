@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
-from mechwright import Finding, Severity
+from mechwright import Finding
 from mechwright_slider_crank.requirements import StrokeRequirement
 
 RATIOS = (1.0, 3.0)
@@ -120,16 +120,14 @@ def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
     low, high = RATIOS
     if not low < wanted.time_ratio < high:
         near = "just above 1" if wanted.time_ratio <= low else "just below 3"
-        yield Finding(
+        yield Finding.error(
             "slider-crank.time-ratio",
-            Severity.ERROR,
             "time_ratio",
             f"no crank that turns fully has a time ratio of {wanted.time_ratio:g} with an offset slide: it "
             "lies between 1 and 3",
             wanted.time_ratio,
             low if wanted.time_ratio <= low else high,
-            "",
-            f"ask for a time ratio {near}"
+            remedy=f"ask for a time ratio {near}"
             + ("; a ratio of 1 has no offset" if near == "just above 1" else ""),
         )
         return
@@ -140,9 +138,8 @@ def bounds(wanted: StrokeRequirement) -> Iterator[Finding]:
         if value is None or least < value < most:
             continue
         nearest = least if value <= least else most
-        yield Finding(
+        yield Finding.error(
             f"slider-crank.{name}-range",
-            Severity.ERROR,
             name,
             f"{name} = {value:g} mm does not lead to a stroke of {wanted.stroke:g} mm at a time ratio of "
             f"{wanted.time_ratio:g}: it must lie between {least:.6g} and {most:.6g} mm",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright import Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Candidate, Finding, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
@@ -78,9 +78,8 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         candidates.append(Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures))
     if candidates:
         return Synthesis(tuple(candidates))
-    fault = Finding(
+    fault = Finding.error(
         "slider-crank.not-buildable",
-        Severity.ERROR,
         "crank",
         f"crank {lengths.crank:.6g}, rod {lengths.rod:.6g} and offset {lengths.offset:.6g} mm have this "
         f"stroke and time ratio, but cannot be built: {why}",
@@ -145,31 +144,26 @@ def _side(found: Found) -> str:
 
 
 def _left_out(found: Found, why: str) -> Finding:
-    return Finding(
+    return Finding.note(
         "slider-crank.left-out",
-        Severity.NOTE,
-        "",
         f"crank {found.crank:.6g}, rod {found.rod:.6g}, offset {found.offset:.6g} mm, {_side(found)}, has "
         f"the poles as well, but cannot be built: {why}",
         found.residual,
-        None,
         "mm",
     )
 
 
 def _none_found(left_out: Sequence[Finding], best: float, wanted: PolesRequirement) -> Finding:
     if left_out:
-        return Finding(
+        return Finding.error(
             "slider-crank.not-buildable",
-            Severity.ERROR,
             "poles",
             f"{len(left_out)} slider-cranks have these poles, but none can be built: {left_out[0].message}",
             remedy="scale the poles up, or move them",
         )
     nearest = f"the best residual found is {best:.4g} mm" if math.isfinite(best) else "none came near"
-    return Finding(
+    return Finding.error(
         "slider-crank.no-solution",
-        Severity.ERROR,
         "poles",
         f"no slider-crank with a crank that turns was found for these poles in {2 * wanted.starts} starts; "
         f"{nearest}",

@@ -26,14 +26,11 @@ from mechwright_spherical import checks, structural
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FiveBarTable, SphericalParams
-from mechwright_spherical.planar import points
-from mechwright_spherical.planar_synthesis import CouplerPoses, PlanarSynthesis, synthesise
+from mechwright_spherical.planar_synthesis import CouplerPoses, PlanarSynthesis, points, synthesise
 from mechwright_spherical.projection import project, unproject
 from mechwright_spherical.refine import Fit, Freedom, Path, refine
 from mechwright_spherical.refine import errors as path_errors
 from mechwright_spherical.requirements import AdjustablePathRequirement
-
-_FREEDOMS = {"none": (), "six": ("SIX",), "eight": ("SIX", "EIGHT"), "twelve": ("SIX", "EIGHT", "TWELVE")}
 
 DIGITS = 12
 """Decimals of pins in design files: 1e-12 of the radius."""
@@ -77,9 +74,8 @@ def from_poses(wanted: AdjustablePathRequirement, progress: Progress) -> Synthes
 
 def _fault(code: str, parameter: str, error: MechwrightError) -> Finding:
     said, _, remedy = str(error).partition("; ")
-    return Finding(
+    return Finding.error(
         code,
-        Severity.ERROR,
         parameter,
         said,
         remedy=remedy or "start from a longer projection, or from other guesses",
@@ -150,10 +146,10 @@ def _fits(
 ) -> Iterator[Fit]:
     """The projected mechanism, then the best fit of each freedom that is asked for."""
     yield Fit(start, path_errors(start, path))
-    names = _FREEDOMS[wanted.unknowns]
-    for number, name in enumerate(names):
-        freedom = Freedom[name]
-        progress((number + 1) / (len(names) + 2), f"{freedom.unknowns} unknowns")
+    most = 0 if wanted.unknowns == "none" else Freedom[wanted.unknowns.upper()].value
+    freedoms = [freedom for freedom in Freedom if freedom.value <= most]
+    for number, freedom in enumerate(freedoms):
+        progress((number + 1) / (len(freedoms) + 2), f"{freedom.value} unknowns")
         fits = refine(
             start,
             path,

@@ -6,13 +6,12 @@ so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, until_error
+from mechwright import Array, Finding, Severity, kept, until_error
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.hardware_checks import hardware_findings
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
@@ -27,11 +26,8 @@ SAMPLES = 1441
 """Input angles at which a travel is looked at before the lowest one is looked at closely: each half degree of
 two turns."""
 
-_CACHED = 32
-"""Designs whose findings are kept: parts ask for them again."""
 
-
-@lru_cache(_CACHED)
+@kept
 def findings(params: SphericalParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that it can be built."""
     return until_error(
@@ -48,9 +44,8 @@ def _pins(params: SphericalParams) -> Iterator[Finding]:
     try:
         linkage_of(params)
     except PinError as fault:
-        yield Finding(
+        yield Finding.error(
             "spherical.pins",
-            Severity.ERROR,
             fault.parameter,
             fault.message,
             fault.value,
@@ -101,9 +96,8 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
         if sine <= math.sin(math.radians(DEAD_CENTRE)):
             yield _apart(params, linkage, phase, at, sine, where)
         elif (worst := math.degrees(math.asin(sine))) < params.least_transmission:
-            yield Finding(
+            yield Finding.warning(
                 "spherical.transmission",
-                Severity.WARNING,
                 travel_key(params, phase),
                 f"the transmission angle falls to {worst:.4g}° or {180 - worst:.4g}° {where}",
                 worst,
@@ -130,9 +124,8 @@ def _apart(
         remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
     else:
         remedy = f"end at less than {reach:.4g}°, or choose other pins"
-    return Finding(
+    return Finding.error(
         "spherical.assembly",
-        Severity.ERROR,
         travel_key(params, phase),
         f"{fault} {where}",
         math.degrees(at),
@@ -161,9 +154,8 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
         misses = params.radius * phase.path_errors
         if not np.isfinite(misses).all():
             bad = math.degrees(float(phase.target_angles[np.argmin(np.isfinite(misses))]))
-            yield Finding(
+            yield Finding.error(
                 "spherical.assembly",
-                Severity.ERROR,
                 keys,
                 f"the linkage cannot be assembled at the path angle {bad:.4g}°",
                 bad,
@@ -176,9 +168,8 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
         said = f"the path misses its points by up to {worst:.4g} mm, rms {rms:.4g} mm"
         tolerance = params.path_tolerance
         if tolerance is not None and worst > tolerance:
-            yield Finding(
+            yield Finding.warning(
                 "spherical.path",
-                Severity.WARNING,
                 key,
                 said,
                 worst,
@@ -202,9 +193,8 @@ def _order(phase: Phase, key: str) -> Iterator[Finding]:
             if not inside.all()
             else float(angles[int(np.argmin(steps)) + 1])
         )
-        yield Finding(
+        yield Finding.warning(
             "spherical.order",
-            Severity.WARNING,
             key,
             f"the point at {math.degrees(worst):.4g}° is not on the travel, or not in its order",
             math.degrees(worst),

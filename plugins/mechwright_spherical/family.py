@@ -1,6 +1,6 @@
 """The family ``spherical``."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, Progress, Synthesis, refuse
@@ -8,7 +8,7 @@ from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.requirements import AdjustablePathRequirement, FourBarPathRequirement
 
 if TYPE_CHECKING:
-    from mechwright import Motion, Part
+    from mechwright import AsMade, MadePart, Motion, Part, ToleranceModel, Tolerances
 
 
 class Spherical(Family[SphericalParams]):
@@ -36,18 +36,24 @@ class Spherical(Family[SphericalParams]):
         return motion_of(params, samples)
 
     def parts(self, params: SphericalParams) -> "Sequence[Part]":
-        """Links, pins, drive, base plate and flat strips.
-
-        Raises
-        ------
-        DesignError
-            ``check`` finds an error; the message is that of the first one.
-        """
+        """Links, pins, drive, base plate and flat strips."""
         from mechwright_spherical.checks import findings
         from mechwright_spherical.parts import parts_of
 
         refuse(findings(params))
         return parts_of(params)
+
+    def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
+        """Error of the output, in angles, from the bores of flat strips."""
+        from mechwright_spherical.as_made import as_made
+
+        return as_made(params, made)
+
+    def tolerances(self, params: SphericalParams, tolerances: "Tolerances") -> "ToleranceModel":
+        """Errors of the output angle and of the path point, from arcs and pins."""
+        from mechwright_spherical.tolerances import SphericalTolerances
+
+        return SphericalTolerances(params, tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress

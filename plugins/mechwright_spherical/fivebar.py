@@ -122,8 +122,3 @@ def projected(
         p1=one(path_point),
         ratio=ratio,
     )
-
-
-def chord(found: Array, wanted: Array) -> Array:
-    """Structural error (...): the straight distance of points (3, ...) on the unit sphere."""
-    return norm(found - wanted)

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright import Array
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.chain import EDGE
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.vectors import column
 

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Severity, Synthesis
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical import checks
 from mechwright_spherical.fit import assembled, fitted
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.mobility import mobility
 from mechwright_spherical.params import FourBarTable, SphericalParams
@@ -90,9 +90,8 @@ _SLACK = 0.5
 
 
 def _fault(parameter: str, message: str) -> Finding:
-    return Finding(
+    return Finding.error(
         "spherical.synthesis",
-        Severity.ERROR,
         parameter,
         message.split(";")[0],
         remedy="ask for a larger atlas, more starts, fewer points, or a lower least_transmission",

@@ -51,9 +51,8 @@ def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
     hardware = params.hardware
     least = hardware.pin_diameter + hardware.fit + 2 * WALL
     if hardware.boss_diameter < least:
-        yield Finding(
+        yield Finding.error(
             "spherical.boss",
-            Severity.ERROR,
             "hardware.boss_diameter",
             f"bosses of {hardware.boss_diameter:g} mm leave less than {WALL:g} mm around the bores",
             hardware.boss_diameter,
@@ -65,9 +64,8 @@ def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
     # The flat end of a boss reaches further out at its rim than in its middle; outer shells matter less.
     rise = math.hypot(shells.links["coupler"][1], half) - shells.links["coupler"][1]
     if hardware.gap <= rise:
-        yield Finding(
+        yield Finding.error(
             "spherical.gap",
-            Severity.ERROR,
             "hardware.gap",
             f"the rims of flat bosses of {hardware.boss_diameter:g} mm stand {rise:.3f} mm over their shell "
             f"and rub in a gap of {hardware.gap:g} mm",
@@ -101,9 +99,8 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         if needed > there:
             # The shells move outwards with the sphere.
             radius = math.ceil(10 * (params.radius + needed - there)) / 10
-            yield Finding(
+            yield Finding.error(
                 "spherical.shafts",
-                Severity.ERROR,
                 "radius",
                 f"{said} are {math.degrees(angle):.4g}° apart, and {diameter:g} mm do not fit side by side "
                 f"at {there:.4g} mm from the centre",
@@ -153,9 +150,8 @@ def _collision(linkage: Linkage, near: Approach) -> Finding:
         if near.room < 0
         else f"come as near as {near.room:.3g} mm"
     )
-    return Finding(
+    return Finding.error(
         "spherical.clearance",
-        Severity.ERROR,
         "hardware.boss_diameter",
         f"{one} and {two} {verb}{_when(linkage, near)}",
         near.room,
@@ -181,9 +177,8 @@ def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
         nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
         apart = 2 * radius * math.tan(nearest / 2)
         if apart < least:
-            yield Finding(
+            yield Finding.error(
                 "spherical.slot",
-                Severity.ERROR,
                 "five_bar.c1n",
                 f"{one} and {two} come as near as {apart:.4g} mm on the coupler and run into each other",
                 apart,
@@ -207,9 +202,8 @@ def _drive(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     shafts = float(arc(mechanism.a0, mechanism.b0))
     if train is None:
         least = math.degrees((1 - params.drive.share) * shafts / 2)
-        yield Finding(
+        yield Finding.error(
             "spherical.drive",
-            Severity.ERROR,
             "drive.idler",
             f"an idler of {params.drive.idler:g}° does not reach both gears",
             params.drive.idler,
@@ -242,9 +236,8 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
     for name, angle in cones.items():
         diameter = 2 * inner * math.sin(angle)
         if diameter < least or angle >= math.pi / 2:
-            yield Finding(
+            yield Finding.error(
                 "spherical.drive",
-                Severity.ERROR,
                 "drive.idler" if name == "idler" else "drive.share",
                 f"the {name} has a pitch diameter of {diameter:.4g} mm at its small end, or is no cone",
                 diameter,
@@ -258,9 +251,8 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     stand = params.stand
     whole = math.degrees(link_arcs(linkage)["ground"]) + stand.arc
     if whole > LONGEST_GROUND:
-        yield Finding(
+        yield Finding.error(
             "spherical.stand",
-            Severity.ERROR,
             "stand.arc",
             f"the ground link would be an arc of {whole:.4g}°",
             whole,
@@ -273,9 +265,8 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     rim = (0.5 - abs(MOUNTING_SCREWS[0][0])) * stand.plate
     if rim < stand.screw or flange_diameter(stand) > stand.plate:
         most = min(rim, (stand.plate / 2 - (flange_diameter(stand) / 2 - 1.5 * stand.screw)) / 1.5)
-        yield Finding(
+        yield Finding.error(
             "spherical.stand",
-            Severity.ERROR,
             "stand.screw",
             f"screws of {stand.screw:g} mm are too large for a base plate of {stand.plate:g} mm",
             stand.screw,
@@ -284,9 +275,8 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
             f"use at most {math.floor(100 * most) / 100:g} mm, or a larger plate",
         )
     if stand.height < params.hardware.link_thickness:
-        yield Finding(
+        yield Finding.error(
             "spherical.stand",
-            Severity.ERROR,
             "stand.height",
             "the flange is thicker than the post is high",
             stand.height,
@@ -312,9 +302,8 @@ def _post(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator
         needed = max(needed, train.pinion)
     if math.radians(stand.arc) < needed + half:
         least = math.degrees(needed + half)
-        yield Finding(
+        yield Finding.error(
             "spherical.stand",
-            Severity.ERROR,
             "stand.arc",
             "post and flange stand in the way of what sits on the input axis",
             stand.arc,
@@ -335,9 +324,8 @@ def _strips(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         link = "coupler" if name.startswith("coupler") else name
         found = strip(angle, shells.arc(link)[0], flat)
         if found.leg < shortest:
-            yield Finding(
+            yield Finding.error(
                 "spherical.strip",
-                Severity.ERROR,
                 "flat.bend_radius",
                 f"the strip of the {link} has {found.leg:.4g} mm between bore and bend, and its round end "
                 f"takes {shortest:g} mm",

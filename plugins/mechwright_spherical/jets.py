@@ -10,43 +10,15 @@ order
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mechwright import Array
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.vectors import column, cross, dot
 
 Jet = tuple[Array, ...]
 """Vectors (3, ...): value, first rate, second rate, …"""
-
-
-@dataclass(frozen=True, slots=True)
-class Turning:
-    """An angle and its rates: (...) float in rad, rad/s, rad/s², rad/s³."""
-
-    angle: Array
-    rate: Array
-    acceleration: Array
-    jerk: Array
-
-    @classmethod
-    def of(
-        cls, angle: ArrayLike, rate: ArrayLike = 1.0, acceleration: ArrayLike = 0.0, jerk: ArrayLike = 0.0
-    ) -> "Turning":
-        """From an angle and its rates, broadcast to one shape."""
-        shaped = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (angle, rate, acceleration, jerk)))
-        return cls(*shaped)
-
-    def part(self, start: int, stop: int) -> "Turning":
-        """The samples from ``start`` to before ``stop``."""
-        values = (self.angle, self.rate, self.acceleration, self.jerk)
-        return Turning(*(value[start:stop] for value in values))
-
-    def scaled(self, ratio: float) -> "Turning":
-        """The turning of a shaft that is geared to this one."""
-        return Turning(ratio * self.angle, ratio * self.rate, ratio * self.acceleration, ratio * self.jerk)
 
 
 def circle(axis: Array, start: Array, turning: Turning, order: int) -> Jet:
@@ -54,7 +26,7 @@ def circle(axis: Array, start: Array, turning: Turning, order: int) -> Jet:
 
     With w = u x X, n = u x w: X' = ω w, X'' = α w + ω² n, X''' = (j - ω³) w + 3 ω α n.
     """
-    angle = turning.angle
+    angle = turning.theta
     if axis.ndim == 1:
         axis, start = column(axis, angle[None]), column(start, angle[None])
     along = axis * dot(axis, start)
@@ -63,7 +35,7 @@ def circle(axis: Array, start: Array, turning: Turning, order: int) -> Jet:
     x = across * cos + swing * sin
     w = swing * cos - across * sin
     found = [x + along]
-    rate, acceleration, jerk = turning.rate, turning.acceleration, turning.jerk
+    rate, acceleration, jerk = turning.omega, turning.alpha, turning.jerk
     if order > 0:
         found.append(rate * w)
     if order > 1:

@@ -1,22 +1,19 @@
 """From a design table to the linkage in space: its loop, its input, the bodies and their pins."""
 
 import math
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mechwright import Array, DesignError, GeometryError
+from mechwright import Array, DesignError, GeometryError, kept
+from mechwright.contracts.motion import travelled
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning
 from mechwright_spherical.loop import Loop, State
 from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
 from mechwright_spherical.vectors import arc, cross, dot, norm, vector
-
-_CACHED = 64
-"""Linkages that are kept: checks, motion and parts ask for the same one."""
 
 
 @dataclass(frozen=True)
@@ -50,11 +47,11 @@ class Phase:
 
     def sweep(self, samples: int) -> Array:
         """Input angles (samples,) over the whole travel, rad."""
-        return np.linspace(self.start, self.start + self.travel, samples)
+        return travelled(self.travel, samples, self.start)
 
-    def state(self, samples: int, order: int = 0) -> State:
-        """The linkage over the whole travel, moved at 1 rad/s."""
-        return self.loop.at(Turning.of(self.sweep(samples)), order)
+    def state(self, samples: int) -> State:
+        """The linkage over the whole travel."""
+        return self.loop.at(Turning.of(self.sweep(samples)), 0)
 
     @property
     def at_reference(self) -> State:
@@ -87,7 +84,7 @@ class Linkage:
     four_bar: FourBar | None = None
 
 
-@lru_cache(_CACHED)
+@kept
 def linkage_of(params: SphericalParams) -> Linkage:
     """The linkage of a design, assembled or not.
 
@@ -195,17 +192,8 @@ def _four_bar(table: FourBarTable) -> Linkage:
     )
     axes = _frame(table)
     own = four_bar.loop()
-    loop = Loop(
-        axes @ own.a0,
-        axes @ own.a1,
-        axes @ own.b0,
-        axes @ own.b1,
-        0.0,
-        own.ca,
-        own.cb,
-        own.side,
-        own.point,
-    )
+    turned = {name: axes @ getattr(own, name) for name in ("a0", "a1", "b0", "b1")}
+    loop = replace(own, **turned)
     start = math.radians(table.start)
     found = [_vector(pin, "four_bar.path") for pin in table.path]
     targets = np.array(found).T.reshape(3, len(found))

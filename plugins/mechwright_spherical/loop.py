@@ -21,8 +21,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright import Array
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.chain import body_point, coordinates, frame, radicand, spin, third_pin
-from mechwright_spherical.jets import Jet, Turning, circle
+from mechwright_spherical.jets import Jet, circle
 from mechwright_spherical.vectors import arc, cross, dot
 
 BLOCK = 8192
@@ -69,10 +70,10 @@ class Loop:
 
     def at(self, turning: Turning, order: int = 3) -> "State":
         """The linkage at input angles, with ``order`` rates; NaN where it cannot be assembled."""
-        if turning.angle.ndim == 1 and turning.angle.size > BLOCK:
+        if turning.theta.ndim == 1 and turning.theta.size > BLOCK:
             blocks = [
-                self._at(turning.part(start, start + BLOCK), order)
-                for start in range(0, turning.angle.size, BLOCK)
+                self._at(turning.part(slice(start, start + BLOCK)), order)
+                for start in range(0, turning.theta.size, BLOCK)
             ]
             return State(*(_joined([getattr(block, name) for block in blocks]) for name in "abcp"))
         return self._at(turning, order)
@@ -111,11 +112,6 @@ class State:
     def coupler(self) -> tuple[Jet, Jet, Jet]:
         """The coupler's frame: A, and two vectors at right angles to it."""
         return frame(self.a, self.c)
-
-    @property
-    def rocker(self) -> tuple[Jet, Jet, Jet]:
-        """The rocker's frame: B, and two vectors at right angles to it."""
-        return frame(self.b, self.c)
 
     @property
     def coupler_spin(self) -> Jet:

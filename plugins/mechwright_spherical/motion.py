@@ -1,14 +1,18 @@
 """The motion of a design: channels, poses and figures over the travel of the phase that is shown."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, DesignError, KinematicsError, Motion, Poses, Scalar, Trace
+from mechwright import Channel, KinematicsError, Motion, Poses, Scalar, Trace
+from mechwright.mechanics.planar import Turning
+from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Jet, Turning, turning_about
+from mechwright_spherical.held import held_by
+from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
 from mechwright_spherical.mobility import mobility
@@ -25,13 +29,9 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
 
     Raises
     ------
-    DesignError
-        Fewer than two samples.
     KinematicsError
         The linkage cannot be assembled all the way, or passes a dead centre.
     """
-    if samples < 2:
-        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
     linkage = linkage_of(params)
     phase = linkage.shown
     angles = phase.sweep(samples)
@@ -48,7 +48,7 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
         )
     channels = {
         "time": Channel(np.abs((angles - angles[0]) / omega), "s"),
-        **_turning("theta", "omega", "alpha", "jerk", turning),
+        **turning_channels(turning, "theta", ""),
         **_driven(linkage, phase, state, turning),
         "transmission_angle": Channel(state.transmission, "rad"),
         **_point(state.p, params.radius),
@@ -60,27 +60,20 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     bodies["base"] = Poses(np.tile(position, (samples, 1)), np.tile(rotation, (samples, 1, 1)))
     x, y, z = bodies["coupler"].rotation[0].T @ (params.radius * np.asarray(state.p[0])[:, 0])
     traces = {"P": Trace("coupler", (float(x), float(y), float(z)))}
-    return Motion("theta", channels, bodies, _figures(params, linkage), traces)
-
-
-def _turning(angle: str, rate: str, acceleration: str, jerk: str, turning: Turning) -> dict[str, Channel]:
-    values = (turning.angle, turning.rate, turning.acceleration, turning.jerk)
-    return {
-        name: Channel(np.asarray(value), f"rad{unit}")
-        for name, value, unit in zip((angle, rate, acceleration, jerk), values, _RATES, strict=True)
-    }
+    return Motion(
+        "theta", channels, bodies, _figures(params, linkage), traces, held_by(linkage, train, params.radius)
+    )
 
 
 def _driven(linkage: Linkage, phase: Phase, state: State, turning: Turning) -> dict[str, Channel]:
     four_bar = linkage.four_bar
     if four_bar is None:
         arm = turning.scaled(phase.loop.ratio)
-        return _turning("phi", "omega_phi", "alpha_phi", "jerk_phi", arm)
+        return turning_channels(arm, "phi", "_phi")
     rates = turning_about(phase.loop.b0, state.c)
-    angle = four_bar.output_angle(turning.angle)
+    angle = four_bar.output_angle(turning.theta)
     angle = angle - math.tau * np.round(angle[0] / math.tau)
-    output = Turning(angle, rates.rate, rates.acceleration, rates.jerk)
-    return _turning("psi", "omega_psi", "alpha_psi", "jerk_psi", output)
+    return turning_channels(replace(rates, theta=angle), "psi", "_psi")
 
 
 def _point(p: Jet, radius: float) -> dict[str, Channel]:

@@ -13,10 +13,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mechwright import Array, KinematicsError
-from mechwright_spherical.planar import Complex, points
+
+Complex = NDArray[np.complex128]
+"""Points of the plane."""
 
 Equations = Literal["five", "seven"]
 """``five`` as the source counts, ``seven`` with the reference positions."""
@@ -65,6 +67,12 @@ class Dyad:
     unknowns: Array
     condition: float
     residual: float
+
+
+def points(pairs: ArrayLike) -> Complex:
+    """Complex numbers (...) from coordinates (..., 2)."""
+    pairs = np.asarray(pairs, dtype=float)
+    return np.asarray(pairs[..., 0] + 1j * pairs[..., 1])
 
 
 def crank_dyad(

@@ -13,9 +13,9 @@ from enum import Enum
 import numpy as np
 
 from mechwright import Array, KinematicsError
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.fit import assembled, fitted
-from mechwright_spherical.fivebar import AdjustableFiveBar, chord, mean
-from mechwright_spherical.jets import Turning
+from mechwright_spherical.fivebar import AdjustableFiveBar, mean
 from mechwright_spherical.vectors import column, cross, dot, norm, perpendicular
 
 _AXES = ("a0", "b0", "b1")
@@ -38,11 +38,6 @@ class Freedom(Enum):
     SIX = 6
     EIGHT = 8
     TWELVE = 12
-
-    @property
-    def unknowns(self) -> int:
-        """Number of unknowns."""
-        return self.value
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -71,17 +66,12 @@ class Fit:
         """Root mean square over all positions."""
         return float(np.sqrt(np.mean(self.errors**2)))
 
-    @property
-    def greatest(self) -> float:
-        """Greatest error of a position."""
-        return float(self.errors.max())
-
 
 def errors(mechanism: AdjustableFiveBar, path: Path) -> Array:
     """Structural errors (..., n1 + n2) of a mechanism as it is."""
     targets = path.targets
     found = mechanism.path(path.angles, path.angles_n)
-    return chord(found, targets if found.ndim == 2 else targets[:, None])
+    return norm(found - (targets if found.ndim == 2 else targets[:, None]))
 
 
 def refine(
@@ -145,7 +135,7 @@ class _Problem:
         azimuths = (0.0, float(self._start.crank_setting), 0.0, float(self._start.rocker_setting))
         arcs = float(mean(self._start.crank_arcs)), float(mean(self._start.rocker_arcs))
         x = [arcs[0], *azimuths[:2], arcs[1], *azimuths[2:]]
-        return np.array(x + [0.0] * (self._freedom.unknowns - 6))
+        return np.array(x + [0.0] * (self._freedom.value - 6))
 
     def random(self, first: Array, count: int, seed: int) -> Sequence[Array]:
         """Unknowns of random starts that can be assembled in all positions."""

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright import Array, KinematicsError
-from mechwright_spherical.fivebar import chord, projected
+from mechwright_spherical.fivebar import projected
 from mechwright_spherical.projection import project
+from mechwright_spherical.vectors import norm
 
 LONGEST = 1e4
 """Projection lengths above this, in units of the planar mechanism, are not looked at: arcs become hundredths
@@ -70,7 +71,7 @@ def errors(design: PlanarDesign, length: ArrayLike, centre: ArrayLike = (0.0, 0.
     where = np.broadcast_to(where, (*shape, 2)).reshape(-1, 2)
     mechanism = projected(design.pins, design.targets[0], d, design.ratio, centre=where)
     wanted = np.moveaxis(project(design.targets, d[:, None], centre=where[:, None]), -1, 0)
-    found = chord(mechanism.path(design.angles, design.angles_n), wanted)
+    found = norm(mechanism.path(design.angles, design.angles_n) - wanted)
     return np.asarray(found.reshape(*shape, -1))
 
 

@@ -58,9 +58,9 @@ def cut_away(text: str | Mapping[str, str], job: Job, control: Control = LINUXCN
     return proof.cut_away(scene_of(text, job, control))
 
 
-def setup_html(programs: Sequence[tuple[Job, Any, Any]], control: Control | None = None, **more: Any) -> str:
-    """The setup sheet, for the control that the first job names."""
-    return setup_sheet.setup_html(programs, control or BY_NAME[programs[0][0].settings.control], **more)
+def setup_html(job: Job, program: Any, proof: Any = None, control: Control | None = None, **more: Any) -> str:
+    """The setup sheet, for the control that the job names."""
+    return setup_sheet.setup_html(job, program, proof, control or BY_NAME[job.settings.control], **more)
 
 
 def summary_html(

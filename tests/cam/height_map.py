@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
+from numba import njit
 
 WORD = re.compile(r"([A-Z])([-+]?[0-9.]+)")
 HOME = 1e3
@@ -22,15 +23,6 @@ class Cutter:
     """Height gained per mm of radius from the tip; inf for a flat end."""
     nose: float = 0.0
     """Radius of a rounded corner."""
-
-    def end(self, square):
-        """Height of the end above the tip, at squared distances from the axis."""
-        if math.isfinite(self.cone):
-            return np.sqrt(square) * self.cone
-        if self.nose == 0:
-            return np.zeros_like(square)
-        out = np.clip(np.sqrt(square) - self.radius + self.nose, 0.0, self.nose)
-        return self.nose - np.sqrt(self.nose**2 - out**2)
 
 
 @dataclass(frozen=True)
@@ -151,35 +143,19 @@ class Simulation:
                 self._stamp(index, move, cutter, a + (b - a) * t, (b - a) / max(way, 1e-12), way / count)
 
     def _stamp(self, index, move, cutter, place, direction, way):
-        r = cutter.radius
-        i0, i1 = np.searchsorted(self.x, (place[0] - r, place[0] + r))
-        j0, j1 = np.searchsorted(self.y, (place[1] - r, place[1] + r))
-        if i0 == i1 or j0 == j1:
+        heading = math.atan2(direction[1], direction[0])
+        flat = math.hypot(direction[0], direction[1]) > 1e-6
+        shape = (cutter.radius, cutter.cone, cutter.nose)
+        at = tuple(place.tolist())
+        drop, cells, angle = _cut(
+            self.height, self.lowest, self.x, self.y, self.pitch, at, shape, heading, flat
+        )
+        if not cells:
             return
-        part = self.height[j0:j1, i0:i1]
-        square = (self.x[None, i0:i1] - place[0]) ** 2 + (self.y[j0:j1, None] - place[1]) ** 2
-        disc = square <= r * r
-        level = place[2] + cutter.end(square)
-        lowest = self.lowest[j0:j1, i0:i1]
-        hit = disc & (part > level + 1e-4) & (part > lowest + 1e-4)
-        if not hit.any():
-            return
-        floor = np.maximum(level, lowest)
-        drop = np.where(hit, np.maximum(part, lowest) - floor, 0.0)
-        volume = float(drop.clip(0).sum()) * self.pitch**2
-        flat = math.hypot(direction[0], direction[1])
-        angle, depth = 0.0, float(drop.sum() / hit.sum())
-        if flat > 1e-6:
-            heading = math.atan2(direction[1], direction[0])
-            a = heading + np.radians(np.arange(-90, 91, 3))
-            i = ((place[0] + (r - 0.3 * self.pitch) * np.cos(a) - self.x[0]) / self.pitch + 0.5).astype(int)
-            j = ((place[1] + (r - 0.3 * self.pitch) * np.sin(a) - self.y[0]) / self.pitch + 0.5).astype(int)
-            stands = np.maximum(place[2], self.lowest[j, i]) + 0.01
-            angle = 3.0 * float((self.height[j, i] > stands).sum())
+        volume = drop * self.pitch**2
         if move.kind == "rapid" and volume > 0:
             self.complaints.append(f"line {move.line}: rapid into {volume:.3f} mm³ at {place}")
-        self.met.append((index, move.tool, *place, way, volume / way, angle, depth, flat <= 1e-6))
-        part[hit] = np.broadcast_to(level, part.shape)[hit]
+        self.met.append((index, move.tool, *place, way, volume / way, angle, drop / cells, not flat))
 
     def table(self):
         return np.array(self.met, dtype=float)
@@ -202,6 +178,52 @@ class Simulation:
         shapely.prepare(region)
         inside = shapely.contains_xy(region, self.x[xx], self.y[yy])
         return np.column_stack((self.x[xx], self.y[yy]))[inside]
+
+
+@njit(cache=True, error_model="numpy")
+def _end(square, shape):
+    """Height of a cutter's end above its tip, at a squared distance from the axis."""
+    radius, cone, nose = shape
+    if math.isfinite(cone):
+        return math.sqrt(square) * cone
+    if nose == 0:
+        return 0.0
+    out = min(max(math.sqrt(square) - radius + nose, 0.0), nose)
+    return nose - math.sqrt(nose**2 - out**2)
+
+
+@njit(cache=True, error_model="numpy")
+def _cut(height, lowest, x, y, pitch, place, shape, heading, flat):
+    """Lower the cells under a cutter: the sum of their drops, their number, and the engagement ahead, degrees."""
+    r = shape[0]
+    i0, i1 = np.searchsorted(x, place[0] - r), np.searchsorted(x, place[0] + r)
+    j0, j1 = np.searchsorted(y, place[1] - r), np.searchsorted(y, place[1] + r)
+    drop, cells, angle = 0.0, 0, 0.0
+    for lower in (False, True):  # what is engaged is counted before anything is cut
+        if lower and not cells:
+            break
+        if lower and flat:
+            for degrees in range(-90, 91, 3):
+                a = heading + math.radians(degrees)
+                i = int((place[0] + (r - 0.3 * pitch) * math.cos(a) - x[0]) / pitch + 0.5)
+                j = int((place[1] + (r - 0.3 * pitch) * math.sin(a) - y[0]) / pitch + 0.5)
+                if height[j, i] > max(place[2], lowest[j, i]) + 0.01:
+                    angle += 3.0
+        for j in range(j0, j1):
+            for i in range(i0, i1):
+                square = (x[i] - place[0]) ** 2 + (y[j] - place[1]) ** 2
+                if square > r * r:
+                    continue
+                level = place[2] + _end(square, shape)
+                stands, least = height[j, i], lowest[j, i]
+                if stands <= level + 1e-4 or stands <= least + 1e-4:
+                    continue
+                if lower:
+                    height[j, i] = level
+                    continue
+                cells += 1
+                drop += stands - max(level, least)
+    return drop, cells, angle
 
 
 def cutters(job):

@@ -169,6 +169,8 @@ def leftover(job: Job, program: Program, thickness: float = 0.010) -> float:
                         lines.append(shapely.Point(motion.points[1, :2]))
                 elif deep.all():
                     lines.append(shapely.LineString(motion.points[:, :2]))
+            shapely.prepare(todo)
+            lines = [line for line in lines if todo.dwithin(line, tool.radius + 1e-3)]
             swept = shapely.union_all(shapely.buffer(lines, tool.radius + 1e-4, quad_segs=64))
             todo = todo.difference(swept)
         area += todo.buffer(-thickness / 2, quad_segs=4).area

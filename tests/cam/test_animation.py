@@ -18,7 +18,7 @@ from mechwright.contracts.part import Instance, Part, Pocket
 from mechwright.designs.design import load
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.plugins.host import host
-from mechwright_cad.animation import motion_html, page_of
+from mechwright_cad.animation import motion_html
 from mechwright_cad.animation.figures import significant
 from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
 from mechwright_cad.animation.space import SURFACE_CHORD
@@ -32,6 +32,11 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 
 def data_of(page):
     return json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
+
+
+def page_of(name, family, params):
+    motion = family.solve(params, PAGE_SAMPLES)
+    return motion_html(name, family.title, family.parts(params), motion, solids=False)
 
 
 def about(axis, angle):
@@ -64,7 +69,7 @@ def polygon_of(path):
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_has_a_page_that_agrees_with_its_motion(path):
     design = load(path, host())
-    page = page_of(design.name, design.family, design.params, solids=False)
+    page = page_of(design.name, design.family, design.params)
     assert len(page) < SIZE
     found = data_of(page)
     motion = design.family.solve(design.params, PAGE_SAMPLES)
@@ -222,7 +227,7 @@ def test_no_name_ends_the_element_it_stands_in_and_gaps_stay_gaps():
 
 def test_the_page_needs_nothing_else_and_is_the_same_every_time():
     family = host().family("geneva")
-    pages = [page_of("one", family, family.Params(), solids=False) for _ in range(2)]
+    pages = [page_of("one", family, family.Params()) for _ in range(2)]
     assert pages[0] == pages[1]
     assert set(re.findall(r"https?://[^\s\"']*", pages[0])) == {"http://www.w3.org/2000/svg"}
     assert not re.search(r"<(link|img|iframe|script src)", pages[0])
@@ -265,7 +270,7 @@ def test_a_browser_runs_the_page_without_a_complaint(stem, at, tmp_path):
         page = motion_html("none", "", [], motion, solids=False)
     else:
         design = load(EXAMPLES[[path.stem for path in EXAMPLES].index(stem)], host())
-        page = page_of(design.name, design.family, design.params, solids=False)
+        page = page_of(design.name, design.family, design.params)
     file = tmp_path / "motion.html"
     file.write_text(page)
     done = subprocess.run(

@@ -16,7 +16,7 @@ from mechwright.build import Build
 from mechwright.cli.app import make_app
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.finding import errors
-from mechwright.contracts.sections import volume
+from mechwright.contracts.moments import volume
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.errors import DesignError, GeometryError

@@ -48,7 +48,7 @@ def made(control, **settings):
 def pages(one, control, table=""):
     proof = one.proof.as_dict()
     rows = [(one.job, one.program, proof)]
-    return setup_html(rows, control, tool_table=table), summary_html(
+    return setup_html(*rows[0], control, tool_table=table), summary_html(
         rows, control, name="job", tool_table=table
     )
 
@@ -88,7 +88,7 @@ def test_the_word_that_writes_a_length_is_the_control_s(word: str) -> None:
 
     job = plate_job(machine={"retract_z": -2})
     tools = tuple(tool.model_copy(update={"length": 77.5}) for tool in job.tools)
-    page = setup_html([(replace(job, tools=tools), made(Grbl()).program, None)], Lengthless())
+    page = setup_html(replace(job, tools=tools), made(Grbl()).program, None, Lengthless())
     assert (f"are in the program ({word})" in page) == bool(word)
     assert ("touched off one by one" in page) == (not word)
 

@@ -348,7 +348,7 @@ def test_a_d_number_of_its_own() -> None:
 @pytest.mark.parametrize("way", WAYS)
 def test_the_sheet_says_what_to_type(way: str) -> None:
     one = sample(way)
-    page = setup_html([(one, plan(one), None)])
+    page = setup_html(one, plan(one), None)
     first = "6.000, the diameter" if way == "control" else "0.000, the wear on the diameter"
     assert f"<b>D24</b> = {first}" in page
     assert "Set D, and bring the part to size" in page
@@ -366,8 +366,8 @@ def test_sheets_name_the_d_that_a_tool_has_and_only_those_in_use() -> None:
         whole = summary_html(rows, name="job")
         assert ("D74" in whole) == shown
         assert "D24" not in whole
-        assert ("H24<br>D74" in setup_html(rows)) == shown
-        assert "H9<" in setup_html(rows)
+        assert ("H24<br>D74" in setup_html(*rows[0])) == shown
+        assert "H9<" in setup_html(*rows[0])
     by_hand = replace(one, settings=one.settings.model_copy(update={"control": "grbl"}))
     assert "H24" not in summary_html([(by_hand, plan(by_hand), None)], name="job")
 
@@ -376,11 +376,11 @@ def test_sheets_name_the_d_that_a_tool_has_and_only_those_in_use() -> None:
 def test_the_sheet_says_how_the_control_adds_d_up_and_that_its_table_is_a_program(control, setting) -> None:
     one = sample("wear")
     one = replace(one, settings=one.settings.model_copy(update={"control": control}))
-    page = setup_html([(one, plan(one), None)], tool_table="tool-offsets.nc")
+    page = setup_html(one, plan(one), None, tool_table="tool-offsets.nc")
     assert setting in page
     assert "enter the planned value as geometry, with wear 0" in page
     assert "tool-offsets.nc is a program: run it once for new cutters" in page
-    assert "geometry" not in setup_html([(sample("wear"), plan(sample("wear")), None)])
+    assert "geometry" not in setup_html(sample("wear"), plan(sample("wear")), None)
 
 
 def test_pictures_and_reach_follow_the_centre_of_the_cutter() -> None:

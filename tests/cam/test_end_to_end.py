@@ -18,7 +18,7 @@ from step_read import read_step_outline
 from test_rs274 import LAST_DECIMAL, distinct, our_ends
 
 from mechwright.build import Build
-from mechwright.contracts.finding import errors
+from mechwright.contracts.finding import Stage, errors
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
 from mechwright.plugins.host import host
@@ -269,7 +269,7 @@ def test_a_random_design_is_proven_or_refused_by_name(parameters: dict, cam: dic
     params = family.Params.model_validate(parameters)
     base = load(EXAMPLE, host())
     design = with_cam(replace(base, params=params), CamSettings.model_validate(cam))
-    found = errors(family.check(params))
+    found = errors(family.check(params), Stage.PARTS)
     if found:
         with pytest.raises(MechwrightError):
             family.parts(params)

@@ -14,7 +14,7 @@ from mechwright_cam.exactness import LIKELY, settled
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Scene
-from mechwright_cam.proof.corridor import path_tolerance
+from mechwright_cam.proof.cutting_state import path_tolerance
 from mechwright_cam.proof.off_path import deepest_off_path, too_deep
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.posting import Posting

@@ -21,8 +21,7 @@ from machine_programs import (
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.machine_moves import machine_moves
-from mechwright_cam.proof.machine_rules import positions
+from mechwright_cam.proof.machine_rules import machine_moves, positions
 
 ASIDE = (
     *("G53 G0 X0. Y0.", "G0 G53 X10.", "G53 G0 Y-5.", "G53 G1 X0. F500.", "G53 G0 X0. Y0. Z-2."),

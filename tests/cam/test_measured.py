@@ -33,6 +33,6 @@ def wide():
     ],
 )
 def test_programs_share_a_measured_place_only_where_it_fits_both(jobs, severity) -> None:
-    found = check_measured(jobs)
+    found = list(check_measured(jobs))
     assert [finding.severity for finding in found] == ([severity] if severity else [])
     assert all(f.remedy.startswith("measure plate for itself in [cam.part.plate.measured]") for f in found)

@@ -26,9 +26,8 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
-from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
-from mechwright_cam.planning.prepare import parts_as_cut, plates, prepare
+from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, prepare
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
 from mechwright_cam.shop.settings import CamSettings

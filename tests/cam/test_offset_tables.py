@@ -8,7 +8,7 @@ from machine_programs import CONTROLS, LENGTHS, at_the_end, job_of, judged, refu
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.tables import offset_tables
+from mechwright_cam.proof.offset_rules import offset_tables
 
 OFFSETS = (
     *((control, "G57") for control in CONTROLS),

@@ -20,7 +20,7 @@ from mechwright.contracts.part import Bore, OpenProfile, Part, Profile
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line
 from mechwright_cad.exporters import dxf
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import moved_feature
@@ -129,13 +129,13 @@ def test_a_groove_through_the_plate():
 
 
 def test_a_groove_narrower_than_every_cutter_is_refused():
-    found = check_tools(opened("on", 2.5), CamSettings(tools=("mill-6",)), LIBRARY)
+    found = lay_out(opened("on", 2.5), CamSettings(tools=("mill-6",)), LIBRARY)[1]
     assert any("no listed end mill enters open" in finding.message for finding in found)
 
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_solid_and_drawing_follow_from_the_feature(name):
-    from mechwright.contracts.sections import volume
+    from mechwright.contracts.moments import volume
     from mechwright_cad.solids.solid import part_solid
 
     of = opened(*LIMITS[name])

@@ -15,7 +15,7 @@ from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.geometry.lettering import LETTERS, lettering
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.proof.details import deepest_in_fillet
 from mechwright_cam.proof.fillets import fillets
@@ -181,7 +181,7 @@ def test_tools_for_details_are_chosen():
 def test_what_no_tool_makes_is_refused(detail, tools, message):
     with pytest.raises(ToolError, match=message):
         plan(job(detailed(detail), *tools))
-    found = check_tools(detailed(detail), CamSettings(tools=tools), LIBRARY)
+    found = lay_out(detailed(detail), CamSettings(tools=tools), LIBRARY)[1]
     assert any(message in finding.message for finding in found)
 
 

@@ -15,15 +15,16 @@ from planning_parts import LIBRARY, bore, job, plate, rounded_box
 from planning_simulation import check_rules, gouge, leftover
 from random_parts import run
 
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.contracts.sections import sections, volume
+from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line, Loop, circle
 from mechwright.geometry.trim import stretches, trimmed
 from mechwright_cad.exporters import dxf
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.pages.picture import plan_view
-from mechwright_cam.planning import check_tools, choose_tools, plan
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 
@@ -140,7 +141,7 @@ def test_the_program_with_the_groove_gouges_the_plain_part():
 
 def test_a_recess_beside_the_plate_is_refused():
     of = recessed(Pocket("lost", box(40, -5, 50, 5), (), 0, 2))
-    found = check_tools(of, CamSettings(), LIBRARY)
+    found = lay_out(of, CamSettings(), LIBRARY)[1]
     assert any("lost takes nothing of the plate" in finding.message for finding in found)
 
 
@@ -153,7 +154,7 @@ def test_a_narrow_recess_has_a_mill_chosen_for_it():
 
 def test_a_slot_narrower_than_every_cutter_is_refused():
     of = recessed(Pocket("slit", box(-40, -1.3, 40, 1.3), (), 0, 1))
-    found = check_tools(of, CamSettings(tools=("mill-6",)), LIBRARY)
+    found = lay_out(of, CamSettings(tools=("mill-6",)), LIBRARY)[1]
     assert any("no listed end mill enters slit" in finding.message for finding in found)
 
 

@@ -11,7 +11,7 @@ from mechwright.contracts.part import Pocket, Profile
 from mechwright_cam.operations.bending import deflection
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.pages.setup_sheet.facts import describe
-from mechwright_cam.planning import check_tools, plan
+from mechwright_cam.planning import lay_out, plan
 from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.machine import Machine
@@ -23,7 +23,7 @@ DEEP = 5 * MILL.diameter
 
 
 def codes(tool, thickness=10.0, **of):
-    found = check_tools(plate(thickness=thickness, **of), CamSettings(tools=(tool.name,)), Library((tool,)))
+    found = lay_out(plate(thickness=thickness, **of), CamSettings(tools=(tool.name,)), Library((tool,)))[1]
     return {finding.code for finding in found}
 
 
@@ -56,7 +56,7 @@ def test_a_fine_cutter_is_slender_only_where_it_cuts():
     def said(depth):
         recess = Pocket("mark", rounded_box(14, 10, 1.05), (), 0.0, depth)
         of = part(rounded_box(60, 40, 6), thickness=12.0, machined=(recess, outside))
-        chosen = check_tools(of, CamSettings(tools=("mill-6", "mill-2")), LIBRARY)
+        chosen = lay_out(of, CamSettings(tools=("mill-6", "mill-2")), LIBRARY)[1]
         return [f.message for f in chosen if f.code in {"cam.slender", "cam.deflection"}]
 
     assert said(1.0) == [], "it marks the top face, and does not cut through 12 mm of plate"

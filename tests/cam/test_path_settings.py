@@ -77,9 +77,12 @@ def test_walls_lie_between_their_tolerances(inner, outer):
     shapely.prepare(keep)
     cuts = [m for m in motions(program, 0.02) if m.kind != "rapid" and "outside" in m.operation]
     ways = shapely.linestrings([p for m in cuts for p in np.stack((m.points[:-1, :2], m.points[1:, :2]), 1)])
-    near = shapely.dwithin(keep, ways, radius + 0.1)
-    deepest = radius - float(shapely.distance(ways[near], keep).min())
-    assert deepest <= inner + DIGITS
+    near = ways[shapely.dwithin(keep, ways, radius + 0.1)]
+    assert not shapely.intersects(keep, near).any()
+    edges = shapely.get_coordinates(shapely.boundary(keep))
+    edges = shapely.STRtree(shapely.linestrings(np.stack((edges[:-1], edges[1:]), 1)))
+    _, away = edges.query_nearest(near, return_distance=True, all_matches=False)
+    assert radius - away.min() <= inner + DIGITS
     wall = shapely.boundary(closing(keep, radius + of.settings.path.bias))
     points = shapely.points(shapely.get_coordinates(shapely.segmentize(wall, 0.05)))
     _, away = shapely.STRtree(ways).query_nearest(points, return_distance=True, all_matches=False)

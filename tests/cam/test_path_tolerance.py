@@ -14,7 +14,7 @@ from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.corridor import ADVICE, LOOSEST, path_tolerance
+from mechwright_cam.proof.cutting_state import ADVICE, LOOSEST, path_tolerance
 from mechwright_cam.proof.part_rules import gouge
 
 OWN = "G64 P0.002 Q0\n"

@@ -6,7 +6,7 @@ from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright.geometry import Loop
 from mechwright_cam.planning import plan
-from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.prepare import cut_outlines
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Pause, Rapid
 from mechwright_cam.setup.lay_out import make_job
 

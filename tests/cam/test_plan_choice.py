@@ -11,8 +11,10 @@ from planning_simulation import check_rules, gouge, leftover
 from mechwright.contracts.finding import Severity
 from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.geometry import Loop
-from mechwright_cam.plane.reach import closing, remainder, unreachable
-from mechwright_cam.planning import check_tools, choose_tools, lay_out, plan
+from mechwright_cam.operations.choice import roomy_mills
+from mechwright_cam.operations.recess import without_skin
+from mechwright_cam.plane.reach import closing, remainder
+from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
@@ -29,9 +31,27 @@ def test_closing_of_a_square_corner():
             (1 - math.pi / 4) * radius**2, rel=1e-3, abs=1e-3
         )
         assert remainder(corner, radius) == pytest.approx((math.sqrt(2) - 1) * radius, abs=3e-4)
-    spots = unreachable(corner, 3.0, 0.01)
-    assert len(spots) == 1
-    assert spots[0].place == (5, 5)
+
+
+def test_mills_with_room_for_chips_are_at_most_seven_tenths_of_the_width():
+    mills = [tool for tool in LIBRARY.tools if tool.kind is ToolKind.END_MILL and tool.nose == 0]
+    mills.sort(key=lambda mill: -mill.diameter)
+    for width in (1.2, 4.0, 6.0, 10.0, 17.5):
+        room = [mill for mill in mills if mill.diameter <= 0.7 * width]
+        slot = shapely.box(0, 0, 3 * width, width)
+        assert roomy_mills(mills, slot) == (room or mills[-1:])
+        assert roomy_mills(mills, shapely.MultiPolygon([slot, shapely.box(90, 0, 90.5, 9)])) == (
+            room or mills[-1:]
+        )
+
+
+def test_a_recess_that_ends_at_the_edge_leaves_no_skin():
+    sharp = shapely.Polygon([(0, 0), (30, 0), (0, 0.01)])
+    keep = shapely.union_all([shapely.box(0, -9, 30, 0), sharp, shapely.box(0, 5, 30, 5 + 1e-5)])
+    for looked_at in (False, True):
+        left = without_skin(keep, looked_at=looked_at)
+        assert left.bounds[3] <= 0.011
+        assert left.area == pytest.approx(270, abs=0.2)
 
 
 def test_remainder_in_a_round_fillet():
@@ -70,7 +90,7 @@ def test_choice_by_corners_and_thickness():
 
 
 def test_findings():
-    assert check_tools(plate(bore(12)), CamSettings(), LIBRARY) == []
+    assert lay_out(plate(bore(12)), CamSettings(), LIBRARY)[1] == []
     narrow = plate(Loop.polygon([(-10, -1), (-10, 1), (10, 1), (10, -1)]))
     for of, changes, code, parameter in (
         (plate(bore(3)), {"tools": ["mill-6"]}, "cam.cannot-cut", "cam.tools"),
@@ -95,11 +115,11 @@ def test_findings():
         (narrow, {}, "cam.unreachable", "cam.tools"),
         (plate(bore(3), thickness=12), {"tools": ["mill-2", "mill-6"]}, "cam.cannot-cut", "cam.tools"),
     ):
-        found = check_tools(of, CamSettings.model_validate(changes), LIBRARY)
+        found = lay_out(of, CamSettings.model_validate(changes), LIBRARY)[1]
         assert (code, parameter) in [(f.code, f.parameter) for f in found], (changes, found)
         if code == "cam.cannot-cut":
             assert [f.severity for f in found if f.code == code] == [Severity.ERROR]
-    note = check_tools(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)
+    note = lay_out(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)[1]
     assert [f.code for f in note] == ["cam.slender", "cam.deflection"]
 
 
@@ -144,7 +164,7 @@ def test_any_part_is_cut_or_refused(
     assert leftover(job, program) == 0
     check_rules(job, program)
     if not named:  # every cutter that was chosen has something to do
-        assert "cam.tool-unused" not in [f.code for f in check_tools(of, wanted, LIBRARY)]
+        assert "cam.tool-unused" not in [f.code for f in lay_out(of, wanted, LIBRARY)[1]]
 
 
 @pytest.mark.parametrize("method", ["tabs", "bore"])

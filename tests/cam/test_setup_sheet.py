@@ -30,12 +30,13 @@ PROOF = {
     "leftover_reachable_max_mm": 0.0034,
     "unreachable_area_mm2": 0.127,
     "rapids_in_stock": 0,
-    "unreachable": [{"x": 12.5, "y": -3.25, "depth_mm": 0.0221, "area_mm2": 0.0635}],
+    "unreachable": [{"x": 12.5, "y": -3.25, "depth": 0.0221, "area": 0.0635}],
     "checks": {
         "gouge": {"passed": True, "message": "no cut into the part"},
         "length-offset": {"passed": True, "message": "G43 after every tool change"},
     },
     "time_estimate_s": 754.0,
+    "tool_times_s": {"4": 20.0, "7": 700.0},
     "operations": [
         {"name": "holes", "tool": 4, "time_s": 20.0, "cutting_mm": 11.0},
         {"name": "outside", "tool": 7, "time_s": 700.0, "cutting_mm": 5000.0},
@@ -68,7 +69,7 @@ def ending(suffix):
 
 
 def sheet(job, program, proof, **files):
-    return setup_html([(job, program, proof)], **files)
+    return setup_html(job, program, proof, **files)
 
 
 class Text(HTMLParser):
@@ -185,19 +186,6 @@ def test_text_of_a_design_file_is_only_text():
     assert found.text.count(evil) == 8
 
 
-def test_several_programs_have_an_index_and_a_sheet_each():
-    other = replace(program(), name="hub")
-    part = replace(job().part, name="hub")
-    failed = {"ok": False, "time_estimate_s": 61.0}
-    rows = [(job(), program(), PROOF), (replace(job(), part=part), other, failed)]
-    page = setup_html(rows, ending(".tap"))
-    found = read(page)
-    assert "wheel wheel.tap proven 2 12 min 34 s hub hub.tap FAILED 2 1 min 01 s" in found.text
-    names = [attributes["id"] for tag, attributes in found.tags if "id" in attributes]
-    assert names == ["wheel", "wheel-t7", "hub", "hub-t7"]
-    assert found.text.count("Setting up") == 2
-
-
 def test_as_many_as_the_mechanism_needs():
     instances = (Instance("driver"), Instance("driven"))
     pair = replace(job(), part=replace(job().part, instances=instances))
@@ -267,7 +255,7 @@ def test_origin_words():
 
 def test_plan_view_is_to_scale():
     placed = job(slotted_plate(), origin="corner", stock={"length": 90, "width": 66})
-    root = ElementTree.fromstring(plan_view(placed, program(), [(3.0, 4.0)]))  # noqa: S314 - our own
+    root = ElementTree.fromstring(plan_view(placed, program(), trace(program()), [(3.0, 4.0)]))  # noqa: S314 - our own
     rect = root.find(f"{SVG}rect")
     assert [float(rect.get(key)) for key in ("x", "y", "width", "height")] == [0, -66, 90, 66]
     words = [text.text for text in root.iter(f"{SVG}text")]
@@ -287,7 +275,7 @@ def test_passes_over_one_another_are_drawn_once():
     views = []
     for moves in (once, again):
         made = Program("wheel", "G54", 5.0, (ToolSection(MILL, 1, "off", (Operation("o", moves),)),))
-        root = ElementTree.fromstring(plan_view(job(), made))  # noqa: S314 - our own
+        root = ElementTree.fromstring(plan_view(job(), made, trace(made)))  # noqa: S314 - our own
         views.append(root.find(f"{SVG}defs/{SVG}path").get("d"))
     assert views[0] == views[1] == "M0,0L10,0L10,-10"
 

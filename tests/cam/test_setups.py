@@ -379,7 +379,7 @@ def test_both_sides_are_found_from_the_same_two_edges_of_a_plate_of_any_size(fli
     assert not errors(found)
     corner = turned_shape(shapely.Point(jobs[0].datum), *jobs)
     assert (corner.x, corner.y) == pytest.approx(jobs[1].datum)
-    page = setup_html([(jobs[1], plan(jobs[1]), None)])
+    page = setup_html(jobs[1], plan(jobs[1]), None)
     assert ("Left edge of stock", "Right edge of stock")[flip == "y"] in page
     assert "part 60" not in page, "the part is not what the plate has turned into"
 
@@ -412,8 +412,8 @@ def test_every_turned_plate_is_picked_up_but_on_dowels() -> None:
 
 def test_the_picture_of_the_underside_shows_what_is_gone() -> None:
     _, second = counterbored()
-    page = setup_html([(second.job, second.program, second.proof.as_dict())])
+    page = setup_html(second.job, second.program, second.proof.as_dict())
     assert "its frame, turned over" in page
-    without = setup_html([(replace(second.job, gone=()), second.program, None)])
+    without = setup_html(replace(second.job, gone=()), second.program, None)
     assert page.count('fill="#ffffff" fill-rule="evenodd"') == 1
     assert 'fill="#ffffff" fill-rule="evenodd"' not in without

@@ -22,8 +22,7 @@ def page(control: str, **settings: object) -> str:
     made = machine(
         job(plate(bore(12.0)), "drill-8", "mill-6", control=control, **settings), host().get(Control, control)
     )
-    files = {made.program.name: list(made.files)}
-    return setup_html([(made.job, made.program, made.proof.as_dict())], files=files)
+    return setup_html(made.job, made.program, made.proof.as_dict(), files=list(made.files))
 
 
 def test_offsets_that_are_known_stand_on_the_sheet() -> None:
@@ -78,7 +77,7 @@ def test_no_clamp_where_cutters_run() -> None:
     edge = 30 + 2 * MILL.radius + 0.001
     assert (x0, x1) == pytest.approx((-edge, edge))
     assert (y0, y1) == pytest.approx((-edge + 10, edge - 10))
-    found = setup_html([(plate_job(), program, None)])
+    found = setup_html(plate_job(), program, None)
     assert "Cutters run from X −36.0 to +36.0 and Y −26.0 to +26.0" in found
 
 

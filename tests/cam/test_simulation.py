@@ -139,9 +139,7 @@ def test_the_setup_sheet_has_picture_and_loads() -> None:
     made = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LinuxCnc())
     seen = simulated(made.text, made.job)
     proof = {**made.proof.as_dict(), "simulation": seen.as_dict()}
-    page = setup_html(
-        [(made.job, made.program, proof)], pictures={made.program.name: simulated_view(seen, made.job)}
-    )
+    page = setup_html(made.job, made.program, proof, picture=simulated_view(seen, made.job))
     assert "data:image/png;base64," in page
     assert "feed in air" in page
     assert "Thickest<br>chip" in page

@@ -7,7 +7,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_cam.operations.slots import FILLS, fills_a_slot
+from mechwright_cam.operations.channel import FILLS, fills_a_slot
 from mechwright_cam.plane.offsets import BIAS, ROUGH, grow, simplified, thinned
 from mechwright_cam.plane.reach import (
     ROUGHLY,

@@ -22,7 +22,7 @@ from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.table import BUILT_IN, asked
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.planning import Assignments, choose_tools, plan
-from mechwright_cam.planning.cut import cut_outlines
+from mechwright_cam.planning.prepare import cut_outlines
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 

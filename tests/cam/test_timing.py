@@ -137,7 +137,7 @@ def test_minutes_in_cut_and_the_life_of_a_tool() -> None:
     cutting = made.proof.tool_cutting_s
     times = made.proof.tool_times_s
     assert all(0 < cutting[number] < times[number] for number in cutting if number)
-    page = setup_html([(made.job, made.program, made.proof.as_dict())])
+    page = setup_html(made.job, made.program, made.proof.as_dict())
     assert "in cut" in page
     assert "of a life of" not in page
     worn = made.program.sections[-1].tool
@@ -145,6 +145,6 @@ def test_minutes_in_cut_and_the_life_of_a_tool() -> None:
         type(s)(s.tool.model_copy(update={"life": 30.0}), s.spindle, s.coolant, s.operations)
         for s in made.program.sections
     )
-    page = setup_html([(made.job, type(made.program)("plate", "G54", 5.0, sections), made.proof.as_dict())])
+    page = setup_html(made.job, type(made.program)("plate", "G54", 5.0, sections), made.proof.as_dict())
     share = 100 * cutting[worn.number] / 60 / 30
     assert f"of a life of 30 min ({share:.0f} %)" in page

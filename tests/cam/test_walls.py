@@ -114,12 +114,14 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
     assert large == pytest.approx(10 * small)
     assert f"{small:.0f}"[0] in "125"
     page = setup_html(
-        [(of, program, {"ok": True, "walls": walls.as_dict(), "simulation": {"air_mm": 1, "feed_mm": 2}})],
-        deviations={program.name: view},
+        of,
+        program,
+        {"ok": True, "walls": walls.as_dict(), "simulation": {"air_mm": 1, "feed_mm": 2}},
+        deviation=view,
     )
     assert view in page
     assert "cut into the part" not in page.split("<h2>What the proof found</h2>")[1].split("<table>")[1]
-    bare = setup_html([(of, program, {"ok": True})])
+    bare = setup_html(of, program, {"ok": True})
     assert "The walls after the program" in page
     asked = "cut at most {} mm too deep and to leave at most\n{} mm"
     assert asked.format(0.001, 0.004) in page
@@ -127,9 +129,7 @@ def test_the_picture_exaggerates_by_round_numbers_and_marks_the_worst():
         of,
         settings=CamSettings.model_validate({"path": {"inner_tolerance": 0.003, "outer_tolerance": 0.008}}),
     )
-    assert asked.format(0.003, 0.008) in setup_html(
-        [(wide, program, {"ok": True})], deviations={program.name: view}
-    )
+    assert asked.format(0.003, 0.008) in setup_html(wide, program, {"ok": True}, deviation=view)
     assert "The walls after the program" not in bare
 
 

@@ -4,6 +4,7 @@ import os
 import signal
 import sys
 import time
+from contextlib import closing
 
 import pytest
 
@@ -21,7 +22,7 @@ HERE = os.getpid()
 
 
 def test_a_call_runs_in_another_process_that_has_the_modules_already():
-    with Beside(["colorsys", "no_such_module"]) as second:
+    with closing(Beside(["colorsys", "no_such_module"])) as second:
         second.ask(eval, "__import__('os').getpid(), 'colorsys' in __import__('sys').modules")
         process, imported = second.result(tuple)
     assert process != HERE
@@ -42,7 +43,7 @@ WHERE = "__import__('os').getpid()"
     ids=["dies", "raises", "another-type", "no-copy"],  # the process number is another at every run
 )
 def test_what_goes_wrong_there_is_done_here(fault):
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         second.ask(eval, fault)
         assert second.result(int) == HERE
 
@@ -50,25 +51,25 @@ def test_what_goes_wrong_there_is_done_here(fault):
 @pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no way to stop a process here")
 def test_a_long_request_and_a_long_answer_do_not_wait_for_each_other():
     long = b"x" * 3_000_000
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         # Asking returns though nobody reads: the other end is stopped, as it is by a long import.
         second._process.send_signal(signal.SIGSTOP)
         second.ask(bytes.upper, long)
         second._process.send_signal(signal.SIGCONT)
         assert second.result(bytes) == long.upper()
-    with Beside([]) as second:  # ended before it has read what it is sent
+    with closing(Beside([])) as second:  # ended before it has read what it is sent
         second.ask(bytes.upper, long)
 
 
 def test_an_error_is_told_as_if_there_were_no_second_process():
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         second.ask(int, "twelve")
         with pytest.raises(ValueError, match="twelve"):
             second.result(int)
 
 
 def test_what_cannot_be_copied_is_done_here():
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         second.ask(lambda: os.getpid())
         assert second.result(int) == HERE
 
@@ -76,14 +77,14 @@ def test_what_cannot_be_copied_is_done_here():
 @pytest.mark.parametrize("executable", ["", "/nowhere/python"])
 def test_where_no_process_can_be_started_all_is_done_here(executable, monkeypatch):
     monkeypatch.setattr(sys, "executable", executable)
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         second.ask(os.getpid)
         assert second.result(int) == HERE
 
 
 def test_the_second_interpreter_ends_with_its_caller_and_at_once():
     start = time.perf_counter()
-    with Beside([]) as second:
+    with closing(Beside([])) as second:
         second.ask(time.sleep, 60)
         process = second._process
     assert process.returncode is not None
@@ -181,7 +182,7 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
     with pair(tmp_path, "model", ("step", "stl")) as build:
         motion, sample = build.pose
         exporters = [build.host.get(Exporter, name) for name in ("step", "stl")]
-        with Beside([]) as second:
+        with closing(Beside([])) as second:
             second.ask(compared_and_made, Work(build.design, exporters, motion, sample))
             findings, files = second.result(tuple)
         solids = build.made(Solids)

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from mechwright.contracts.details import Chamfer
 from mechwright.contracts.edges import deburred
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright.mechanics.linkage import Boss, hull_link

@@ -7,8 +7,9 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Feature, Part, Pocket, Profile
-from mechwright.contracts.sections import sections, volume, walls
+from mechwright.contracts.sections import sections, walls
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 

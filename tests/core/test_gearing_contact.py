@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from mechwright.mechanics.gearing.contact import depths
 from mechwright.mechanics.gearing.crossings import turns_to_edges
-from mechwright.mechanics.gearing.penetration import depths
 
 
 def test_turns_to_the_edges_of_a_wedge():

@@ -1,17 +1,17 @@
 """Holes that are threaded, or made to a fit."""
 
 import math
+from typing import get_args
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.details import Thread
-from mechwright.contracts.fits import CLASSES, hole_fit
-from mechwright.contracts.holes import CLEARANCE, fitted, hole, joined, threaded
+from mechwright.contracts.fits import HoleClass, hole_fit
+from mechwright.contracts.holes import CLEARANCE, COARSE, fitted, hole, joined, metric, threaded
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.contracts.sections import volume
-from mechwright.contracts.threads import COARSE, metric
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop, Outline, circle
 
@@ -54,7 +54,7 @@ def test_every_coarse_thread_goes_into_holes_from_its_core_to_its_clearance(nomi
     assert volume(part) == pytest.approx(80 * 60 * thickness - taken, rel=1e-6)
 
 
-@given(size=st.integers(1, 40), name=st.sampled_from(CLASSES))
+@given(size=st.integers(1, 40), name=st.sampled_from(get_args(HoleClass)))
 def test_a_fit_makes_the_middle_of_its_tolerance(size, name):
     part = fitted(plate(float(size)), "bore-1", name)
     fit = hole_fit(size, name)

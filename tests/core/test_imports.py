@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import mechwright
-from mechwright.testing.imports import HEAVY
+from mechwright.testing.commands import HEAVY
 
 ALLOWED_IN_TESTING = {"hypothesis", "pytest"}
 

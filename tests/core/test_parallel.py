@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread, band_of, chamfer_lines
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Part, Profile
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.geometry.parallel import Parallel

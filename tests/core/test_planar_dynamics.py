@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from planar_circles import in_body
 
 from mechwright.errors import KinematicsError
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
@@ -117,7 +118,7 @@ def test_power_is_virtual_power():
         bodies = {link.name: link.motion for link in links}
         for load in loads:
             body = bodies[load.body]
-            velocity = body.point(body.to_body(load.place)).velocity
+            velocity = body.point(in_body(body, load.place)).velocity
             power -= np.real(np.conj(load.force) * velocity) + load.moment * body.turning.omega
         assert found.drive * 10.0 == pytest.approx(power, rel=1e-10)
 

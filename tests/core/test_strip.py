@@ -8,8 +8,9 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, OpenProfile, Part, Pocket, Profile
-from mechwright.contracts.sections import sections, volume
+from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.geometry.strip import strip

@@ -14,6 +14,7 @@ from pydantic import Field
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Instance, Profile
@@ -249,6 +250,12 @@ def test_poses():
         poses = motion.poses["disc"]
         return dataclasses.replace(motion, poses={"disc": Poses(poses.position * np.nan, poses.rotation)})
 
+    def held(one, **how):
+        shaft = Joint("revolute", GROUND, "disc", **how)
+        return with_motion(lambda motion, _: dataclasses.replace(motion, joints={one: shaft}))
+
+    run(held("shaft", drives=True), "test_poses")
+    assert_refused(held("rim", point=(5.0, 0.0, 0.0)), "test_poses", "joint rim: its point comes apart by")
     assert_refused(with_motion(mirror), "test_poses", "body disc: sample 0 is no rotation")
     assert_refused(with_motion(stretch), "test_poses", "body disc: sample 0 is no rotation")
     assert_refused(with_motion(lose), "test_poses", "body disc")

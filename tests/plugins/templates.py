@@ -58,9 +58,3 @@ def passed(installed, copy):
     done = run(["-m", "pytest", *config, copy / "tests"], installed, cwd=copy)
     assert done.returncode == 0, done.stdout + done.stderr
     return int(re.search(r"(\d+) passed", done.stdout)[1])
-
-
-def assert_typed(installed, copy):
-    # From the copy, so that the settings of this project do not decide.
-    done = run(["-m", "mypy", "--strict", "--cache-dir", os.devnull, copy / "src"], installed, cwd=copy)
-    assert done.returncode == 0, done.stdout + done.stderr

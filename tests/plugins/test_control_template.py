@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from templates import EXAMPLES, answer, assert_typed, copied, installed_into, passed, run
+from templates import EXAMPLES, answer, copied, installed_into, passed, run
 
 ASK = """
 import json
@@ -44,11 +44,6 @@ def test_the_control_is_one_file_and_a_registration(copy):
 def test_its_own_tests_pass(installed, copy):
     # The contract alone brings more than twenty tests; fewer would mean that it was not collected.
     assert passed(installed, copy) > 25
-
-
-def test_its_types_are_right(installed, copy):
-    pytest.importorskip("mypy", reason="mypy is not installed")
-    assert_typed(installed, copy)
 
 
 def test_a_design_file_names_it_and_program_offsets_and_sheets_are_its_own(installed, tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mechwright.contracts.finding import Severity
+from mechwright.contracts.finding import Severity, Stage
 from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, backlash_of, least_backlash
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.gear import outline_of, rack_of
@@ -70,12 +70,14 @@ def test_pairs_as_made_turn_with_the_default_and_jam_with_less(e, teeth):
     ],
     ids=str,
 )
-def test_too_little_backlash_is_a_warning_whose_advice_helps(table):
+def test_too_little_backlash_is_told_with_advice_that_helps(table):
     def about(params):
         return [f for f in FAMILY.check(params) if f.code == "gear.backlash"]
 
     (finding,) = about(Params(**table))
-    assert (finding.severity, finding.parameter) == (Severity.WARNING, "backlash")
+    jams = table["backlash"] == 0
+    assert finding.severity is (Severity.ERROR if jams else Severity.WARNING)
+    assert (finding.parameter, finding.stage) == ("backlash", Stage.MACHINING)
     assert finding.value == table["backlash"]
     for better in ({**table, "backlash": finding.limit}, {k: v for k, v in table.items() if k != "backlash"}):
         found = FAMILY.check(Params(**better))

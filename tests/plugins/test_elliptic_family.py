@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.finding import Severity, Stage, errors
 from mechwright.contracts.part import Bore, Profile
 from mechwright.errors import DesignError, GeometryError
 from mechwright.plugins.host import Host
@@ -265,7 +265,7 @@ def test_random_designs_are_built_or_refused(table):
     for finding in found:
         assert finding.severity is Severity.NOTE or finding.remedy
         assert finding.severity is Severity.NOTE or finding.parameter in Params.model_fields
-    if errors(found):
+    if errors(found, Stage.PARTS):
         with pytest.raises((DesignError, GeometryError)):
             FAMILY.parts(params)
         return

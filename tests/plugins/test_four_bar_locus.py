@@ -5,7 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import arb, ctx
+from exact_poles import Quadratic, exact_poles
+from flint import arb, ctx, fmpq
 from four_bar_reference import FACTS, LOCI
 
 from mechwright.errors import GeometryError
@@ -101,9 +102,27 @@ def test_real_poles_of_both_branches_are_on_the_curve(lengths, plane):
     curve = locus(*fractions(lengths), plane)
     points = poles(lengths, plane, 12, 70)
     assert len(points) >= 12
-    assert curve.worst_ratio(points, 60) < 1e-50
-    off = [(x + arb(1) / 1000, y) for x, y in points]
-    assert curve.worst_ratio(off, 60) > 1e-20
+    with ctx.workdps(60):
+        assert max(curve.ratio(x, y) for x, y in points) < 1e-50
+        assert max(curve.ratio(x + arb(1) / 1000, y) for x, y in points) > 1e-20
+
+
+@pytest.mark.parametrize("plane", PLANES)
+@pytest.mark.parametrize("lengths", [(2, 6, 5, 7), (3, 6, 3, 7), (3, 6, 5, 8), (4, 3, 3, 4), (3, 3, 5, 5)])
+def test_the_curve_is_exactly_zero_at_exact_positions(lengths, plane):
+    terms = locus(*fractions(lengths), plane).terms
+    for number in range(6):
+        for rho, along in exact_poles(lengths, plane, fmpq(2 * number + 1, 7 + number)):
+            one = Quadratic(fmpq(1), fmpq(0), rho.n)
+            powers = [[one], [one]]
+            for _ in range(max(map(max, terms))):
+                powers[0].append(powers[0][-1] * rho)
+                powers[1].append(powers[1][-1] * along)
+            total = Quadratic(fmpq(0), fmpq(0), rho.n)
+            for (i, j), value in terms.items():
+                share = Quadratic(fmpq(value.numerator, value.denominator), fmpq(0), rho.n)
+                total = total + share * powers[0][i] * powers[1][j]
+            assert (total.u, total.v) == (0, 0)
 
 
 def test_a_generic_curve_takes_less_than_six_seconds():

@@ -14,7 +14,7 @@ from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.limits import measure
 from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.sound import conditions, sound
+from mechwright_geneva.sound import measured, possible, sound
 
 GENEVA = Geneva()
 THIN = {"least_wall": 0.5, "fixing": 0, "driver_bore": 0, "bore": 0}
@@ -120,6 +120,7 @@ WARNINGS = [
     ("geneva.singular", "load_torque", {"load_torque": 0.5}),
     ("geneva.pressure", "load_inertia", {"load_inertia": 1.0}),
     ("bore.keyway-series", "keyway_width", {"keyway_width": 3}),
+    ("geneva.clearance", "groove_clearance", {"groove_clearance": 0.05}),
 ]
 
 
@@ -139,6 +140,7 @@ def test_every_code_of_the_page_is_tried_here():
     listed = set(re.findall(r"`((?:geneva|bore)\.[a-z-]+)`", page))
     notes = {finding.code for finding in check() if finding.severity is Severity.NOTE} | {"geneva.shaft"}
     tried = {code for code, _, _ in (*ERRORS, *WARNINGS)} | notes | {"geneva.requirement"}
+    tried |= {"geneva.as-made", "geneva.as-made-lock"}  # by what programs leave: test_geneva_as_made
     assert listed == tried
 
 
@@ -191,11 +193,11 @@ def test_each_remedy_cures(code, table):
 
 
 def test_the_least_offset_is_the_least():
-    """A hundredth of a degree less and the slot is unsound."""
+    """Two hundredths of a degree less and the slot is unsound: found on a grid, and rounded to a hundredth."""
     (name, value), *_ = cures(found("geneva.undercut", offset_angle=3))
     assert name == "offset_angle"
     assert errors(check(offset_angle=value)) == []
-    assert errors(check(offset_angle=value - 0.011)) != []
+    assert errors(check(offset_angle=value - 0.021)) != []
 
 
 def test_the_acceleration_warning_starts_at_six_slots():
@@ -281,7 +283,9 @@ class TestSweepAgainstCheck:
         law = LAWS["cycloidal"]()
         walls = walls_of(mechanism_of(GenevaParams(rollers=2, law="straight", slots=6)))
         with np.errstate(all="ignore"):
-            held = conditions(frame, radius[:, None], measure(frame, law, radius[:, None]), walls)
+            wide = radius[:, None]
+            held = possible(frame, wide, walls)
+            held |= measured(frame, wide, measure(frame, law, wide), walls)
         alone = dict.fromkeys(held, 0)
         for name in held:
             others = np.logical_and.reduce([held[other] for other in held if other != name])

@@ -5,6 +5,7 @@ import re
 import sys
 from pathlib import Path
 
+from mechwright.mechanics import openings
 from mechwright_geneva.family import Geneva
 
 ROOT = Path(__file__).parents[2]
@@ -20,7 +21,7 @@ def script(path, name):
 
 
 def test_every_finding_is_on_the_page_and_no_other():
-    sources = (ROOT / "plugins" / "mechwright_geneva").glob("*.py")
+    sources = [*(ROOT / "plugins" / "mechwright_geneva").glob("*.py"), Path(openings.__file__)]
     code = "".join(path.read_text(encoding="utf-8") for path in sources)
     said = set(re.findall(r'"((?:geneva|bore)\.[a-z-]+)"', code))
     assert said

@@ -96,7 +96,7 @@ def test_the_reference_example_is_the_worked_design():
     m = mechanism_of(params)
     assert (m.axes, m.crank) == pytest.approx((128.557521937308, 100.0), abs=1e-9)
     assert (m.roller, m.rim, m.lock, m.slots) == (5, 100, 70, 4)
-    assert m.roller_length == 10
+    assert m.params.roller_length == 10
 
 
 def test_the_prototype_says_what_is_inferred():

@@ -11,15 +11,15 @@ import shapely
 from mechwright.build import Build
 from mechwright.contracts.finding import Severity
 from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Bore, Pocket, Profile
-from mechwright.contracts.sections import volume
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.exporters.dxf import part as drawing
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machining, machine
-from mechwright_cam.operations.slots import outside_mills
+from mechwright_cam.operations.channel import outside_mills
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
@@ -60,7 +60,7 @@ def test_a_stud_hole_is_made_to_the_middle_of_its_fit(name):
     made = machine(job, LinuxCnc())
     assert f"pin-1: Ø{fit.text}, made to {fit.middle:g}" in made.program.notes
     assert f"pin-1 ⌀{fit.text}" in setup_html(
-        [(made.job, made.program, made.proof.as_dict())], host().get(Control, "linuxcnc")
+        made.job, made.program, made.proof.as_dict(), host().get(Control, "linuxcnc")
     )
     ((tool, moves),) = [
         (section.tool, operation.moves)

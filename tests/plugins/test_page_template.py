@@ -5,7 +5,7 @@ import io
 import json
 
 import pytest
-from templates import EXAMPLES, assert_typed, copied, installed_into, passed, run
+from templates import EXAMPLES, copied, installed_into, passed, run
 
 NAMES = {"bill-of-materials.csv", "bill-of-materials.html"}
 DESIGN = EXAMPLES / "slider-crank-quick-return.toml"
@@ -55,8 +55,3 @@ def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
 
 def test_its_own_tests_pass(installed, copy):
     assert passed(installed, copy) == 4
-
-
-def test_its_types_are_right(installed, copy):
-    pytest.importorskip("mypy", reason="mypy is not installed")
-    assert_typed(installed, copy)

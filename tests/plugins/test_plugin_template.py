@@ -1,7 +1,7 @@
 """The template as a third party would use it: installed, found by the host, tested by its own tests."""
 
 import pytest
-from templates import answer, assert_typed, copied, installed_into, passed, run
+from templates import answer, copied, installed_into, passed, run
 
 ASK = """
 import json
@@ -51,8 +51,3 @@ def test_the_installation_holds_the_package_and_nothing_else(installed):
 def test_its_own_tests_pass(installed, copy):
     # The contract alone brings more than twenty tests; fewer would mean that it was not collected.
     assert passed(installed, copy) > 20
-
-
-def test_its_types_are_right(installed, copy):
-    pytest.importorskip("mypy", reason="mypy is not installed")
-    assert_typed(installed, copy)

@@ -53,8 +53,8 @@ def worst(a, c, e, plane):
     with ctx.workdps(DIGITS + 10):
         exact = (arb(Fraction(v).numerator) / Fraction(v).denominator for v in (a, c, e))
         points = poles(*exact, plane)
-    assert len(points) >= 8
-    return curve.worst_ratio(points, DIGITS + 10)
+        assert len(points) >= 8
+        return max(curve.ratio(x, y) for x, y in points)
 
 
 @pytest.mark.parametrize("name", sorted(POLYNOMIALS))
@@ -88,8 +88,11 @@ def test_degree_circular_points_and_terms(a, c, e, fixed, coupler):
 
 
 def test_a_central_slider_crank_has_a_locus_that_is_symmetric_twice():
-    assert locus(Fraction(1), Fraction(5, 2), Fraction(0), "fixed")[0].is_symmetric_twice
-    assert not locus(Fraction(1), Fraction(3), Fraction(1, 2), "fixed")[0].is_symmetric_twice
+    def only_even(curve):
+        return all(power % 2 == 0 for _, power in curve.terms)
+
+    assert only_even(locus(Fraction(1), Fraction(5, 2), Fraction(0), "fixed")[0])
+    assert not only_even(locus(Fraction(1), Fraction(3), Fraction(1, 2), "fixed")[0])
 
 
 @settings(max_examples=12, deadline=None)

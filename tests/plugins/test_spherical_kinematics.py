@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.mechanics.planar import Turning
 from mechwright_spherical.bodies import quaternions
 from mechwright_spherical.chain import third_position
 from mechwright_spherical.fourbar import FourBar
-from mechwright_spherical.jets import Turning, turning_about
+from mechwright_spherical.jets import turning_about
 from mechwright_spherical.loop import Loop
 from mechwright_spherical.mobility import input_range, kind, mobility
 from mechwright_spherical.vectors import arc, column, cross, dot, norm, rotate, vector
@@ -139,7 +140,7 @@ STEP = LONG(1) / 4096
 def test_rates_are_derivatives(seed):
     loop, pins, angle = random_loops(seed)
     angle = angle[:, :1]
-    state = loop.at(Turning.of(angle))
+    state = loop.at(Turning.of(angle, 1.0))
     good = far_from_dead_centre(state)[:, 0]
     places = np.arange(-4, 5)
     with np.errstate(invalid="ignore"):  # linkages that come apart are left out below
@@ -159,7 +160,7 @@ def test_rates_are_derivatives(seed):
 def test_varying_speed_is_the_chain_rule(seed):
     loop, _, angle = random_loops(seed)
     rate, acceleration, jerk = 1.7, -2.3, 5.1
-    steady = loop.at(Turning.of(angle)).p
+    steady = loop.at(Turning.of(angle, 1.0)).p
     moved = loop.at(Turning.of(angle, rate, acceleration, jerk))
     good = far_from_dead_centre(moved)
     wanted = (
@@ -176,7 +177,7 @@ def test_varying_speed_is_the_chain_rule(seed):
 @given(SEEDS)
 def test_the_coupler_moves_as_a_body(seed):
     loop, _, angle = random_loops(seed)
-    state = loop.at(Turning.of(angle))
+    state = loop.at(Turning.of(angle, 1.0))
     good = far_from_dead_centre(state)
     spin, alpha, jerk = (x[:, good] for x in state.coupler_spin)
     scale = 1 + norm(spin) ** 3 + norm(alpha) ** 1.5 + norm(jerk)
@@ -262,7 +263,7 @@ def test_output_angle_and_pin_are_the_same_linkage(seed):
     side = generator.choice([-1.0, 1.0], (BATCH, 1))
     linkage = FourBar(a1, a2, a3, a4, side)
     theta = generator.uniform(0, math.tau, (BATCH, 5))
-    state = linkage.at(Turning.of(theta))
+    state = linkage.at(Turning.of(theta, 1.0))
     psi = linkage.output_angle(theta)
     good = np.isfinite(psi) & np.isfinite(state.c[0]).all(axis=0) & (np.sin(state.transmission) > 1e-3)
     assert good.mean() > 0.1
@@ -278,7 +279,7 @@ def test_output_angle_and_pin_are_the_same_linkage(seed):
     turning = turning_about(linkage.output_axis, state.c)
     step = 1e-5
     slope = (linkage.output_angle(theta + step) - linkage.output_angle(theta - step)) / (2 * step)
-    assert np.abs(turning.rate - slope)[good].max() < 1e-5 * np.abs(turning.jerk[good]).max()
+    assert np.abs(turning.omega - slope)[good].max() < 1e-5 * np.abs(turning.jerk[good]).max()
 
 
 def test_output_angle_goes_all_the_way_round_where_the_output_does():

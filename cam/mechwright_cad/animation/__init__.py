@@ -1,5 +1,6 @@
 """The moving mechanism as one page for a browser, of any family: from parts, instances and motion alone."""
 
-from mechwright_cad.animation.page import MOTION, motion_html, page_of
+from mechwright_cad.animation.page import MOTION, motion_html
+from mechwright_cad.animation.scene import PAGE_SAMPLES
 
-__all__ = ["MOTION", "motion_html", "page_of"]
+__all__ = ["MOTION", "PAGE_SAMPLES", "motion_html"]

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from mechwright_cad.animation.figures import DRAWN, hexadecimal
-from mechwright_cad.interference.bodies import Body, label_of
+from mechwright_cad.bodies import Body, label_of
 from mechwright_cad.interference.slabs import Slab, slabs_of
 
 LINE_CHORD = 0.02

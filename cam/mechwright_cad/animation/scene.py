@@ -9,7 +9,7 @@ import numpy as np
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright_cad.animation.figures import MICRON, poses_of, rounded, significant
-from mechwright_cad.interference.bodies import bodies_of, label_of
+from mechwright_cad.bodies import bodies_of, label_of
 from mechwright_cad.interference.path import flat
 
 PAGE_SAMPLES = 361
@@ -20,21 +20,10 @@ CLOSED = 1e-6
 
 
 def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, Any]:
-    """The content of the page.
+    """The content of the page, of parts with their instances and of a motion with any number of samples.
 
-    Parameters
-    ----------
-    parts
-        With their instances.
-    motion
-        With ``PAGE_SAMPLES`` samples, or any other number of them.
-    solids
-        Whether to draw parts that are no plates, which takes the CAD kernel.
-
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have, or a part cannot be made.
+    With ``solids`` parts that are no plates are drawn, which takes the CAD kernel; else the page names them.
+    Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
     bodies = bodies_of(parts, motion)
     plane = all(flat(one.rotation, one.position) is not None for one in motion.poses.values())

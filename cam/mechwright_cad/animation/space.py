@@ -3,16 +3,14 @@
 from collections.abc import Sequence
 from typing import Any
 
-import manifold3d
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cad.animation.figures import ANGLE, DRAWN, hexadecimal, rounded
-from mechwright_cad.interference.bodies import Body, label_of
+from mechwright_cad.bodies import Body, label_of
 from mechwright_cad.interference.path import STILL
-from mechwright_cad.interference.slabs import slabs_of
+from mechwright_cad.interference.slabs import slabs_of, triangles_of
 
 SURFACE_CHORD = 0.15
 """Distance of triangles from the surface, mm: less than a line's width on the screen, some hundred triangles
@@ -22,15 +20,7 @@ for a link."""
 def mesh_of_body(body: Body) -> tuple[Array, NDArray[np.int64]]:
     """Corners (n, 3), mm, in the frame of the body, and triangles (k, 3)."""
     if body.is_plate:
-        layers = []
-        for slab in slabs_of(body.part, body.instance):
-            slim = shapely.simplify(slab.polygon, SURFACE_CHORD)
-            rings = [shapely.get_coordinates(ring)[:-1] for ring in (slim.exterior, *slim.interiors)]
-            plan = manifold3d.CrossSection(rings, manifold3d.FillRule.EvenOdd)
-            prism = manifold3d.Manifold.extrude(plan, slab.top - slab.bottom)
-            layers.append(prism.translate((0.0, 0.0, slab.bottom)))
-        mesh = manifold3d.Manifold.batch_boolean(layers, manifold3d.OpType.Add).to_mesh64()
-        return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)
+        return triangles_of(slabs_of(body.part, body.instance), SURFACE_CHORD)
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 

@@ -4,9 +4,18 @@ from mechwright_cad.exporters.curve_kinds import Curves
 from mechwright_cad.exporters.formats import (
     DxfExporter,
     GlbExporter,
+    MjcfExporter,
     StepExporter,
     StlExporter,
     ThreeMfExporter,
 )
 
-__all__ = ["Curves", "DxfExporter", "GlbExporter", "StepExporter", "StlExporter", "ThreeMfExporter"]
+__all__ = [
+    "Curves",
+    "DxfExporter",
+    "GlbExporter",
+    "MjcfExporter",
+    "StepExporter",
+    "StlExporter",
+    "ThreeMfExporter",
+]

@@ -59,10 +59,7 @@ TEXT_HEIGHT = 3.5
 def part(part: Part, curves: Curves = "spline") -> bytes:
     """The drawing of a plate part, in its own coordinates.
 
-    Raises
-    ------
-    GeometryError
-        The part has no outline, or a segment cannot be had in the wanted curves.
+    Raises GeometryError for a part without outline, or a segment that cannot be had in the wanted curves.
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} has no outline to draw; write it as STEP")
@@ -212,10 +209,6 @@ def _segment(space: "Modelspace", segment: Segment, attributes: dict[str, str], 
             curve = cubic(segment, TOLERANCES.flatten) if simple else segment
             points = [(x, y, 0.0) for x, y in curve.points]
             space.add_open_spline(points, curve.degree, curve.knots, dxfattribs=attributes)
-        case _:
-            raise GeometryError(
-                f"a segment of type {type(segment).__name__} cannot be drawn; use the three kinds"
-            )
 
 
 def _centres(

@@ -94,3 +94,20 @@ class GlbExporter(Exporter):
         from mechwright_cad.exporters import mesh
 
         return mesh.glb_assembly(name, parts, motion, sample)
+
+
+class MjcfExporter(Exporter):
+    """The mechanism as MJCF, for simulation with MuJoCo: masses, joints, closed loops, contacts."""
+
+    name = "mjcf"
+    suffix = ".mjcf.xml"
+    modules = ("mechwright_cad.exporters.mjcf.assembly",)
+
+    def part(self, part: "Part") -> None:
+        """Nothing: a part by itself does not move."""
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
+        """One body per body of the motion, with its parts."""
+        from mechwright_cad.exporters.mjcf import assembly
+
+        return assembly.assembly(name, parts, motion, sample)

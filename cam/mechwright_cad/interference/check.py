@@ -1,7 +1,7 @@
 """The check itself: every pair of bodies, over the whole motion."""
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import combinations, product
 from typing import Any
 
@@ -13,8 +13,8 @@ from mechwright.contracts.finding import Finding
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
+from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
-from mechwright_cad.interference.bodies import Body, bodies_of
 from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
 from mechwright_cad.interference.report import Collision, Gap, Instant, Report
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
@@ -47,22 +47,10 @@ _CLOSER = np.array((-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0))
 def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) -> Report:
     """Look for bodies that stand in each other at any instant of a motion.
 
+    The motion is sampled so finely that a cubic through the samples is the motion (:func:`faithful_motion`).
     Parts of one body are compared as well, at rest. Plates that stay parallel are compared exactly in the
-    plane; all other bodies as triangles in space.
-
-    Parameters
-    ----------
-    parts
-        With their instances.
-    motion
-        Sampled so finely that a cubic through the samples is the motion (see :func:`faithful_motion`).
-    solids
-        Whether to compare bodies that need triangles, which takes the CAD kernel where a part is a solid.
-
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have, or a part cannot be made.
+    plane; all other bodies as triangles in space if ``solids`` are asked for, which takes the CAD kernel
+    where a part is a solid. Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
     bodies = bodies_of(parts, motion)
     collisions: list[Collision] = []
@@ -91,7 +79,8 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
                 continue
             found = plates.meetings(a, other, path)
             if found.hits.size:
-                time, depth, (x, y) = _deepest(a, other, path, found.hits)
+                depth_at = partial(plates.depth, a, other, path)
+                time, depth, (x, y) = deepest(depth_at, found.hits, path, _LOOKS_IN_PLAN)
                 z = max(a.bottom, other.bottom + height) + common / 2
                 hit = (time, min(depth, common), np.array((x, y, z)))
                 collisions.append(_collision(one, two, motion, *hit))
@@ -131,12 +120,7 @@ def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | 
     hits = meshes.meetings(first, second, path)
     if not hits.size:
         return None
-    return deepest(lambda time: meshes.depth(first, second, path, time), hits, path, _LOOKS_IN_SPACE)
-
-
-def _deepest(a: Slab, b: Slab, path: Path, hits: Array) -> tuple[float, float, Array]:
-    """Time, depth and place (2,) of the deepest overlap: on a grid over the hits, then refined."""
-    return deepest(lambda time: plates.depth(a, b, path, time), hits, path, _LOOKS_IN_PLAN)
+    return deepest(partial(meshes.depth, first, second, path), hits, path, _LOOKS_IN_SPACE)
 
 
 def deepest(
@@ -195,10 +179,9 @@ def _reach(parts: Sequence[Part]) -> float:
 
 
 def interference_findings(
-    family: Family[Any], params: Parameters, *, solids: bool, parts: Sequence[Part] | None = None
+    family: Family[Any], params: Parameters, parts: Sequence[Part], *, solids: bool
 ) -> list[Finding]:
-    """What the check says of a design whose own check found no error; ``parts`` if they are known already."""
-    parts = family.parts(params) if parts is None else parts
+    """What the check says of the parts of a design whose own check found no error."""
     if sum(len(part.instances) for part in parts) < 2:
         return []
     motion = faithful_motion(family, params, parts)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
+from mechwright.contracts.finding import Finding, Stage, of_stage
 
 MOST = 5
 """Collisions that are printed one by one, the deepest ones: a design with more has one cause for many."""
@@ -91,40 +91,23 @@ class Report:
             rest = len(self.collisions) - MOST
             more = f"; {rest} more pairs collide" if place == MOST - 1 and rest > 0 else ""
             x, y, z = hit.at
-            yield Finding(
-                "interference.collision",
-                Severity.ERROR,
-                "",
+            message = (
                 f"{hit.first} and {hit.second} stand in each other, {hit.depth:.3f} mm deep at "
-                f"{hit.instant}, near X{x:.2f} Y{y:.2f} Z{z:.2f}{more}",
-                hit.depth,
-                0.0,
-                "mm",
-                "give them heights of their own, or change the sizes that bring them together",
+                f"{hit.instant}, near X{x:.2f} Y{y:.2f} Z{z:.2f}{more}"
             )
+            remedy = "give them heights of their own, or change the sizes that bring them together"
+            yield Finding.error("interference.collision", "", message, hit.depth, 0.0, "mm", remedy)
         if self.skipped:
-            yield Finding(
-                "interference.solids",
-                Severity.NOTE,
-                "",
-                f"{', '.join(self.skipped)}: no plates in parallel planes; "
-                "the commands model and build compare them",
-            )
+            names = ", ".join(self.skipped)
+            message = f"{names}: no plates in parallel planes; the commands model and build compare them"
+            yield Finding.note("interference.solids", message)
         if self.clear and self.pairs:
-            seen = ""
-            if self.closest is not None:
-                gap = self.closest
-                seen = (
-                    f"; the smallest gap seen is {gap.distance:.3f} mm, between {gap.first} and {gap.second} "
-                    f"at {gap.instant}"
-                )
             compared = "one pair" if self.pairs == 1 else f"{self.pairs} pairs"
-            yield Finding(
-                "interference.clear",
-                Severity.NOTE,
-                "",
-                f"no two bodies collide over the whole motion ({compared} compared){seen}",
-                None if self.closest is None else self.closest.distance,
-                None,
-                "mm" if self.closest is not None else "",
-            )
+            message = f"no two bodies collide over the whole motion ({compared} compared)"
+            gap = self.closest
+            if gap is None:
+                yield Finding.note("interference.clear", message)
+            else:
+                message += f"; the smallest gap seen is {gap.distance:.3f} mm, between {gap.first} and "
+                message += f"{gap.second} at {gap.instant}"
+                yield Finding.note("interference.clear", message, gap.distance, "mm")

@@ -3,16 +3,17 @@
 Coordinates are those of the body: x and y of the part, z upwards with the height of the instance added.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import pairwise
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.contracts.part import Instance, Part, Profile
-from mechwright.contracts.sections import plan_view
+from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError
 from mechwright.tolerances import TOLERANCES
 
@@ -38,9 +39,6 @@ _SHARP = 0.01
 """Cosine of a corner's angle from which it is sharper than a right one."""
 
 _NO_EDGES = np.empty((0, 2, 2))
-
-_THIN = 1e-6
-"""Layers thinner than this are rounding, mm."""
 
 
 @dataclass(frozen=True)
@@ -174,37 +172,31 @@ def _circle_centre(points: Array) -> Array:
 
 @lru_cache(maxsize=128)
 def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
-    """The layers of a plate in its body, from the top down.
+    """The layers of a plate in its body, from the top down, a slab for each piece; without fillets on floors.
 
-    The outline has every opening that goes through; features that do not are taken from the layers they
-    reach. A layer in several pieces gives several slabs.
-
-    Raises
-    ------
-    GeometryError
-        The part is no plate, or its outline cuts itself.
+    Raises GeometryError for a part that is no plate, and for an outline that cuts itself.
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate")
-    thickness = part.thickness
-    partial = [f for f in part.features if f.top > _THIN or f.top + f.depth < thickness - _THIN]
-    depths = {0.0, thickness}
-    for feature in partial:
-        depths |= {min(max(depth, 0.0), thickness) for depth in (feature.top, feature.top + feature.depth)}
-    slabs: list[Slab] = []
-    for upper, lower in pairwise(sorted(depths)):
-        if lower - upper < _THIN:
-            continue
-        shape: shapely.Geometry = part.outline.polygon()
-        for feature in partial:
-            if feature.top < (upper + lower) / 2 < feature.top + feature.depth:
-                inside = plan_view(feature)
-                outside = isinstance(feature, Profile) and feature.side == "outside"
-                shape = shape.intersection(inside) if outside else shape.difference(inside)
-        base = instance.z + thickness
-        slabs += [
-            Slab(piece, base - lower, base - upper)
-            for piece in shapely.get_parts(shape)
-            if isinstance(piece, shapely.Polygon) and piece.area > 0
-        ]
-    return tuple(slabs)
+    base = instance.z + part.thickness
+    return tuple(
+        Slab(piece, base - layer.bottom, base - layer.top)
+        for layer in sections(part, steps=0)
+        for piece in shapely.get_parts(layer.shape)
+        if isinstance(piece, shapely.Polygon) and piece.area > 0
+    )
+
+
+def triangles_of(slabs: Sequence[Slab], slack: float) -> tuple[Array, NDArray[np.int64]]:
+    """Corners (n, 3) and triangles (k, 3) of slabs on each other, ``slack`` mm off their polygons at most."""
+    import manifold3d
+
+    layers = []
+    for slab in slabs:
+        slim = shapely.simplify(slab.polygon, slack)
+        rings = [shapely.get_coordinates(ring)[:-1] for ring in (slim.exterior, *slim.interiors)]
+        plan = manifold3d.CrossSection(rings, manifold3d.FillRule.EvenOdd)
+        prism = manifold3d.Manifold.extrude(plan, slab.top - slab.bottom)
+        layers.append(prism.translate((0.0, 0.0, slab.bottom)))
+    mesh = manifold3d.Manifold.batch_boolean(layers, manifold3d.OpType.Add).to_mesh64()
+    return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)

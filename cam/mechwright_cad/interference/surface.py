@@ -9,7 +9,6 @@ from functools import cached_property, lru_cache
 
 import manifold3d
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
@@ -17,7 +16,7 @@ from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.interference.nearest import Nearest
-from mechwright_cad.interference.slabs import Slab, slabs_of
+from mechwright_cad.interference.slabs import slabs_of, triangles_of
 from mechwright_cad.interference.tree import Tree, by_place_and_direction
 
 FACET_CHORD = 0.005
@@ -48,13 +47,7 @@ class Surface:
 
     @cached_property
     def manifold(self) -> manifold3d.Manifold:
-        """The mesh as the library for booleans has it.
-
-        Raises
-        ------
-        GeometryError
-            It is not closed.
-        """
+        """The mesh as the library for booleans has it; GeometryError if it is not closed."""
         made = manifold3d.Manifold(
             manifold3d.Mesh64(
                 np.array(self.points, order="C"), np.array(self.triangles, dtype=np.uint64, order="C")
@@ -101,32 +94,11 @@ class Surface:
 
 @lru_cache(maxsize=64)
 def surface_of(part: Part, instance: Instance) -> Surface:
-    """The surface of a copy of a part in the frame of its body.
-
-    Raises
-    ------
-    GeometryError
-        The part cannot be made.
-    """
+    """The surface of a copy of a part in the frame of its body; GeometryError if the part cannot be made."""
     if part.outline is not None:
-        return _of_slabs(slabs_of(part, instance))
+        return Surface(*triangles_of(slabs_of(part, instance), FACET_CHORD - TOLERANCES.flatten))
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
     mesh = mesh_of(part_solid(part), ruled=False, tolerance=FACET_CHORD)
     return Surface(mesh.points + np.array((0.0, 0.0, instance.z)), mesh.triangles)
-
-
-def _of_slabs(slabs: tuple[Slab, ...]) -> Surface:
-    layers = [_prism(slab) for slab in slabs]
-    whole = manifold3d.Manifold.batch_boolean(layers, manifold3d.OpType.Add) if len(layers) > 1 else layers[0]
-    mesh = whole.to_mesh64()
-    return Surface(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64))
-
-
-def _prism(slab: Slab) -> manifold3d.Manifold:
-    slim = shapely.simplify(slab.polygon, FACET_CHORD - TOLERANCES.flatten)
-    rings = [shapely.get_coordinates(ring)[:-1] for ring in (slim.exterior, *slim.interiors)]
-    plan = manifold3d.CrossSection(rings, manifold3d.FillRule.EvenOdd)
-    prism = manifold3d.Manifold.extrude(plan, slab.top - slab.bottom)
-    return prism.translate((0.0, 0.0, slab.bottom))

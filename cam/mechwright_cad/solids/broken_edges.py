@@ -19,14 +19,14 @@ from dataclasses import dataclass
 import cadquery as cq
 import numpy as np
 from OCP.BRep import BRep_Builder, BRep_Tool
-from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakeSolid
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeSolid
 from OCP.BRepLib import BRepLib
 from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
 from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface, Geom_ConicalSurface, Geom_Plane, Geom_Surface
 from OCP.Geom2d import Geom2d_BSplineCurve
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pln, gp_Pnt, gp_Pnt2d, gp_Vec
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Pnt2d, gp_Vec
 from OCP.ShapeFix import ShapeFix_Shell
-from OCP.TColgp import TColgp_Array1OfPnt, TColgp_Array1OfPnt2d, TColgp_Array2OfPnt
+from OCP.TColgp import TColgp_Array1OfPnt2d, TColgp_Array2OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
 from OCP.TopExp import TopExp, TopExp_Explorer
@@ -44,9 +44,10 @@ from OCP.TopoDS import (
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Line, Loop, Segment
-from mechwright.geometry.parallel import DEGREE, Parallel, nodes
+from mechwright.geometry.fit import interpolation
+from mechwright.geometry.parallel import DEGREE, Parallel
 from mechwright.tolerances import TOLERANCES
-from mechwright_cad.solids.wires import DOWN, UP, closed_wire, wire_of
+from mechwright_cad.solids.wires import DOWN, UP, closed_wire, face_of, knots_of, poles_of, wire_of
 
 STEEP = math.pi / 4
 """Chamfers stand at 45 degrees."""
@@ -73,10 +74,7 @@ class Edge:
 def body(edges: Sequence[Edge], bottom: float, top: float) -> cq.Solid:
     """The solid between two heights, mm, inside the loops; the outer one first.
 
-    Raises
-    ------
-    GeometryError
-        A chamfer is too wide for its loop, or for the body.
+    Raises GeometryError for a chamfer that is too wide for its loop, or for the body.
     """
     faces: list[TopoDS_Shape] = []
     lower, upper = [], []
@@ -93,7 +91,7 @@ def body(edges: Sequence[Edge], bottom: float, top: float) -> cq.Solid:
             flare, wire = _chamfer(edge, rim, top)
             faces += flare
         upper.append(wire)
-    faces += [_cap(lower, bottom), _cap(upper, top)]
+    faces += [face_of(lower, bottom), face_of(upper, top)]
     return _closed(faces)
 
 
@@ -103,13 +101,6 @@ def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> list[TopoDS_Shape]
         found.append(explorer.Current())
         explorer.Next()
     return found
-
-
-def _cap(wires: Sequence[TopoDS_Wire], z: float) -> TopoDS_Face:
-    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, z), UP), wires[0], True)
-    for wire in wires[1:]:
-        face.Add(wire)
-    return face.Face()
 
 
 def _closed(faces: Sequence[TopoDS_Shape]) -> cq.Solid:
@@ -131,7 +122,7 @@ def _closed(faces: Sequence[TopoDS_Shape]) -> cq.Solid:
 def _chamfer(edge: Edge, rim: list[TopoDS_Edge], top: float) -> tuple[list[TopoDS_Shape], TopoDS_Wire]:
     """The faces of a chamfer above the edges of a wall, and the wire where they end."""
     parallel = Parallel(edge.loop, edge.side)
-    share = nodes()[0]
+    share = interpolation(DEGREE)[0]
     before, after = parallel.joints(edge.width * share)
     wire, ridge = wire_of(parallel.between(np.roll(after[:, -1], 1), before[:, -1], edge.width), top)
     if isinstance(edge.loop.segments[0], Arc) and edge.loop.is_circle:
@@ -181,13 +172,11 @@ def _last(edge: TopoDS_Edge) -> TopoDS_Vertex:
 
 def _seam(points: Array, low: TopoDS_Vertex, high: TopoDS_Vertex, width: float) -> TopoDS_Edge:
     """An edge through points (n, 3) at the Lobatto nodes, parameter the slant."""
-    share, inverse = nodes()
+    share, inverse = interpolation(DEGREE)
     straight = points[0] + share[:, None] * (points[-1] - points[0])
     if np.abs(points - straight).max() <= STRAIGHT:
         return BRepBuilderAPI_MakeEdge(low, high).Edge()
-    poles = TColgp_Array1OfPnt(1, DEGREE + 1)
-    for place, pole in enumerate((inverse @ points).tolist(), start=1):
-        poles.SetValue(place, gp_Pnt(*pole))
+    poles = poles_of((inverse @ points).tolist())
     knots, folds = _knots([0.0, width * math.sqrt(2)])
     curve = Geom_BSplineCurve(poles, knots, folds, DEGREE)
     return BRepBuilderAPI_MakeEdge(curve, low, high, 0.0, width * math.sqrt(2)).Edge()
@@ -196,11 +185,7 @@ def _seam(points: Array, low: TopoDS_Vertex, high: TopoDS_Vertex, width: float) 
 def _knots(
     grid: Sequence[float], degree: int = DEGREE
 ) -> tuple[TColStd_Array1OfReal, TColStd_Array1OfInteger]:
-    knots, folds = TColStd_Array1OfReal(1, len(grid)), TColStd_Array1OfInteger(1, len(grid))
-    for place, knot in enumerate(grid, start=1):
-        knots.SetValue(place, knot)
-        folds.SetValue(place, degree + (place in (1, len(grid))))
-    return knots, folds
+    return knots_of(grid, [degree + (place in (0, len(grid) - 1)) for place in range(len(grid))])
 
 
 def _surface(
@@ -275,7 +260,7 @@ def _lay(builder: BRep_Builder, edge: TopoDS_Edge, places: Array, surface: Geom_
 
 
 def _curve(places: Array, first: float, last: float) -> Geom2d_BSplineCurve:
-    inverse = nodes()[1]
+    inverse = interpolation(DEGREE)[1]
     poles = places if len(places) == 2 else inverse @ places
     straight = poles[0] + np.linspace(0, 1, len(poles))[:, None] * (poles[-1] - poles[0])
     if np.abs(poles - straight).max() <= STRAIGHT:

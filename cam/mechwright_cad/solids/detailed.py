@@ -26,7 +26,7 @@ from mechwright.geometry import Loop
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.solids.broken_edges import Edge, body
-from mechwright_cad.solids.recess_tools import edges_of, round_floored, taken
+from mechwright_cad.solids.recess_tools import cut_out, edges_of, round_floored, taken
 
 SAME_LOOP = 4 * TOLERANCES.flatten
 """A chamfer follows an edge if the two are no further apart than this, mm, on the mean."""
@@ -37,10 +37,8 @@ ABOVE = 0.25
 def detailed(part: Part) -> cq.Solid:
     """The solid of a plate that has details, unchecked.
 
-    Raises
-    ------
-    GeometryError
-        A chamfer follows no edge of the top face, or is too wide; or the kernel cannot cut a recess.
+    Raises GeometryError for a chamfer that follows no edge of the top face, or is too wide, and for a recess
+    that the kernel cannot cut.
     """
     assert part.outline is not None  # noqa: S101 - asked for plates only
     chamfers = {detail.name: detail for detail in part.details if isinstance(detail, Chamfer)}
@@ -53,15 +51,7 @@ def detailed(part: Part) -> cq.Solid:
         name = next(iter(chamfers))
         raise GeometryError(f"chamfer {name} follows no edge of the top face on its side; draw it along one")
     whole = _plate(edges, part.thickness)
-    if not tools:
-        return whole
-    try:
-        pieces = whole.cut(*tools).clean().Solids()
-    except Standard_Failure as error:
-        raise GeometryError(f"the CAD kernel cannot cut the recesses ({error})") from error
-    if len(pieces) != 1:
-        raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
-    return pieces[0]
+    return cut_out(whole, tools) if tools else whole
 
 
 def _plate(edges: Sequence[Edge], thickness: float) -> cq.Solid:
@@ -78,8 +68,7 @@ def _plate(edges: Sequence[Edge], thickness: float) -> cq.Solid:
 
 def _chamfered(whole: cq.Solid, edge: Edge, thickness: float, error: GeometryError) -> cq.Solid:
     """The kernel's chamfer along a loop; ``error`` says what else was tried."""
-    ring = shapely.LinearRing(edge.loop.flatten())
-    ring = prepared(ring)
+    ring = prepared(shapely.LinearRing(edge.loop.flatten()))
     maker = BRepFilletAPI_MakeChamfer(whole.wrapped)
     for one in whole.Edges():
         points = [one.positionAt(t) for t in (0.0, 0.5, 1.0)]

@@ -1,5 +1,7 @@
 """What recesses take of a plate, as solids. Imports the CAD kernel."""
 
+from collections.abc import Sequence
+
 import cadquery as cq
 import numpy as np
 import shapely
@@ -81,6 +83,17 @@ def taken(feature: Feature, part: Part) -> cq.Shape:
     return round_floored(solid, feature, part).translate(
         cq.Vector(0, 0, part.thickness - feature.top - feature.depth)
     )
+
+
+def cut_out(whole: cq.Solid, tools: Sequence[cq.Shape]) -> cq.Solid:
+    """A plate less what its recesses take; raises GeometryError if the kernel cannot, or nothing holds it."""
+    try:
+        pieces = whole.cut(*tools).clean().Solids()
+    except Standard_Failure as error:
+        raise GeometryError(f"the CAD kernel cannot cut the recesses into the plate ({error})") from error
+    if len(pieces) != 1:
+        raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
+    return pieces[0]
 
 
 def _forwards(loop: Loop) -> Loop:

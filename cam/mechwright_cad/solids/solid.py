@@ -13,30 +13,23 @@ from functools import lru_cache
 import cadquery as cq
 import numpy as np
 from OCP.gp import gp_Trsf
-from OCP.Standard import Standard_Failure
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
-from mechwright.contracts.motion import Motion
-from mechwright.contracts.part import Feature, Part
+from mechwright.contracts.motion import Motion, Poses
+from mechwright.contracts.part import Part
 from mechwright.contracts.sections import blind
 from mechwright.errors import GeometryError
 from mechwright.geometry import Outline
+from mechwright_cad.bodies import bodies_of
 from mechwright_cad.solids.detailed import detailed
-from mechwright_cad.solids.recess_tools import taken
+from mechwright_cad.solids.recess_tools import cut_out, taken
 from mechwright_cad.solids.solid_check import check_plate, check_recessed, check_solid
 from mechwright_cad.solids.wires import extruded
 
 
 def plate(outline: Outline, thickness: float) -> cq.Solid:
-    """The outline extruded from z = 0 up to ``thickness``, mm.
+    """The outline extruded from z = 0 up to ``thickness``, mm; raises GeometryError as ``check_plate`` does.
 
-    Raises
-    ------
-    GeometryError
-        The kernel cannot make it, or what it made is not the outline (see ``check_plate``).
-
-    Examples
-    --------
     >>> from mechwright.geometry import Loop, Outline
     >>> square = Outline(Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)]))
     >>> round(plate(square, 2.0).Volume(), 9)
@@ -51,22 +44,18 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
 
 @lru_cache(maxsize=32)
 def part_solid(part: Part) -> cq.Solid:
-    """The checked solid of a part, recesses cut, made once per process.
-
-    Raises
-    ------
-    GeometryError
-        It cannot be made or is not right; the message names the part.
-    """
+    """The checked solid of a part, recesses cut, made once per process; a GeometryError names the part."""
     try:
-        if part.outline is not None and any(isinstance(detail, Chamfer) for detail in part.details):
-            made = detailed(part)
+        if part.outline is not None:
+            if any(isinstance(detail, Chamfer) for detail in part.details):
+                made = detailed(part)
+            else:
+                made = plate(part.outline, part.thickness)
+                if not blind(part):
+                    return made
+                made = cut_out(made, [taken(feature, part) for feature in blind(part)])
             check_recessed(made, part)
             return made
-        if part.outline is not None:
-            whole = plate(part.outline, part.thickness)
-            recesses = blind(part)
-            return recessed(whole, part, recesses) if recesses else whole
         assert part.build is not None  # noqa: S101 - Part has either an outline or this
         solid = part.build()
         check_solid(solid)
@@ -101,65 +90,20 @@ def marks(part: Part) -> list[tuple[str, cq.Shape]]:
     return found
 
 
-def recessed(whole: cq.Solid, part: Part, recesses: Sequence[Feature]) -> cq.Solid:
-    """A plate with the recesses of a part cut into it.
-
-    Raises
-    ------
-    GeometryError
-        The kernel cannot cut them, or what it made is not what the part's sections say.
-    """
-    cuts = [taken(feature, part) for feature in recesses]
-    try:
-        made = whole.cut(*cuts).clean()
-    except Standard_Failure as error:
-        names = ", ".join(feature.name for feature in recesses)
-        raise GeometryError(f"the CAD kernel cannot cut {names} into the plate ({error})") from error
-    pieces = made.Solids()
-    if len(pieces) != 1:
-        raise GeometryError(f"the recesses cut the plate into {len(pieces)} pieces; make them shallower")
-    check_recessed(pieces[0], part)
-    return pieces[0]
-
-
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> cq.Assembly:
-    """All instances of the parts, named by their bodies, in their poses at one sample of the motion.
+    """All instances of the parts in their poses at one sample of the motion, see :func:`bodies_of`.
 
-    A body that several instances belong to gives them its name and the part's.
-
-    Raises
-    ------
-    GeometryError
-        An instance names a body that the motion does not have, or the motion has no such sample.
+    Raises GeometryError as that does.
     """
-    if not 0 <= sample < motion.samples:
-        raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
-    bodies = [instance.body for part in parts for instance in part.instances]
     whole = cq.Assembly(name=name)
-    for part in parts:
-        for instance in part.instances:
-            child = instance.body if bodies.count(instance.body) == 1 else f"{instance.body}-{part.name}"
-            if instance.body not in motion.poses:
-                raise GeometryError(
-                    f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
-                    f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
-                )
-            place = _location(motion, instance.body, sample, instance.z)
-            colour = cq.Color(*part.colour_of(instance))
-            whole.add(part_shape(part), name=_free(child, whole), loc=place, color=colour)
+    for body in bodies_of(parts, motion, sample):
+        place = _location(body.poses, sample, body.instance.z)
+        colour = cq.Color(*body.part.colour_of(body.instance))
+        whole.add(part_shape(body.part), name=body.name, loc=place, color=colour)
     return whole
 
 
-def _free(name: str, whole: cq.Assembly) -> str:
-    """``name``, numbered if a child has it already: names of children are unique."""
-    free, number = name, 2
-    while free in whole.objects:
-        free, number = f"{name}-{number}", number + 1
-    return free
-
-
-def _location(motion: Motion, body: str, sample: int, z: float) -> cq.Location:
-    pose = motion.poses[body]
+def _location(pose: Poses, sample: int, z: float) -> cq.Location:
     turn = pose.rotation[sample]
     shift = pose.position[sample] + turn @ (0.0, 0.0, z)
     rows = np.column_stack((turn, shift)).tolist()

@@ -14,8 +14,8 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from mechwright.arrays import Array
+from mechwright.contracts.moments import volume
 from mechwright.contracts.part import Part
-from mechwright.contracts.sections import volume
 from mechwright.errors import GeometryError
 from mechwright.geometry import BSpline, Outline, Segment
 from mechwright.tolerances import TOLERANCES
@@ -42,13 +42,7 @@ TURN_STEPS = 8
 
 
 def check_solid(solid: cq.Solid) -> None:
-    """Refuse what is not one valid solid of positive volume.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong with it.
-    """
+    """Raise GeometryError for what is not one valid solid of positive volume."""
     if not isinstance(solid, cq.Solid):
         raise GeometryError(f"a solid is wanted, not {type(solid).__name__}")
     if not solid.isValid():
@@ -58,13 +52,7 @@ def check_solid(solid: cq.Solid) -> None:
 
 
 def check_plate(solid: cq.Solid, outline: Outline, thickness: float) -> None:
-    """Refuse a solid that is not the outline extruded from z = 0 up to ``thickness``, mm.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong, with the value and the limit.
-    """
+    """Raise GeometryError for a solid that is not the outline extruded from z = 0 up to ``thickness``, mm."""
     segments = [segment for loop in outline.loops for segment in loop.segments]
     _check_splines(segments)
     polygon = outline.polygon()  # refuses an outline that cuts itself, which the kernel lets pass
@@ -85,13 +73,7 @@ RECESSED = 1e-5
 
 
 def check_recessed(solid: cq.Solid, part: Part) -> None:
-    """Refuse a plate with recesses whose volume or height is not that of the part's sections.
-
-    Raises
-    ------
-    GeometryError
-        Says what is wrong, with the value and the limit.
-    """
+    """Raise GeometryError for a plate with recesses whose volume is not that of the part's sections."""
     check_solid(solid)
     wanted = volume(part)
     properties = GProp_GProps()
@@ -128,26 +110,19 @@ def _check_splines(segments: list[Segment]) -> None:
 
 
 def _top(faces: list[cq.Face], thickness: float) -> cq.Face:
-    tops = [face for face in faces if face.geomType() == "PLANE" and abs(_lowest(face) - thickness) < 1e-6]
+    level = [face for face in faces if face.geomType() == "PLANE"]
+    tops = [face for face in level if abs(min(v.Z for v in face.Vertices()) - thickness) < 1e-6]
     if len(tops) != 1:
         raise GeometryError(f"the solid has {len(tops)} faces at z = {thickness:g} mm; a plate has one")
     return tops[0]
 
 
-def _box(face: cq.Face) -> tuple[float, ...]:
-    box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(face.wrapped, box, False, False)
-    box.SetGap(0.0)
-    return tuple(box.Get())
-
-
-def _lowest(face: cq.Face) -> float:
-    return min(vertex.Z for vertex in face.Vertices())
-
-
 def _check_size(top: cq.Face, bounds: tuple[float, float, float, float]) -> None:
-    box = _box(top)
-    worst = float(np.abs(np.array([box[0], box[1], box[3], box[4]]) - bounds).max())
+    box = Bnd_Box()
+    BRepBndLib.AddOptimal_s(top.wrapped, box, False, False)
+    box.SetGap(0.0)
+    x0, y0, _, x1, y1, _ = box.Get()
+    worst = float(np.abs(np.array([x0, y0, x1, y1]) - bounds).max())
     # The bounds are those of the outline's chords.
     limit = TOLERANCES.flatten + 2 * TOLERANCES.closure
     if worst > limit:

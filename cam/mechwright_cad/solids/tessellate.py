@@ -41,12 +41,6 @@ class Mesh:
     points: Array
     triangles: NDArray[np.int64]
 
-    @property
-    def volume(self) -> float:
-        """Volume, mm³, by the divergence theorem."""
-        a, b, c = self.points[self.triangles].transpose(1, 0, 2)
-        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
-
 
 def triangulate(
     shape: TopoDS_Shape, tolerance: float = LINEAR, angle: float = ANGULAR, *, ruled: bool = False
@@ -82,10 +76,7 @@ def triangle_count(shape: cq.Shape) -> int:
 def mesh_of(solid: cq.Solid, *, ruled: bool, tolerance: float = LINEAR) -> Mesh:
     """Triangulate a solid within ``tolerance``, mm, and join the faces' triangles along the edges.
 
-    Raises
-    ------
-    GeometryError
-        The triangles leave a hole.
+    Raises GeometryError where the triangles leave a hole.
     """
     triangulate(solid.wrapped, tolerance, ruled=ruled)
     points: list[tuple[float, float, float]] = []

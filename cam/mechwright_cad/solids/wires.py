@@ -1,7 +1,7 @@
 """Wires and prisms of the CAD kernel: every segment becomes exactly one edge and one wall. Imports it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import cadquery as cq
@@ -13,7 +13,7 @@ from OCP.Geom import Geom_BSplineCurve, Geom_Circle, Geom_Curve
 from OCP.gp import gp_Ax2, gp_Dir, gp_Pln, gp_Pnt, gp_Vec
 from OCP.TColgp import TColgp_Array1OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
-from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex, TopoDS_Wire
+from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Vertex, TopoDS_Wire
 
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment
@@ -62,10 +62,6 @@ def _edge(segment: Segment, start: TopoDS_Vertex, end: TopoDS_Vertex, z: float) 
             edge = BRepBuilderAPI_MakeEdge(circle_at(segment, z), start, end, 0.0, abs(segment.sweep))
         case BSpline():
             edge = BRepBuilderAPI_MakeEdge(_spline(segment, z), start, end, 0.0, 1.0)
-        case _:
-            raise GeometryError(
-                f"a segment of type {type(segment).__name__} has no edge; use the three kinds"
-            )
     if not edge.IsDone():
         x, y = segment.start
         raise GeometryError(f"the segment at ({x:.6f}, {y:.6f}) gives no edge ({edge.Error().name})")
@@ -80,26 +76,45 @@ def circle_at(arc: Arc, z: float) -> Geom_Circle:
 
 
 def _spline(spline: BSpline, z: float) -> Geom_Curve:
-    poles = TColgp_Array1OfPnt(1, len(spline.points))
-    for place, (x, y) in enumerate(spline.points, start=1):
-        poles.SetValue(place, gp_Pnt(x, y, z))
     values, counts = np.unique(spline.knots, return_counts=True)
+    knots, folds = knots_of(values.tolist(), counts.tolist())
+    return Geom_BSplineCurve(poles_of((x, y, z) for x, y in spline.points), knots, folds, spline.degree)
+
+
+def poles_of(points: Iterable[Sequence[float]]) -> TColgp_Array1OfPnt:
+    """Points in space as the kernel takes them."""
+    made = [gp_Pnt(*point) for point in points]
+    poles = TColgp_Array1OfPnt(1, len(made))
+    for place, point in enumerate(made, start=1):
+        poles.SetValue(place, point)
+    return poles
+
+
+def knots_of(
+    values: Sequence[float], counts: Sequence[int]
+) -> tuple[TColStd_Array1OfReal, TColStd_Array1OfInteger]:
+    """Knots and their multiplicities as the kernel takes them."""
     knots, folds = TColStd_Array1OfReal(1, len(values)), TColStd_Array1OfInteger(1, len(values))
-    for place, (value, count) in enumerate(zip(values.tolist(), counts.tolist(), strict=True), start=1):
+    for place, (value, count) in enumerate(zip(values, counts, strict=True), start=1):
         knots.SetValue(place, value)
         folds.SetValue(place, count)
-    return Geom_BSplineCurve(poles, knots, folds, spline.degree)
+    return knots, folds
+
+
+def face_of(wires: Sequence[TopoDS_Wire], z: float) -> TopoDS_Face:
+    """The level face at a height, mm, in the first wire and outside of the others; raises GeometryError."""
+    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, z), UP), wires[0], True)
+    for wire in wires[1:]:
+        face.Add(wire)
+    if not face.IsDone():
+        raise GeometryError(f"the outline gives no face ({face.Error().name})")
+    return face.Face()
 
 
 def extruded(outline: Outline, thickness: float) -> cq.Solid:
     """The face inside an outline, drawn from z = 0 up to ``thickness``, mm; raises GeometryError."""
-    outer, *inner = (wire_of(loop)[0] for loop in outline.loops)
-    face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0.0, 0.0, 0.0), UP), outer, True)
-    for wire in inner:
-        face.Add(wire)
-    if not face.IsDone():
-        raise GeometryError(f"the outline gives no face ({face.Error().name})")
-    prism = BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0.0, 0.0, thickness))
+    face = face_of([wire_of(loop)[0] for loop in outline.loops], 0.0)
+    prism = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, thickness))
     solid = cq.Shape.cast(prism.Shape())
     if not isinstance(solid, cq.Solid):
         raise GeometryError(f"the outline extrudes to a {solid.ShapeType()}, not to one solid")

@@ -20,7 +20,7 @@ from mechwright_cam.planning.prepare import cut_plates, library_of
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
 from mechwright_cam.proof.judge import prove
 from mechwright_cam.proof.report import Proof
-from mechwright_cam.proof.rule import Rule
+from mechwright_cam.proof.rules import Rule
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.table import settings_of

@@ -4,9 +4,8 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright.contracts.plugin import Plugin
-from mechwright_cam.controls.corners import EXACT, Corners
-from mechwright_cam.controls.offsets import OffsetTables
-from mechwright_cam.controls.work_offsets import G54_TO_G59, WorkOffsets
+from mechwright_cam.controls.dialect import EXACT, Corners
+from mechwright_cam.controls.offsets import G54_TO_G59, OffsetTables, WorkOffsets
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

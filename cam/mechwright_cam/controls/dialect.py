@@ -1,11 +1,51 @@
-"""How controls differ in reading the same text."""
+"""How controls differ in reading the same text, and how far they leave the path that it programs."""
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from mechwright_cam.controls.corners import EXACT, Corners
+
+@dataclass(frozen=True, slots=True)
+class Corners:
+    """What one control does at corners.
+
+    A control that follows the path within a setting of the machine counts as exact here: no word of a program
+    can change that. Where a word lets it go further, that word counts.
+    """
+
+    unsaid: float = 0.0
+    """How far the control may leave the path while the program has chosen neither G61 nor G64, mm; inf
+    without a bound."""
+    after_g64: float = 0.0
+    """The same after a G64 that gives no tolerance."""
+    tolerance: bool = False
+    """Whether G64 takes a tolerance, P (and Q)."""
+    looser: tuple[tuple[int, str, frozenset[float], str], ...] = ()
+    """Words that let the control go further than its setting: code in tenths, letter, the values of it that
+    do not, what to do instead."""
+
+    def bound(self, blend: float | None, merge: float | None) -> float:
+        """How far the control may leave the path after G64 with P ``blend`` and Q ``merge``, mm.
+
+        LinuxCNC first merges lines into one that passes within Q (as wide as P if there is no Q), then rounds
+        the corners of what it has made within P; P 0 is to it no tolerance at all.
+
+        >>> free = float("inf")
+        >>> linuxcnc = Corners(unsaid=free, after_g64=free, tolerance=True)
+        >>> linuxcnc.bound(0.002, None), linuxcnc.bound(0.002, 0.0)
+        (0.004, 0.002)
+        >>> linuxcnc.bound(0.0, 0.0), linuxcnc.bound(None, 0.01)
+        (inf, inf)
+        """
+        if blend is None or not blend > 0:
+            return self.after_g64
+        return blend + (blend if merge is None or merge < 0 else merge)
+
+
+EXACT = Corners()
+"""A control that follows the path, or whose settings alone say how far it leaves it."""
+
 
 PECK_CLEARANCE = 0.254
 """How far above the last depth a peck starts, mm: LinuxCNC's 0.010 inch."""
@@ -15,105 +55,77 @@ USUAL_M = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """What one control understands, and what it means by it.
-
-    Parameters
-    ----------
-    g_codes, m_codes
-        Codes that are interpreted, G codes in tenths (``591`` is G59.1).
-    m_words
-        Usual M codes that the control spells otherwise, each with its own; the usual one is then none of its
-        words, unless it spells another of them.
-    unsupported
-        G codes in tenths that the control knows and this interpreter refuses, each with what to do instead.
-    inert
-        G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
-        letters that belong to it.
-    inert_m
-        M codes that change nothing the proof asks about.
-    dwell_unit
-        Seconds per unit of P in G4.
-    bare_dwell_unit
-        The same for a P without a decimal point; None if the point makes no difference.
-    absolute_centres
-        Whether I and J are absolute coordinates at the start of a program.
-    semicolon_comments
-        Whether ``;`` starts a comment that runs to the end of the line.
-    peck_clearance
-        How far above the last depth the next peck of G83 starts, and how far G73 draws back, mm.
-    arc_absolute, arc_relative
-        The control refuses an arc whose two radii differ by more than both, in mm and as a part of the
-        radius.
-    line_length
-        Longest line, characters.
-    change_stops_spindle
-        Whether M6 stops the spindle.
-    percent_ends
-        Whether a second ``%`` line ends the program as M2 does.
-    percent
-        Whether a line may be a ``%`` at all.
-    arc_most
-        The control refuses any arc whose radii differ by more, mm.
-    counts_code
-        Whether blanks and comments count for the length of a line.
-    decimals
-        Decimals of a coordinate, mm, that the control keeps.
-    point_needed
-        Whether a length or feed without a decimal point would mean thousandths; it is refused then.
-    program_numbers
-        Whether a line may be a program number, O1234.
-    tool_by_t
-        Whether a tool counts as changed at its T word, by hand, because there is no M6.
-    macros
-        Gives the lines that are run of a program that works out its values and its way, such as
-        :class:`mechwright_cam.controls.reading.macros.Macros`; None if the control has no such programs.
-    numbers_needed
-        Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written.
-    home_cancels_length
-        Whether G28 of Z may end G43, so that it has to be stated anew.
-    length_write
-        L of the G10 that sets a tool's length, and the letter of the length; None without such a table.
-    bare_home
-        Whether G28 without an axis sends all of them home.
-    corners
-        How far the control leaves the path between two moves.
-    forbidden
-        Characters that the control obeys out of the stream, wherever they stand.
-    name
-        Name for messages; a control gives its own title.
-    """
+    """What one control understands, and what it means by it."""
 
     g_codes: frozenset[int]
+    """G codes that are interpreted, in tenths (``591`` is G59.1)."""
     m_codes: frozenset[int] = USUAL_M
+    """M codes that are interpreted."""
     m_words: tuple[tuple[int, int], ...] = ()
+    """Usual M codes that the control spells otherwise, each with its own; the usual one is then none of its
+    words, unless it spells another of them."""
     unsupported: tuple[tuple[int, str], ...] = ()
+    """G codes in tenths that the control knows and this interpreter refuses, each with what to do instead."""
     inert: tuple[tuple[int, str], ...] = ()
+    """G codes in tenths that change no path (smoothing, a cancel of what is refused anyway), each with the
+    letters that belong to it."""
     inert_m: frozenset[int] = frozenset()
+    """M codes that change nothing the proof asks about."""
     dwell_unit: float = 1.0
+    """Seconds per unit of P in G4."""
     bare_dwell_unit: float | None = None
+    """The same for a P without a decimal point; None if the point makes no difference."""
     absolute_centres: bool = False
+    """Whether I and J are absolute coordinates at the start of a program."""
     semicolon_comments: bool = True
+    """Whether ``;`` starts a comment that runs to the end of the line."""
     peck_clearance: float = PECK_CLEARANCE
+    """How far above the last depth the next peck of G83 starts, and how far G73 draws back, mm."""
     arc_absolute: float = 0.0283
     arc_relative: float = 0.001
+    """The control refuses an arc whose radii differ by more than both, in mm and as a part of the radius."""
     line_length: int = 255
+    """Longest line, characters."""
     change_stops_spindle: bool = True
+    """Whether M6 stops the spindle."""
     percent_ends: bool = True
+    """Whether a second ``%`` line ends the program as M2 does."""
     percent: bool = True
+    """Whether a line may be a ``%`` at all."""
     arc_most: float = math.inf
+    """The control refuses any arc whose radii differ by more, mm."""
     counts_code: bool = False
+    """Whether blanks and comments count for the length of a line."""
     decimals: int = 4
+    """Decimals of a coordinate, mm, that the control keeps."""
     point_needed: bool = False
+    """Whether a length or feed without a decimal point would mean thousandths; it is refused then."""
     program_numbers: bool = False
+    """Whether a line may be a program number, O1234."""
     tool_by_t: bool = False
+    """Whether a tool counts as changed at its T word, by hand, because there is no M6."""
     forbidden: str = ""
+    """Characters that the control obeys out of the stream, wherever they stand."""
     macros: Callable[..., Any] | None = None
+    """Gives the lines that are run of a program that works out its values and its way, such as
+    :class:`mechwright_cam.controls.reading.macros.Macros`; None if the control has no such programs."""
     home_cancels_length: bool = False
+    """Whether G28 of Z may end G43, so that it has to be stated anew."""
     numbers_needed: str = ""
+    """Letters, of D and H, that G41, G42 and G43 do not take from the tool where they are not written."""
     length_write: tuple[int, str] | None = (1, "Z")
+    """L of the G10 that sets a tool's length, and the letter of the length; None without such a table."""
     bare_home: bool = True
+    """Whether G28 without an axis sends all of them home."""
     corners: Corners = EXACT
+    """How far the control leaves the path between two moves."""
     name: str = "the control"
+    """Name for messages; a control gives its own title."""
+
+    def refuses(self, error: Any, radius: Any) -> Any:
+        """Whether arcs are refused whose radii differ so much, by that at the start; (n,) or one, mm."""
+        beyond = (error > self.arc_absolute) & (error > self.arc_relative * radius)
+        return beyond | (error > self.arc_most)
 
     def m(self, code: int) -> int:
         """The control's own M code for a usual one.
@@ -164,12 +176,12 @@ MILLING = frozenset(
         400,
         430,
         490,
-        800,
-        810,
-        820,
-        830,
+        540,
+        550,
+        560,
+        570,
     }
-    | {540, 550, 560, 570, 580, 590, 610, 640, 900, 910, 940, 100, 730, 850, 890, 980, 990}
+    | {580, 590, 610, 640, 800, 810, 820, 830, 900, 910, 940, 100, 730, 850, 890, 980, 990}
 )
 """G codes that Fanuc and those who follow it share, in tenths."""
 NOT_SIMULATED = (

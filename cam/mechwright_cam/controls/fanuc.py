@@ -2,11 +2,9 @@
 
 from collections.abc import Sequence
 
-from mechwright_cam.controls.corners import Corners
-from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
-from mechwright_cam.controls.offsets import DOffset, OffsetTables
-from mechwright_cam.controls.work_offsets import FANUC_OFFSETS, G54_TO_G59
+from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings

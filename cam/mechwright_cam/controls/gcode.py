@@ -11,10 +11,9 @@ from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.read import interpret_files
 from mechwright_cam.controls.reading.run import Run
-from mechwright_cam.controls.writing.checks import check_program, unmet
 from mechwright_cam.controls.writing.sections import Sections
 from mechwright_cam.controls.writing.writer import Writer, with_numbers
-from mechwright_cam.program.moves import Program
+from mechwright_cam.program.moves import Program, Rapid
 from mechwright_cam.shop.settings import CamSettings
 
 
@@ -30,7 +29,7 @@ class GcodeControl(Sections):
             The program has no moves, or a section that does not start with a Rapid to x and y; the offsets
             that it should set have not been measured.
         """
-        check_program(program, self)
+        self._check_program(program)
         out = Writer(program, self.decimals, self.dialect.point_needed)
         self.frame(out)
         self.head(out)
@@ -48,9 +47,44 @@ class GcodeControl(Sections):
         lines = with_numbers(out.lines, step) if step else out.lines
         return "\n".join(lines) + "\n"
 
+    def _check_program(self, program: Program) -> None:
+        """Raise ProgramError for a program that it cannot run, or that does nothing."""
+        title, compensates = self.title, self.offsets.d is not None
+        if not any(operation.moves for section in program.sections for operation in section.operations):
+            raise ProgramError(f"program {program.name} has no moves; nothing is written")
+        for section in program.sections:
+            tool = section.tool
+            if not compensates and tool in program.compensated:
+                raise ProgramError(
+                    f"{title} has no cutter compensation (G41, G42), and program {program.name} uses "
+                    'it; use cam.compensation = "computer"'
+                )
+            if max(tool.number, tool.d_number if tool in program.compensated else 0) > self.highest_tool:
+                raise ProgramError(
+                    f"tool {tool.name} has number {max(tool.number, tool.d_number)}; {title} takes up "
+                    f"to T{self.highest_tool}; give it a lower one in the tool library"
+                )
+            first = next((move for operation in section.operations for move in operation.moves), None)
+            if not (isinstance(first, Rapid) and None not in (first.x, first.y)):
+                raise ProgramError(
+                    f"program {program.name}: the section of T{tool.number} does not start "
+                    "with a rapid to x and y"
+                )
+
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
-        return tuple(unmet(settings, self))
+        lacks, rows = [], self.work_offsets
+        if not any(row.has(settings.work_offset) for row in rows):
+            remedy = f"use one of: {', '.join(row.name for row in rows)}"
+            lacks.append(("work_offset", f"work offset {settings.work_offset}", remedy))
+        if settings.compensation != "computer" and self.offsets.d is None:
+            lacks.append(("compensation", "cutter compensation (G41, G42)", 'use compensation = "computer"'))
+        return [
+            Finding.error(
+                f"cam.{key.replace('_', '-')}", f"cam.{key}", f"{self.title} has no {what}", remedy=remedy
+            )
+            for key, what, remedy in lacks
+        ]
 
     def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
         """Run a program by the rules of the control's dialect."""
@@ -67,11 +101,6 @@ class GcodeControl(Sections):
             self.comment(out, self.tool_note(tool))
         for offset in self.offsets.of_program(program):
             self.comment(out, self.d_note(offset))
-
-    def safe_start(self, out: Writer) -> None:
-        """Set every mode that the program relies on."""
-        out.line(*self.modes)
-        self.usual_corners(out)
 
     def set_offsets(self, out: Writer) -> None:
         """Write the measured work offset and tool lengths into the control's tables."""

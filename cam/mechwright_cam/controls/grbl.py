@@ -4,9 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from mechwright.contracts.finding import Finding, Severity
-from mechwright_cam.controls.corners import EXACT
-from mechwright_cam.controls.dialect import CENTRE, FEEDS, RETURN, USUAL_M, Dialect
+from mechwright.contracts.finding import Finding
+from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
 from mechwright_cam.controls.writing.writer import Writer
@@ -79,20 +78,11 @@ class Grbl(GcodeControl):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """Also: the retract must stay off the homing switch."""
-        found = list(super().check(settings))
-        if settings.machine.retract_z >= 0:
-            found.append(
-                Finding(
-                    "cam.retract",
-                    Severity.WARNING,
-                    "cam.machine.retract_z",
-                    "machine Z0 is where the homing switch is",
-                    settings.machine.retract_z,
-                    0.0,
-                    "mm",
-                    "retract below it, by more than the pull-off ($27), such as -2",
-                )
-            )
+        found, height = list(super().check(settings)), settings.machine.retract_z
+        if height >= 0:
+            where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
+            remedy = "retract below it, by more than the pull-off ($27), such as -2"
+            found.append(Finding.warning("cam.retract", where, message, height, 0.0, "mm", remedy))
         return found
 
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
@@ -100,17 +90,10 @@ class Grbl(GcodeControl):
         unknown = [tool.name for tool in tools if tool.length is None]
         if settings.post.tool_change != "pause" or not unknown:
             return ()
-        return [
-            Finding(
-                "cam.tool-change",
-                Severity.WARNING,
-                "cam.post.tool_change",
-                f"at a stop (M0) Grbl can neither jog nor probe, so {', '.join(unknown)} cannot be touched "
-                "off there",
-                remedy="leave tool_change out for one file per tool, or give their lengths in "
-                "[cam.measured.lengths]",
-            )
-        ]
+        names, lengths = ", ".join(unknown), "[cam.measured.lengths]"
+        message = f"at a stop (M0) Grbl can neither jog nor probe, so {names} cannot be touched off there"
+        remedy = f"leave tool_change out for one file per tool, or give their lengths in {lengths}"
+        return [Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
 
     def blending(self, exact: bool) -> list[str]:
         """Grbl always follows the path exactly; it knows G61 only."""

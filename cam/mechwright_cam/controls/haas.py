@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from mechwright_cam.controls.corners import Corners
+from mechwright_cam.controls.dialect import Corners
 from mechwright_cam.controls.fanuc import Fanuc
 from mechwright_cam.controls.gcode import GcodeControl
-from mechwright_cam.controls.work_offsets import G54_TO_G59, HAAS_OFFSETS
+from mechwright_cam.controls.offsets import G54_TO_G59, HAAS_OFFSETS
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill
 

@@ -4,13 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.corners import Corners
-from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Dialect
+from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
+from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
-from mechwright_cam.controls.work_offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings

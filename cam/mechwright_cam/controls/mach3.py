@@ -4,8 +4,7 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 
-from mechwright_cam.controls.corners import EXACT
-from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Dialect
+from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer

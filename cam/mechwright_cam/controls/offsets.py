@@ -1,4 +1,4 @@
-"""What a control keeps in its tables of tool offsets, and what a D offset of it has to hold.
+"""What a control keeps in its tables of offsets: of tools, what a D has to hold, and of the work.
 
 Glossary
 --------
@@ -10,6 +10,7 @@ geometry, wear
     Two columns of one offset, which the control adds up: the tool as planned, and what it has become.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -35,29 +36,22 @@ class DOffset:
 
 @dataclass(frozen=True, slots=True)
 class OffsetTables:
-    """What a control keeps of each tool.
-
-    Parameters
-    ----------
-    lengths
-        Whether it keeps lengths, for G43 H. Without, tools are touched off one by one.
-    length_word
-        The word that gives a tool its length in the program instead, such as ``"G43.1"``; empty if there is
-        none.
-    d
-        What a D offset holds; ``"setting"`` if a setting of the machine says which, and so ``d_value`` of the
-        design file; None without cutter compensation.
-    d_setting
-        Where the machine is told which.
-    wear
-        Whether D has columns of geometry and wear.
-    """
+    """What a control keeps of each tool."""
 
     lengths: bool = True
+    """Whether it keeps lengths, for G43 H. Without, tools are touched off one by one."""
     length_word: str = ""
+    """The word that gives a tool its length in the program instead, such as ``"G43.1"``; empty if there is
+    none.
+    """
     d: Literal["radius", "diameter", "setting"] | None = "diameter"
+    """What a D offset holds; ``"setting"`` if a setting of the machine says which, and so ``d_value`` of the
+    design file; None without cutter compensation.
+    """
     d_setting: str = ""
+    """Where the machine is told which."""
     wear: bool = False
+    """Whether D has columns of geometry and wear."""
 
     def of_program(self, program: Program) -> list[DOffset]:
         """The D offsets that a program uses."""
@@ -90,3 +84,41 @@ class OffsetTables:
         factor = 1 if quantity == "radius" else 2
         planned = 0.0 if compensation == "wear" else factor * tool.radius
         return DOffset(tool.d_number, tool, quantity, planned, factor * wear)
+
+
+@dataclass(frozen=True)
+class WorkOffsets:
+    """A row of work offsets."""
+
+    name: str
+    """The name that people see."""
+    pattern: str
+    """How its offsets are spelt, with the number as a group."""
+    words: str
+    """The words that set one, with ``{}`` for its place in the row."""
+    before: int = 0
+    """The number before that of the first in the row."""
+
+    def has(self, offset: str) -> bool:
+        """Whether the row has an offset.
+
+        >>> G54_TO_G59.has("G59"), G54_TO_G59.has("G59.1")
+        (True, False)
+        """
+        return re.fullmatch(self.pattern, offset) is not None
+
+    def setting(self, offset: str) -> str:
+        """The words that set one of its offsets, without the axes.
+
+        >>> G54_TO_G59.setting("G55"), FANUC_OFFSETS.setting("G54.1 P7")
+        ('G10 L2 P2', 'G10 L20 P7')
+        """
+        match = re.fullmatch(self.pattern, offset)
+        assert match is not None  # noqa: S101 - the caller has looked it up
+        return self.words.format(int(match[1]) - self.before)
+
+
+G54_TO_G59 = WorkOffsets("G54 to G59", r"G(5[4-9])", "G10 L2 P{}", 53)
+LINUXCNC_OFFSETS = WorkOffsets("G59.1 to G59.3", r"G59\.([1-3])", "G10 L2 P{}", -6)
+FANUC_OFFSETS = WorkOffsets("G54.1 P1 to P48", r"G54\.1 P([1-9]|[123]\d|4[0-8])", "G10 L20 P{}")
+HAAS_OFFSETS = WorkOffsets("G154 P1 to P99", r"G154 P([1-9]\d?)", "G10 L20 P{}")

@@ -22,16 +22,9 @@ MOST = 0.02
 
 
 def deflection(tool: Tool, workpiece: str, depth: float) -> float:
-    """Deflection, mm, of an end mill that roughs to ``depth``, mm, with its own cutting data.
+    """Deflection, mm, of an end mill that roughs with its own cutting data for the workpiece's material.
 
-    Parameters
-    ----------
-    tool
-        It has cutting data for the material.
-    workpiece
-        Name of the material.
-    depth
-        Of the bottom below the top of the stock, mm; a stick-out of the tool's own counts instead.
+    It goes to ``depth`` below the top of the stock, mm; a stick-out of the tool's own counts instead.
     """
     data, stuff = tool.cutting[workpiece], material(workpiece)
     wide = data.step_over

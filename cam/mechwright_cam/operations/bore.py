@@ -15,15 +15,14 @@ from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
-from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.operations.floors import floor_allowance
-from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.rates import rates
+from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, rounded
+from mechwright_cam.plane.leads import half_circles
+from mechwright_cam.plane.path import CIRCLE_BIAS, round_from_right
 from mechwright_cam.program.moves import Feed, FeedArc, Rapid
-from mechwright_cam.setup.depths import bores, bottom_of, through
+from mechwright_cam.setup.depths import bores, bottom_of, floor_allowance, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
 
@@ -83,7 +82,7 @@ class BoreOperation(Operation):
             plain = job.settings.compensation == "computer"
             finish = finish_bore if plain else finish_bore_compensated
             steps.add(f"{bore.name}: finish", mill, partial(finish, job, bore))
-        return stock.without(task.region)
+        return Stock(gone=stock.gone)
 
 
 EXACT = 256
@@ -142,13 +141,13 @@ def _bottom(job: Job, bore: Bore, mill: Tool) -> float:
 
 def boring_time(job: Job, bore: Bore, drill: Tool | None, mill: Tool) -> float:
     """Time in which a mill roughs and finishes a bore, s; rapids and corners do not count."""
-    settings = job.settings
-    speed = rates(mill, job.part.material, settings.machine)
-    pen = Pen(mill, speed, settings.clearance, math.tan(math.radians(settings.ramp_angle)))
-    rough_bore(job, bore, drill, shapely.Polygon(), pen)
-    finish_bore(job, bore, pen)
+
+    def write(pen: Pen) -> None:
+        rough_bore(job, bore, drill, shapely.Polygon(), pen)
+        finish_bore(job, bore, pen)
+
     minutes, x, y = 0.0, *bore.centre
-    for move in pen.moves:
+    for move in Steps(job, job.settings.clearance).moves(mill, write):
         if isinstance(move, FeedArc):
             begin, end = math.atan2(-move.j, -move.i), math.atan2(move.y - y - move.j, move.x - x - move.i)
             turn = ((end - begin) * (1 if move.ccw else -1)) % math.tau or math.tau
@@ -186,7 +185,10 @@ def rough_bore(job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, 
     bottom = _bottom(job, bore, mill)
     leave = floor_allowance(job, -bore.top, bottom)
     for radius in radii:
-        _helix(job, bore, pen, radius, data.step_down * mill.diameter, bottom + leave)
+        turn = round_from_right(bore.centre, radius, job.settings.climb)
+        feed, step_down = pen.rates.inside(radius, mill.radius), data.step_down * mill.diameter
+        pen.helix(turn, radius, -bore.top, bottom + leave, step_down, feed)
+        pen.straight(bore.centre)
     if leave > 0:
         _floor(job, bore, pen, radii, bottom)
     pen.retract()
@@ -195,23 +197,10 @@ def rough_bore(job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, 
 def _floor(job: Job, bore: Bore, pen: Pen, radii: list[float], bottom: float) -> None:
     """The floor of a blind bore in one pass: sunk along the innermost ring, then ring by ring outwards."""
     for radius in radii:
-        turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
+        turn = round_from_right(bore.centre, radius, job.settings.climb)
         pen.straight(turn.start)
         pen.ramp(turn, bottom)
         pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
-    pen.straight(bore.centre)
-
-
-def _helix(job: Job, bore: Bore, pen: Pen, radius: float, step_down: float, bottom: float) -> None:
-    """Down along a helix, once round at the bottom, and to the middle."""
-    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), job.settings.climb)
-    # A little less than the steepest, for rounding.
-    pitch = min(step_down, math.tau * radius * pen.slope * 0.999)
-    pen.above(turn.start)
-    pen.sink(-bore.top)
-    for z in levels(-bore.top, bottom, pitch):
-        pen.descend(turn, z, min(pen.rates.ramp, pen.rates.inside(radius, pen.tool.radius)))
-    pen.follow(turn, pen.rates.inside(radius, pen.tool.radius))
     pen.straight(bore.centre)
 
 
@@ -219,23 +208,11 @@ def finish_bore(job: Job, bore: Bore, pen: Pen) -> None:
     """Write the finishing circles, entered and left on half circles from the middle."""
     mill = pen.tool
     radius = bore.diameter / 2 - mill.radius - CIRCLE_BIAS
-    bottom = _bottom(job, bore, mill)
-    ccw = job.settings.climb
-    x, y = rounded(bore.centre[0]), rounded(bore.centre[1])
-    turn = circle(bore.centre, radius, (bore.centre[0] + radius, bore.centre[1]), ccw)
-    middle, side = ((x + turn.start[0]) / 2, (y + turn.start[1]) / 2), 1 if ccw else -1
-    path = Path(
-        (x, y),
-        (
-            arc((x, y), turn.start, middle, side),
-            *turn.cuts,
-            arc(turn.start, (x, y), middle, side),
-        ),
-    )
-    heights = levels(-bore.top, bottom, finish_depth(job.settings, mill, job.part.material))
-    feed = pen.rates.inside(radius, mill.radius)
-    pen.above((x, y))
-    for z in heights + [bottom] * job.settings.spring_passes:
+    turn = round_from_right(bore.centre, radius, job.settings.climb)
+    into, off = half_circles(bore.centre, turn)
+    path, feed, bottom = into + turn + off, pen.rates.inside(radius, mill.radius), _bottom(job, bore, mill)
+    pen.above(path.start)
+    for z in finish_heights(job, mill, -bore.top, bottom):
         pen.sink(z)
         pen.follow(path, feed)
     pen.retract()

@@ -1,6 +1,5 @@
 """A cavity that is cleared with bounded engagement, and its moves: a helix, a spiral, and passes."""
 
-import math
 from dataclasses import dataclass
 
 import shapely
@@ -46,7 +45,8 @@ def write_cavities(
     for cavity in cavities:
         above = top
         for z in levels(top, bottom, step_down):
-            _enter(pen, cavity, above, z, climb)
+            turn = circle(cavity.centre, cavity.helix, cavity.begin, climb)
+            pen.helix(turn, cavity.helix, above, z)
             for one in cavity.passes:
                 if one.linked:
                     pen.straight(one.path.start, pen.air)
@@ -56,14 +56,3 @@ def write_cavities(
                 pen.follow(one.path)
             above = z
     pen.retract()
-
-
-def _enter(pen: Pen, cavity: Cavity, above: float, z: float, climb: bool) -> None:
-    """Down along a helix, and once round at the bottom."""
-    turn = circle(cavity.centre, cavity.helix, cavity.begin, climb)
-    pen.above(turn.start)
-    pen.sink(above)
-    pitch = math.tau * cavity.helix * pen.slope * 0.999  # a little less than the steepest, for rounding
-    for height in levels(above, z, pitch):
-        pen.descend(turn, height)
-    pen.follow(turn)

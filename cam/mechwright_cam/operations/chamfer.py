@@ -2,22 +2,23 @@
 
 import math
 from functools import partial
+from itertools import product
 
 import shapely
 
+from mechwright.arrays import Array
 from mechwright.contracts.details import Chamfer
-from mechwright.contracts.part import Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import DetailOperation, spread, tools_of
+from mechwright_cam.operations.pointed import DetailOperation, spread
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.plane.path import Path
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import ToolKind
+from mechwright_cam.shop.tool import Tool, ToolKind
 
 BELOW = (0.3, 0.1)
 """How far a chamfer mill's tip stands below the chamfer, mm, tried in this order: its very tip cuts badly."""
@@ -35,33 +36,19 @@ class ChamferOperation(DetailOperation):
         # Around the rim the tip must stay above the tabs.
         tabs = max((tab.top for tab in job.tabs if detail.side == "outside"), default=-math.inf)
         held, floor = False, _floor_below(job, detail, region)
-        for tool in tools_of(job, ToolKind.CHAMFER):
-            if abs(tool.point_angle - 90) > TOLERANCES.noise:
+        right = [t for t in job.tools_of(ToolKind.CHAMFER) if abs(t.point_angle - 90) <= TOLERANCES.noise]
+        for tool, below in product(right, BELOW):
+            deep = detail.width + below
+            if spread(tool, deep) > tool.radius or deep > tool.flute_length:
                 continue
-            for below in BELOW:
-                offset = spread(tool, below) + BIAS
-                wide = spread(tool, below + detail.width)
-                if wide > tool.radius or detail.width + below > tool.flute_length:
-                    continue
-                if -(detail.width + below) < tabs:
-                    held = True
-                    continue
-                if -(detail.width + below) < floor - TOLERANCES.noise:
-                    continue
-                if detail.side == "outside":
-                    blocked = grow(region, offset)
-                else:
-                    frame = shapely.box(*region.bounds).buffer(4 * tool.diameter)
-                    blocked = shapely.difference(frame, grow(region, -offset))
-                climb = job.settings.climb
-                found = rings(blocked, climb)
-                inner = [ring for ring in found if _within(ring, region)]
-                found = inner if detail.side == "inside" else found[:1]
-                if found:
-                    paths = [fit(ring, FIT, job.settings.path.lines_per_arc) for ring in found]
-                    bottom = -(detail.width + below)
-                    write = partial(_around, paths=paths, z=bottom)
-                    return Task(detail, self, (tool,), 0.0, bottom, data=write)
+            held = held or -deep < tabs
+            if -deep < max(tabs, floor - TOLERANCES.noise):
+                continue
+            found = _rings(job, detail, region, tool, below)
+            if found:
+                paths = [fit(ring, FIT, job.settings.path.lines_per_arc) for ring in found]
+                write = partial(_around, paths=paths, z=-deep)
+                return Task(detail, self, (tool,), 0.0, -deep, data=write)
         if held:
             raise DesignError(
                 f"cam.hold.tab_height: the chamfer {detail.name} of {detail.width:g} mm in part "
@@ -86,16 +73,21 @@ def _floor_below(job: Job, detail: Chamfer, region: shapely.Polygon) -> float:
         return -math.inf
     floors = [
         -(feature.top + feature.depth)
-        for feature in job.features
-        if not (isinstance(feature, Profile) and feature.side == "outside")
-        and feature.top + feature.depth < job.thickness - TOLERANCES.noise
+        for feature in job.inner
+        if feature.top + feature.depth < job.thickness - TOLERANCES.noise
         and shapely.intersects(plan_view(feature), grow(region, -TOLERANCES.leftover))
     ]
     return max(floors, default=-math.inf)
 
 
-def _within(ring: object, region: shapely.Polygon) -> bool:
-    return bool(shapely.contains(region, shapely.LinearRing(ring)))
+def _rings(job: Job, detail: Chamfer, region: shapely.Polygon, tool: Tool, below: float) -> list[Array]:
+    """Where the tool's centre runs along an edge, its tip so far below the chamfer, mm."""
+    offset = spread(tool, below) + BIAS
+    if detail.side == "outside":
+        return rings(grow(region, offset), job.settings.climb)[:1]
+    frame = shapely.box(*region.bounds).buffer(4 * tool.diameter)
+    found = rings(shapely.difference(frame, grow(region, -offset)), job.settings.climb)
+    return [ring for ring in found if shapely.contains(region, shapely.LinearRing(ring))]
 
 
 def _around(pen: Pen, paths: list[Path], z: float) -> None:
@@ -103,7 +95,6 @@ def _around(pen: Pen, paths: list[Path], z: float) -> None:
     for path in paths:
         if path.cuts:
             pen.above(path.start)
-            pen.sink(0.0)
-            pen.ramp(path, z)
+            pen.enter(path, 0.0, z, clear=False)
             pen.follow(path)
     pen.retract()

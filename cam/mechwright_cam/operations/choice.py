@@ -11,7 +11,7 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.entry import lead_length
-from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.plane.offsets import ROUGH, areas, grow
 from mechwright_cam.plane.path import rounded
 from mechwright_cam.plane.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.setup.job import Job, wear_margin
@@ -27,6 +27,8 @@ HEAVY = 0.1
 """Stock thicker than the allowance by this much, mm, is roughed once more before it is finished."""
 HANDY = 6.0
 """Up to this diameter, mm, a roughing mill is sensible for a part of any size: it wastes little."""
+INSCRIBED = 0.01
+"""How far the largest circle in an opening may be off, mm."""
 ROOMY = 0.7
 """A mill up to this share of a hole's diameter leaves room for chips."""
 
@@ -150,7 +152,7 @@ def _largest_as_good(
 @lru_cache(maxsize=64)
 def entry_place(shape: shapely.Polygon) -> tuple[Point, float]:
     """The middle of the largest circle in an opening, and its radius, mm."""
-    line = shapely.maximum_inscribed_circle(shape, tolerance=0.01)
+    line = shapely.maximum_inscribed_circle(shape, tolerance=INSCRIBED)
     (x, y), _ = line.coords
     return (rounded(x), rounded(y)), float(line.length)
 
@@ -175,8 +177,11 @@ def roomy_mills(mills: Sequence[Tool], opening: shapely.Geometry) -> list[Tool]:
 
     A cutter as wide as a slot would cut with its whole width at every depth, and leave nothing to finish.
     """
-    width = 2 * max(entry_place(part)[1] for part in polygons(opening))
-    return [mill for mill in mills if mill.diameter <= ROOMY * width] or list(mills[-1:])
+
+    def has_room(mill: Tool) -> bool:
+        return not shapely.is_empty(grow(opening, INSCRIBED / 2 - mill.radius / ROOMY, ROUGH))
+
+    return list(mills[bisect_left(mills, True, hi=len(mills) - 1, key=has_room) :])
 
 
 def finest_needed(

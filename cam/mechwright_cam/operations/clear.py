@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import shapely
 
@@ -21,18 +22,22 @@ from mechwright_cam.operations.clearing import Roughing
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
 from mechwright_cam.operations.drilling import starting_drill
-from mechwright_cam.operations.floors import floor_allowance, over_openings
 from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer, cut_layers
 from mechwright_cam.operations.recess import is_recess, recess
 from mechwright_cam.operations.recess_zone import recess_zone
-from mechwright_cam.operations.steps import Steps
+from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock, together_left
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons
+from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons, swept
 from mechwright_cam.plane.reach import PRECISION
-from mechwright_cam.setup.depths import bottom_of
+from mechwright_cam.setup.depths import bottom_of, floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+
+OPENED = 0.05
+"""Share of a recess that has to be open from below before it is cut in two layers for it."""
+THIN = 0.2
+"""A layer that begins or ends so near to an opening, mm, is not divided there."""
 
 
 class Clear(Operation):
@@ -98,28 +103,26 @@ class Clear(Operation):
         zone: Zone = task.data
         height = zone.bottom + leave
         ((below, under),) = over_openings(replace(zone, top=height), stock)
-        floor = Layer(below, under, steps)
-        roughs = [Layer(*pair, steps) for pair in over_openings(replace(zone, bottom=height), stock)]
+        cuts: list[Cut] = []
+        floor = Layer(below, under, steps, cuts)
+        above_it = over_openings(replace(zone, bottom=height), stock)
+        roughs = [Layer(*pair, steps, cuts) for pair in above_it]
         for rough in roughs:
             self.open_up(rough, task.feature, floored=True)
-        cuts = [cut for rough in roughs for cut in rough.taken()]
         cleared = [mill for _, mill, _ in cuts]
         for mill in roughers(zone.mills, zone.finishers):
             found = [rough.roughing(mill) for rough in roughs]
             if found[0].share >= WORTH_A_TOOL:
                 for rough, one in zip(roughs, found, strict=True):
                     rough.rough(one)
-                    cuts += rough.taken()
                 if not cleared:  # where bounded engagement left corners standing a wide cutter would hit them
                     floor.floored(mill, found[-1])
-                    cuts += floor.taken()
         above: dict[str, Roughing] = {}
         for mill in zone.finishers:
             for rough in roughs:
                 above[mill.name] = rough.roughing(mill)
                 rough.rough(above[mill.name])
                 rough.rough_heavy(mill)
-                cuts += rough.taken()
         # What round mills left at the foot of the wall is cut in one go, down to the floor.
         last = roughs[-1].stock
         if not shapely.is_empty(last.ridges):
@@ -130,23 +133,38 @@ class Clear(Operation):
         floor.rough_heavy(zone.finisher, "finish the floor of narrow places")
         for mill in zone.finishers:
             floor.level(mill)
-        whole = Layer(zone, together_left([*(rough.stock for rough in roughs), floor.stock]), steps)
+        whole = Layer(zone, together_left([*(rough.stock for rough in roughs), floor.stock]), steps, cuts)
         for mill in zone.finishers:
             whole.finish(mill)
-        steps.cuts += [*cuts, *floor.cuts, *whole.cuts]
+        steps.cuts += cuts
         return whole.stock
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """Out of the plate with all of a rounded corner."""
-        zone: Zone = task.data
-        return zone.bottom_for(tool)
+        return float(task.data.bottom_for(tool))
 
     def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
         """The opening, its corners as round as the finest mill."""
         zone: Zone = task.data
-        radius = job.reach(zone.finisher)
-        return grow(grow(zone.clear, -radius, PRECISION), radius, PRECISION) if zone.below else None
+        return swept(zone.clear, job.reach(zone.finisher), PRECISION) if zone.below else None
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """Corners and passages that its mills do not reach."""
         return corner_remarks(task.data, job)
+
+
+def over_openings(zone: Zone, stock: Stock) -> list[tuple[Zone, Stock]]:
+    """A recess in layers from the top down, each without what earlier setups have opened from below."""
+    inside = [
+        air.top
+        for air in stock.gone
+        if zone.bottom + THIN < air.top < zone.top - THIN
+        and shapely.intersection(air.shape, stock.left).area > OPENED * stock.left.area
+    ]
+    heights = [zone.top, *sorted(set(inside), reverse=True), zone.bottom]
+    found = []
+    for place, (top, bottom) in enumerate(pairwise(heights)):
+        name = zone.name if place == 0 else f"{zone.name} around the opening"
+        layer = replace(zone, name=name, top=top, bottom=bottom)
+        found.append((layer, stock.without(stock.air_below(top)) if stock.gone else stock))
+    return found

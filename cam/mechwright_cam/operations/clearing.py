@@ -69,25 +69,16 @@ MANY = 0.5
 
 @dataclass(frozen=True)
 class Run:
-    """A path at one depth.
-
-    Parameters
-    ----------
-    path
-        Where the centre goes.
-    open
-        The start is clear of stock, so the cutter may be sunk there.
-    linked
-        The cutter may go straight from the end of the run before to the start of this one at depth.
-    beside
-        Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
-        centre may be plunged through that, slowly, which is shorter than a ramp.
-    """
+    """A path of the centre at one depth."""
 
     path: Path
     open: bool
+    """The start is clear of stock, so the cutter may be sunk there."""
     linked: bool
+    """The cutter may go straight from the end of the run before to the start of this one at depth."""
     beside: bool = False
+    """Where the start is, no more than the allowance of walls stands in the way: a mill that cuts at its
+    centre may be plunged through that, slowly, which is shorter than a ramp."""
 
 
 @dataclass(frozen=True)
@@ -99,24 +90,11 @@ class Cavity:
 
 
 class Roughing:
-    """One tool's roughing of one zone.
+    """One tool's roughing of one zone, in rings ``step_over`` diameters apart.
 
-    Parameters
-    ----------
-    zone, stock
-        Where, and what of it has to go.
-    tool
-        An end mill.
-    allowance
-        Stock to leave on the wall, mm; at least what its accuracy asks for.
-    step_over
-        Distance of rings, diameters.
-    climb
-        Direction.
-    only
-        The stock worth an effort; all that is left if None.
-    ridges
-        Only the floor of ``only`` is to be cut: what stands there is no higher than the zone's ridges.
+    On the wall it leaves the ``allowance``, mm, and at least what its accuracy asks for. ``only`` is the
+    stock worth an effort, by default all that is left; with ``ridges`` only the floor of that is to be cut:
+    what stands there is no higher than the zone's ridges.
     """
 
     def __init__(
@@ -220,8 +198,7 @@ class Roughing:
             return []
         middles = shapely.points([piece.points[len(piece.points) // 2] for piece in found])
         owner = shapely.STRtree(parts).query_nearest(middles, all_matches=False)[1]
-        near = grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH)
-        near = prepared(near)
+        near = prepared(grow(self.stock.standing, self.radius + self.stock.over - CLEAR, ROUGH))
         groups: dict[int, list[Piece]] = {}
         for piece, part in zip(found, owner.tolist(), strict=True):
             groups.setdefault(part, []).append(piece)
@@ -231,14 +208,10 @@ class Roughing:
             here = ordered[-1][1][-1][-1]
             starts = np.array([runs[0][0] for _, runs in waiting])
             ordered.append(waiting.pop(int(np.argmin(np.hypot(*(starts - here).T)))))
-        paths = iter(
-            fit_all(
-                [points for _, runs in ordered for points in runs], self.fit, self.zone.path.lines_per_arc
-            )
-        )
+        every = [points for _, runs in ordered for points in runs]
+        paths = iter(fit_all(every, self.fit, self.zone.path.lines_per_arc))
         # Slack for rounding: a link along a ring's chord may cut its corner by this much.
-        free = grow(self.free, 2 * self.chord + self.fit, ROUGH)
-        free = prepared(free)
+        free = prepared(grow(self.free, 2 * self.chord + self.fit, ROUGH))
         cavities = []
         for part, runs in ordered:
             shapes = [path for path in (next(paths) for _ in runs) if path.cuts]
@@ -279,8 +252,7 @@ class Roughing:
         found: list[Piece] = []
         blocked, core = self.blocked, self.core
         wanted = grow(core, self.touch, ROUGH)
-        near = grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH)
-        near = prepared(near)
+        near = prepared(grow(wanted, radius - self.touch + self.sliver + CLEAR, ROUGH))
         order = 0
         while True:
             if order:
@@ -354,22 +326,14 @@ def _levels(pen: Pen, cavity: Cavity, top: float, heights: list[float]) -> None:
     above = top
     for level, z in enumerate(heights):
         for number, run in enumerate(cavity.runs):
-            if run.linked:
-                pen.straight(run.path.start)
-            else:
-                # Back to the first run goes through what this level has already cleared.
-                if number == 0 and level and cavity.back:
-                    pen.straight(run.path.start)
-                else:
-                    pen.above(run.path.start)
-                if run.open:
-                    pen.sink(z)
-                elif run.beside:
-                    pen.sink(above)
-                    pen.sink(z, pen.rates.plunge)
-                else:
-                    pen.sink(above)
-                    pen.ramp(run.path, z)
+            # Back to the first run goes through what this level has already cleared.
+            back = number == 0 and level > 0 and cavity.back
+            pen.go(run.path.start, run.linked or back)
+            if run.beside and not (run.open or run.linked):
+                pen.sink(above)
+                pen.sink(z, pen.rates.plunge)
+            elif not run.linked:
+                pen.enter(run.path, above, z, run.open)
             pen.follow(run.path)
         above = z
 

@@ -27,8 +27,8 @@ from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.contour_writer import ContourWriter, touching
 from mechwright_cam.operations.entry import Lead, lead_length, leads, offsets_of, starts, ways
-from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.operations.pen import Pen, levels
+from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.plane.contour import contour_beside
@@ -48,15 +48,11 @@ HALVINGS = 12
 
 
 def check_compensated(job: Job, zone: Zone, mill: Tool, *, fills: bool = False) -> None:
-    """Refuse what D cannot move; a groove that the mill ``fills``, say.
+    """Refuse what D cannot move.
 
-    Raises
-    ------
-    ToolError
-        A groove that the mill fills, or walls of a round-ended mill.
-    DesignError
-        Ramped tabs: their slopes are planned for the way of the cutter's centre, which D moves. Next to no
-        stock to leave: the channel around a part is no wider than the cutter that roughs it.
+    Raises ToolError for a groove that the mill ``fills``, or walls of a round-ended mill; DesignError for
+    ramped tabs, whose slopes are planned for the way of the cutter's centre, and for next to no stock to
+    leave: the channel around a part is no wider than the cutter that roughs it.
     """
     if job.settings.compensation == "computer":
         return
@@ -122,17 +118,15 @@ class CompensatedFinishing:
     """The finishing of one zone with cutter compensation, whose stock is only what roughing left."""
 
     def __init__(self, zone: Zone, stock: Stock, job: Job, mill: Tool) -> None:
-        self.zone, self.job, self.tool = zone, job, mill
-        check_compensated(job, zone, self.tool)
-        self.settings = job.settings
-        self.offsets = offsets_of(self.tool, job.settings)
+        self.zone, self.job, self.tool, self.settings = zone, job, mill, job.settings
+        check_compensated(job, zone, mill)
+        self.offsets = offsets_of(mill, job.settings)
         self.side = 1 if job.settings.climb else -1
         self.leads = leads(self.offsets, self.tool.radius, job.settings.stock_to_leave)
-        self.near = grow(stock.left, self.tool.radius - CLEAR, ROUGH)
+        self.near = prepared(grow(stock.left, self.tool.radius - CLEAR, ROUGH))
         room = zone.room(self.tool.radius, finishing=True)
-        self.wide = grow(room, CLEAR + self.offsets.limit, ROUGH)
-        self.air = self._air() if zone.must is not None else self.wide
-        self.near, self.wide, self.air = map(prepared, (self.near, self.wide, self.air))
+        self.wide = prepared(grow(room, CLEAR + self.offsets.limit, ROUGH))
+        self.air = prepared(self._air() if zone.must is not None else self.wide)
 
     def _air(self) -> shapely.Geometry:
         """Where leads to an open recess may be: past the end of its wall, in what roughing has cleared."""
@@ -151,9 +145,7 @@ class CompensatedFinishing:
     def write(self, pen: Pen) -> None:
         """Write the moves of all contours."""
         zone = self.zone
-        depth = finish_depth(self.settings, self.tool, self.job.part.material)
-        heights = levels(zone.top, zone.bottom, depth)
-        heights += [zone.bottom] * self.settings.spring_passes
+        heights = finish_heights(self.job, self.tool, zone.top, zone.bottom)
         waiting = self._contours()
         while waiting:
             contour = waiting.pop(0)
@@ -170,11 +162,10 @@ class CompensatedFinishing:
     def _contours(self) -> list[Path]:
         """The contours, closed ones anywhere entered yet."""
         zone, reach = self.zone, self.job.reach(self.tool)
-        # Past tabs the tool is lifted: the contour is that of the wall alone.
-        keep = zone.wall
         tolerance = fit_tolerance(zone.path)
         found = []
-        for ring in rings(grow(keep, reach + zone.path.bias), self.settings.climb):
+        # Past tabs the tool is lifted: the contour is that of the wall alone.
+        for ring in rings(grow(zone.wall, reach + zone.path.bias), self.settings.climb):
             dense = densified(ring, self.tool.radius / 4)
             everywhere = np.ones(len(dense), dtype=bool)
             whole = pieces(dense, everywhere, everywhere, self.wide, 0)
@@ -257,7 +248,8 @@ class CompensatedFinishing:
         at, places, headings = candidates(contour)
         apart = np.ones(len(at), dtype=bool)
         if self.zone.tabs is not None:
-            off_tab = places + self._normals(headings) * self.offsets.planned
+            normals = np.column_stack((-np.sin(headings), np.cos(headings))) * self.side
+            off_tab = places + normals * self.offsets.planned
             gap = shapely.distance(self.zone.tabs, shapely.points(off_tab))
             apart = gap > self.tool.radius + 2 * self.offsets.limit + 2 * TAB_GAP + STEP
         both = (self._tried(places, headings, out=out) for out in (False, True))
@@ -267,15 +259,9 @@ class CompensatedFinishing:
                 best = middle_of_longest(fits)
                 before, after = contour.split(float(at[best]))
                 entered = after + before if after.cuts else contour
-                return (
-                    entered,
-                    replace(shape, sweep=float(into[best])),
-                    replace(shape, sweep=float(off[best])),
-                )
+                one_way, other = (replace(shape, sweep=float(sweep[best])) for sweep in (into, off))
+                return entered, one_way, other
         raise self._no_room(contour)
-
-    def _normals(self, headings: Array) -> Array:
-        return np.column_stack((-np.sin(headings), np.cos(headings))) * self.side
 
     # -- moves ------------------------------------------------------------------------------------------
 
@@ -291,10 +277,7 @@ class CompensatedFinishing:
             and not shapely.contains_xy(self.near, x, y).any()
         )
         for number, z in enumerate(heights):
-            if number and direct:
-                pen.straight(one[0])
-            else:
-                pen.above(one[0])
+            pen.go(one[0], number > 0 and direct)
             pen.sink(z)
             self._around(pen, path, one, two, parts, z)
 
@@ -357,10 +340,7 @@ class CompensatedFinishing:
         run.on(one[1])
         run.follow(touching(one[1], path.start, heading_at(path, 0), self.side))
         for part, lifted in parts:
-            if lifted:
-                pen.sink(self.zone.top + TAB_GAP)
-            else:
-                pen.sink(z, pen.rates.plunge)
+            pen.sink(*(self.zone.top + TAB_GAP,) if lifted else (z, pen.rates.plunge))
             run.follow(part)
         run.follow(touching(path.end, two[1], heading_at(path, -1), self.side, out=True))
         run.off(two[2])

@@ -41,8 +41,7 @@ class Turn:
     def points(self, at: Array) -> Array:
         """Where points (n, 2) go, mm."""
         z = self.by * (at[:, 0] + 1j * at[:, 1]) + self.shift
-        turned: Array = np.column_stack((z.real, z.imag))
-        return turned
+        return np.asarray(np.column_stack((z.real, z.imag)))
 
     def shape(self, at: shapely.Geometry) -> shapely.Geometry:
         """Where a shape goes; rings that all but touch may cross there by a last digit, and are mended."""

@@ -10,15 +10,14 @@ import shapely
 
 from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
-from mechwright.contracts.part import Feature, Profile
+from mechwright.contracts.part import Feature, Profile, is_outside
 from mechwright.errors import DesignError
-from mechwright_cam.operations.channel import channel_of, roughing_mills
+from mechwright_cam.operations.channel import channel_of, fills_a_slot, outside_mills, roughing_mills
 from mechwright_cam.operations.choice import HANDY, finest_needed, last_mills, usable_mills
 from mechwright_cam.operations.compensation import entering
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
 from mechwright_cam.operations.layer import Layer, cut_layers
-from mechwright_cam.operations.slots import fills_a_slot, outside_mills
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import NOISE, Zone
@@ -45,7 +44,7 @@ class Contour(Operation):
 
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
         """Any outside through the plate; without zones where all of its edges are those of the stock."""
-        if not (isinstance(feature, Profile) and feature.side == "outside"):
+        if not is_outside(feature):
             return None
         zones = _zones(job, feature)
         tools, region = (zones[0].tools, zones[0].clear) if zones else ((), shapely.Polygon())
@@ -53,7 +52,7 @@ class Contour(Operation):
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
         """The mills that rough and finish it; none is as wide as a slot of it, if there is a choice."""
-        if not (isinstance(feature, Profile) and feature.side == "outside"):
+        if not is_outside(feature):
             return None
         shape, settings = shapely.Polygon(feature.loop.flatten()), every.settings
         fit = usable_mills(every, -every.floor)
@@ -76,27 +75,23 @@ class Contour(Operation):
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Layer by layer, from the top down."""
-        zones: list[Zone] = task.data
-        if not zones:
+        layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in task.data]
+        if not layers:
             return stock
-        layers = [Layer(zone, Stock(zone.clear, stock.gone), steps) for zone in zones]
         steps.cuts += cut_layers(layers)
         return layers[-1].stock
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """Out of the plate with all of a rounded corner."""
-        zones: list[Zone] = task.data
-        return min(zone.bottom_for(tool) for zone in zones)
+        return float(min(zone.bottom_for(tool) for zone in task.data))
 
     def edge(self, task: Task, job: Job) -> shapely.Geometry | None:
         """The part as the finest mill leaves it."""
-        zones: list[Zone] = task.data
-        return closing(zones[0].wall, job.reach(zones[0].finisher)) if zones else None
+        return closing(task.data[0].wall, job.reach(task.data[0].finisher)) if task.data else None
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
         """Corners that its mills do not reach."""
-        zones: list[Zone] = task.data
-        return corner_remarks(zones[0], job) if zones else []
+        return corner_remarks(task.data[0], job) if task.data else []
 
 
 def _between(every: Job, first: Tool, middle: list[Tool], finest: Tool, part: shapely.Polygon) -> list[Tool]:

@@ -6,10 +6,10 @@ from typing import Literal
 from mechwright.contracts.part import Bore
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.entry import bore_lead, offsets_of
-from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, circle, line, rounded
-from mechwright_cam.program.moves import Feed, FeedArc, Move
+from mechwright_cam.operations.finishing import finish_heights
+from mechwright_cam.operations.pen import Pen
+from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, line, round_from_right, rounded
+from mechwright_cam.program.moves import Feed
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
 
@@ -22,8 +22,7 @@ class ContourWriter:
 
     def on(self, end: Point) -> None:
         """The straight line that turns compensation on."""
-        word: Literal["left", "right"] = "left" if self.side > 0 else "right"
-        self._straight(end, word)
+        self._straight(end, "left" if self.side > 0 else "right")
 
     def off(self, end: Point) -> None:
         """The straight line that turns it off."""
@@ -35,18 +34,8 @@ class ContourWriter:
 
     def follow(self, path: Path) -> None:
         """Along a path; on arcs with the tool inside its centre is slower, by the radius that it runs on."""
-        pen, feed, here = self.pen, self.pen.rates.feed, path.start
-        moves: list[Move] = []
-        for cut in path.cuts:
-            if cut.turn:
-                i, j = cut.cx - here[0], cut.cy - here[1]
-                centre = math.hypot(i, j) - self.planned
-                pace = pen.rates.inside(centre, pen.tool.radius, feed) if cut.turn == self.side else feed
-                moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
-            else:
-                moves.append(Feed(cut.x, cut.y, None, feed))
-            here = (cut.x, cut.y)
-        pen.moves.extend(moves)
+        pen = self.pen
+        pen.moves += pen.along(path, pen.rates.feed, self.side, nearer=self.planned)
         pen.place = path.end
 
 
@@ -57,7 +46,7 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     radius = bore.diameter / 2 - CIRCLE_BIAS - offsets.base
     lead = bore_lead(offsets, radius)
     x, y = bore.centre
-    turn = circle(bore.centre, radius, (x + radius, y), side > 0)
+    turn = round_from_right(bore.centre, radius, side > 0)
     # Seen from where the circle is touched, y leads to its middle and x along it.
     start, first, last = (
         (rounded(x + radius - v), rounded(y + side * u))
@@ -65,10 +54,10 @@ def finish_bore_compensated(job: Job, bore: Bore, pen: Pen) -> None:
     )
     heading = side * math.pi / 2
     bottom = bottom_of(job, bore.top, bore.depth)
-    heights = levels(-bore.top, bottom, finish_depth(job.settings, tool, job.part.material))
+    heights = finish_heights(job, tool, -bore.top, bottom)
     pen.above(start)
     run = ContourWriter(pen, side, offsets.planned)
-    for z in heights + [bottom] * job.settings.spring_passes:
+    for z in heights:
         pen.sink(z)
         run.on(first)
         run.follow(touching(first, turn.start, heading, side))

@@ -90,12 +90,8 @@ class Operation(Plugin):
     def claim(self, feature: Feature | Detail, job: Job) -> Task | None:
         """Decide who cuts a feature, and how deep; None leaves it to the next operation.
 
-        Raises
-        ------
-        ToolError
-            It is this operation's, and the cutters of the job cannot make it.
-        DesignError
-            The feature, the holding or the stock is wrong.
+        Raises ToolError where it is this operation's, and the cutters of the job cannot make it; DesignError
+        where the feature, the holding or the stock is wrong.
         """
 
     def claim_copy(self, feature: Feature | Detail, job: Job, known: Task) -> Task | None:
@@ -109,12 +105,8 @@ class Operation(Plugin):
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
         """The mills that a feature asks for where the design names none; None if it is not this operation's.
 
-        Parameters
-        ----------
-        every
-            The part with all flat mills of the library at hand, in ample stock.
-        chosen
-            What other features have asked for.
+        ``every`` is the part in ample stock with all flat mills of the library at hand; the mills that other
+        features have asked for are ``chosen``.
         """
         return None
 

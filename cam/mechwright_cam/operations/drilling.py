@@ -6,7 +6,7 @@ from mechwright.contracts.materials import JAMS, material
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.pen import APPROACH
 from mechwright_cam.operations.rates import rates
-from mechwright_cam.plane.path import rounded
+from mechwright_cam.plane.path import printed, rounded
 from mechwright_cam.program.moves import Drill, Move, Rapid
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
@@ -25,20 +25,12 @@ def point_length(drill: Tool) -> float:
 
 def usable_drills(job: Job, depth: float) -> list[Tool]:
     """Drills of the job that can make a hole of full diameter to ``depth``, largest first."""
-    fit = [
-        tool
-        for tool in job.tools
-        if tool.kind is ToolKind.DRILL
-        and job.part.material in tool.cutting
-        and tool.flute_length >= depth + point_length(tool)
-    ]
-    return sorted(fit, key=lambda tool: -tool.diameter)
+    return [d for d in job.tools_of(ToolKind.DRILL) if d.flute_length >= depth + point_length(d)]
 
 
 def spot_drill(job: Job) -> Tool | None:
     """The spot drill of the job, None if it has none for this material."""
-    fit = [t for t in job.tools if t.kind is ToolKind.SPOT_DRILL and job.part.material in t.cutting]
-    return min(fit, key=lambda tool: tool.diameter, default=None)
+    return min(job.tools_of(ToolKind.SPOT_DRILL), key=lambda tool: tool.diameter, default=None)
 
 
 def starting_drill(job: Job, diameter: float, depth: float) -> Tool | None:
@@ -51,14 +43,13 @@ def drill_moves(
     job: Job, drill: Tool, places: list[Point], depth: float, clearance: float
 ) -> tuple[Move, ...]:
     """Drill holes of full diameter to ``depth`` mm below the stock's top."""
-    speed = rates(drill, job.part.material, job.settings.machine)
-    ratio = depth / drill.diameter
-    deep = ratio > material(job.part.material).unbroken
-    peck = drill.cutting[job.part.material].step_down * drill.diameter if deep else None
+    name, ratio = job.part.material, depth / drill.diameter
+    deep = ratio > material(name).unbroken
+    peck = rounded(drill.cutting[name].step_down * drill.diameter) if deep else None
     bottom = rounded(-depth - point_length(drill))
-    peck = None if peck is None else rounded(peck)
+    feed = rates(drill, name, job.settings.machine).feed
     holes = [(place, bottom) for place in places]
-    return _holes(holes, speed.feed, clearance, peck, breaking=deep and ratio <= JAMS)
+    return _holes(holes, feed, clearance, peck, breaking=deep and ratio <= JAMS)
 
 
 def spot_moves(job: Job, spot: Tool, places: list[tuple[Point, float]], clearance: float) -> tuple[Move, ...]:
@@ -84,7 +75,7 @@ def _holes(
     """Holes, each with its bottom, one right after the other, so that holes alike share one cycle."""
     moves: list[Move] = []
     for place, bottom in holes:
-        x, y = rounded(place[0]), rounded(place[1])
+        x, y = printed(place)
         if not moves:
             moves.append(Rapid(x=x, y=y))
         moves.append(Drill(x, y, bottom, min(APPROACH, clearance), feed, peck, dwell, breaking))

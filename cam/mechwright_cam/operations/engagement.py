@@ -93,38 +93,20 @@ def engagements(points: Array, cleared: shapely.Geometry, radius: float) -> Arra
     cleared = prepared(cleared)
     x, y = edge.reshape(-1, 2).T
     stock = ~shapely.contains_xy(cleared, x, y).reshape(angle.shape)
-    found: Array = stock.sum(axis=1) * (FRONT_ANGLES[1] - FRONT_ANGLES[0])
-    return found
+    return np.asarray(stock.sum(axis=1) * (FRONT_ANGLES[1] - FRONT_ANGLES[0]))
 
 
 def clear(area: shapely.Geometry, tool: Tool, engagement: float, climb: bool) -> list[Cavity]:
-    """Plan the clearing of an area.
+    """Plan the clearing of an area in which the cutter's edge may be, with a greatest engagement, rad.
 
-    Parameters
-    ----------
-    area
-        Where the cutter's edge may be, mm.
-    tool
-        An end mill.
-    engagement
-        Greatest angle, rad.
-    climb
-        Stock on the right of the path; on the left if false.
-
-    Returns
-    -------
-    cavities
-        One for each part of the area that is wide enough; none if the cutter has no room to turn.
+    To ``climb`` stock is on the right of the path. There is a cavity for each part of the area that is wide
+    enough, none if the cutter has no room to turn.
     """
     radius = tool.radius
     bend = BENDS[-1] * radius
     roomy = grow(grow(area, -bend, COARSE), bend - COARSE, COARSE)
-    found = []
-    for part in polygons(roomy):
-        cavity = _Clearing(part, radius, engagement, climb).cavity()
-        if cavity is not None:
-            found.append(cavity)
-    return found
+    found = (_Clearing(part, radius, engagement, climb).cavity() for part in polygons(roomy))
+    return [cavity for cavity in found if cavity is not None]
 
 
 class _Clearing:
@@ -140,16 +122,14 @@ class _Clearing:
         self.thickest = self.thickness = straight_layer(radius, engagement)
         self.passes: list[Pass] = []
         self.rest: list[shapely.Polygon] = []
-        self.end: Point | None = None
-        self.walls = shapely.boundary(area)
-        self.walls = prepared(self.walls)
+        self.walls = prepared(shapely.boundary(area))
 
     def cavity(self) -> Cavity | None:
         centre, widest = entry_place(self.area)
         if widest < self.bend - 2 * COARSE:
             return None
         hole = min(HELIX * self.radius, widest)
-        self.end = (centre[0] + hole - self.radius, centre[1])
+        self.end = begin = (centre[0] + hole - self.radius, centre[1])
         self.rest = self._without(self.area, _disc(centre, hole))
         self._spiral(centre, hole, widest)
         for bend in BENDS:
@@ -157,7 +137,6 @@ class _Clearing:
             wide = grow(grow(self.area, -self.bend, COARSE), self.bend - COARSE / 2, COARSE)
             if self.bend <= widest + COARSE:
                 self._fronts(shapely.intersection(wide, self.area))
-        begin = (centre[0] + hole - self.radius, centre[1])
         return Cavity(centre, hole - self.radius, begin, tuple(self.passes), self._cleared())
 
     def _cleared(self) -> shapely.Geometry:
@@ -256,8 +235,8 @@ class _Clearing:
         step = self.radius / 4
         points = shapely.get_coordinates(shapely.segmentize(stock, step))
         places = shapely.points(points)
-        edge = shapely.union_all([shapely.boundary(p) for p in self.rest if shapely.intersects(p, stock)])
-        edge = prepared(edge)
+        around = [shapely.boundary(piece) for piece in self.rest if shapely.intersects(piece, stock)]
+        edge = prepared(shapely.union_all(around))
         # The front is where the rest ends and no wall stands.
         front = shapely.dwithin(edge, places, COARSE) & ~shapely.dwithin(self.walls, places, COARSE)
         points = points[front] if front.any() else points
@@ -270,8 +249,7 @@ class _Clearing:
     def _cleared_in(self, box: shapely.Polygon) -> shapely.Geometry:
         """What is cleared within a box, prepared."""
         rest = shapely.union_all([shapely.intersection(piece, box) for piece in self.rest])
-        cleared = shapely.difference(shapely.intersection(self.area, box), rest)
-        return prepared(cleared)
+        return prepared(shapely.difference(shapely.intersection(self.area, box), rest))
 
     def _engaged(self, way: Array, cleared: shapely.Geometry) -> float:
         dense = densified(way, SAMPLE * self.radius)
@@ -288,11 +266,7 @@ class _Clearing:
             for loop in (part.exterior, *part.interiors):
                 ring = densified(shapely.get_coordinates(loop), SAMPLE * radius)
                 # Along the edge of what is cleared, stock on the right for climb.
-                if (
-                    shapely.is_ccw(loop) != self.climb
-                    if loop is part.exterior
-                    else shapely.is_ccw(loop) == self.climb
-                ):
+                if (shapely.is_ccw(loop) == self.climb) != (loop is part.exterior):
                     ring = ring[::-1]
                 x, y = ring.T
                 cuts = ~shapely.contains_xy(ahead.old, x, y) & shapely.contains_xy(ahead.near, x, y)
@@ -320,17 +294,9 @@ class _Clearing:
         path = fit(points, FITTING)
         if not path.cuts:
             return
-        linked = False
-        if self.end is not None:
-            way = shapely.LineString([self.end, path.start])
-            apart = self.radius - 3 * COARSE
-            linked = bool(
-                way.length == 0
-                or (
-                    not shapely.dwithin(self.walls, way, apart)
-                    and not any(shapely.dwithin(piece, way, apart) for piece in self.rest)
-                )
-            )
+        way, apart = shapely.LineString([self.end, path.start]), self.radius - 3 * COARSE
+        near = (shapely.dwithin(piece, way, apart) for piece in (self.walls, *self.rest))
+        linked = way.length == 0 or not any(near)
         self.passes.append(Pass(path, linked))
         self.end = path.end
 
@@ -340,10 +306,8 @@ class _Ahead:
 
     def __init__(self, cleared: shapely.Geometry, stock: shapely.Geometry, radius: float) -> None:
         self.fat = grow(stock, COARSE, COARSE)
-        self.old = grow(cleared, 2 * COARSE - radius, COARSE)
-        self.near = grow(stock, radius + COARSE, COARSE)
-        self.old = prepared(self.old)
-        self.near = prepared(self.near)
+        self.old = prepared(grow(cleared, 2 * COARSE - radius, COARSE))
+        self.near = prepared(grow(stock, radius + COARSE, COARSE))
 
 
 def _apart(stock: shapely.Geometry, cleared: shapely.Geometry) -> list[shapely.Polygon]:

@@ -5,13 +5,12 @@ from functools import partial
 import shapely
 
 from mechwright.contracts.details import Engraving
-from mechwright.contracts.part import Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError, ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import DetailOperation, spread, tools_of
+from mechwright_cam.operations.pointed import DetailOperation, spread
 from mechwright_cam.plane.path import polyline
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
@@ -31,18 +30,13 @@ class Engrave(DetailOperation):
         strokes = shapely.multilinestrings(
             [shapely.LineString(stroke) for stroke in detail.strokes if len(stroke) > 1]
         )
-        for feature in job.features:
-            outside = isinstance(feature, Profile) and feature.side == "outside"
-            if (
-                not outside
-                and feature.top <= TOLERANCES.noise
-                and shapely.intersects(plan_view(feature), strokes)
-            ):
+        for feature in job.inner:
+            if feature.top <= TOLERANCES.noise and shapely.intersects(plan_view(feature), strokes):
                 raise DesignError(
                     f"part {job.part.name}: the engraving {detail.name} runs over {feature.name}, where "
                     "nothing stands; engravings go on the top face: place it elsewhere, or make it smaller"
                 )
-        for tool in reversed(tools_of(job, ToolKind.CHAMFER)):
+        for tool in reversed(job.tools_of(ToolKind.CHAMFER)):
             line = 2 * spread(tool, detail.depth)
             if NARROWER * detail.width <= line <= detail.width + TOLERANCES.noise and line <= tool.diameter:
                 write = partial(_strokes, detail=detail)

@@ -9,19 +9,17 @@ import shapely
 from mechwright.contracts.details import Detail
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.part import Feature
-from mechwright_cam.operations.choice import usable_mills
 from mechwright_cam.operations.clearing import TIGHT
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
-from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.recess import is_recess, recess
-from mechwright_cam.operations.recess_zone import floor_radius, recess_zone
+from mechwright_cam.operations.recess import is_recess
+from mechwright_cam.operations.recess_zone import first_look, recess_zone
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import CUSP, Zone
 from mechwright_cam.plane.path import line, polyline, rounded
-from mechwright_cam.setup.depths import bottom_of
+from mechwright_cam.setup.depths import floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
 
@@ -40,9 +38,7 @@ class Face(Operation):
         """A recess beside which nothing of the part stands."""
         if not is_recess(feature):
             return None
-        bottom = bottom_of(job, feature.top, feature.depth)
-        mills = usable_mills(job, -bottom, floor_radius(feature))
-        shapes = recess(job, feature, mills)
+        _, shapes = first_look(job, feature)
         if not shapes.open or shapely.is_empty(shapes.must) or not shapely.is_empty(shapes.keep):
             return None
         zone = recess_zone(job, feature)
@@ -84,11 +80,7 @@ def face(zone: Zone, pen: Pen, stock: shapely.Polygon, step_down: float, leave: 
     heights = levels(zone.top, zone.bottom + leave, step_down)
     for z in heights if leave == 0 else [*heights, rounded(zone.bottom)]:
         pen.above(path.start)
-        if clear:
-            pen.sink(z)
-        else:
-            pen.sink(above)
-            pen.ramp(first, z)
+        pen.enter(first, above, z, clear)
         pen.follow(path)
         above = z
     pen.retract()

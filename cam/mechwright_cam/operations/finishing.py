@@ -18,6 +18,7 @@ from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
 from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
 from mechwright_cam.plane.path import Path
+from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
@@ -32,39 +33,43 @@ def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
     return min(settings.finish_step * tool.diameter, slot / (settings.stock_to_leave + HEAVY))
 
 
+def finish_heights(job: Job, tool: Tool, top: float, bottom: float) -> list[float]:
+    """Heights of the finishing passes, z in mm, with the repeats of the last one."""
+    heights = levels(top, bottom, finish_depth(job.settings, tool, job.part.material))
+    return heights + heights[-1:] * job.settings.spring_passes
+
+
 class Finishing:
     """The finishing of one zone, whose stock is only what roughing left on walls."""
 
-    def __init__(self, zone: Zone, stock: Stock, settings: CamSettings, tool: Tool, material: str) -> None:
-        self.zone, self.settings, self.tool = zone, settings, tool
-        self.depth = finish_depth(settings, tool, material)
-        self.step_down = tool.cutting[material].step_down * tool.diameter
+    def __init__(self, zone: Zone, stock: Stock, job: Job, tool: Tool) -> None:
+        self.zone, self.tool, self.settings = zone, tool, job.settings
+        self.heights = finish_heights(job, tool, zone.top, zone.bottom_for(tool))
+        self.step_down = tool.cutting[job.part.material].step_down * tool.diameter
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)
-        self.room = zone.room(radius, finishing=True)
+        room = zone.room(radius, finishing=True)
         if zone.tabs is not None:
             # Along a tab only as far as the finishing of the wall needs it.
-            near = grow(zone.thinned, radius + settings.stock_to_leave + HEAVY, ROUGH)
-            self.room = shapely.intersection(self.room, near)
-        self.near = grow(stock.standing, radius + stock.over - CLEAR, ROUGH)
+            near = grow(zone.thinned, radius + job.settings.stock_to_leave + HEAVY, ROUGH)
+            room = shapely.intersection(room, near)
+        self.room = prepared(room)
+        self.near = prepared(grow(stock.standing, radius + stock.over - CLEAR, ROUGH))
         # Where all of the plate goes, there is nothing but air beyond it.
-        beyond = radius + settings.stock_to_leave if zone.in_the_open else 0.0
+        beyond = radius + job.settings.stock_to_leave if zone.in_the_open else 0.0
         # Leads touch the path they lead to: between that and the wall they may be as wrong as it.
-        self.free = shapely.difference(grow(self.room, CLEAR + beyond, ROUGH), zone.blocked(tool, 0.0))
-        self.room, self.near, self.free = map(prepared, (self.room, self.near, self.free))
+        wide = grow(room, CLEAR + beyond, ROUGH)
+        self.free = prepared(shapely.difference(wide, zone.blocked(tool, 0.0)))
 
     def write(self, pen: Pen) -> None:
         """Write the moves of all rings."""
-        zone = self.zone
-        heights = levels(zone.top, zone.bottom_for(self.tool), self.depth)
-        heights += heights[-1:] * self.settings.spring_passes
         waiting = self._pieces()
         while waiting:
             piece = waiting.pop(0)
             if piece.closed:
-                self._ring(pen, piece.points, heights)
+                self._ring(pen, piece.points)
             else:
-                self._stretch(pen, self._led(piece.points), heights)
+                self._stretch(pen, self._led(piece.points))
             here = pen.place
             waiting.sort(key=lambda other: float(np.hypot(*(other.points[0] - here))))
         pen.retract()
@@ -84,12 +89,10 @@ class Finishing:
         return fit(points, fit_tolerance(path), path.lines_per_arc)
 
     def _is_clear(self, points: Array) -> NDArray[np.bool_]:
-        clear: NDArray[np.bool_] = ~shapely.contains_xy(self.near, points[:, 0], points[:, 1])
-        return clear
+        return np.asarray(~shapely.contains_xy(self.near, points[:, 0], points[:, 1]))
 
     def _is_free(self, points: Array) -> NDArray[np.bool_]:
-        free: NDArray[np.bool_] = shapely.contains_xy(self.free, points[:, 0], points[:, 1])
-        return free
+        return np.asarray(shapely.contains_xy(self.free, points[:, 0], points[:, 1]))
 
     def _led(self, points: Array) -> Path:
         """An open stretch; in the open it is entered from the air and left into it on arcs."""
@@ -107,14 +110,14 @@ class Finishing:
     def _may_run(self, way: Array) -> bool:
         return bool(shapely.covers(self.free, shapely.LineString(way)))
 
-    def _ring(self, pen: Pen, ring: Array, heights: list[float]) -> None:
+    def _ring(self, pen: Pen, ring: Array) -> None:
         least = self.settings.stock_to_leave
         shapes = lead_shapes(self.tool.radius, least)
         found = best_start(ring, shapes, self.settings.climb, self._is_free, self._is_clear, self._may_run)
         if found is None:
             clear = np.flatnonzero(self._is_clear(ring[:-1]))
             points = _from(ring, int(clear[0]) if clear.size else 0)
-            self._loop(pen, self._fitted(points), heights, clear.size > 0)
+            self._loop(pen, self._fitted(points), clear.size > 0)
             return
         at, rho, sweep = found
         points = _from(ring, at)
@@ -122,9 +125,9 @@ class Finishing:
         one, two = math.atan2(first[1], first[0]), math.atan2(last[1], last[0])
         heading = one - ((one - two + math.pi) % math.tau - math.pi) / 2
         path = with_leads(self._fitted(points), heading, rho, sweep, self.settings.climb)
-        self._stretch(pen, path, heights)
+        self._stretch(pen, path)
 
-    def _stretch(self, pen: Pen, path: Path, heights: list[float]) -> None:
+    def _stretch(self, pen: Pen, path: Path) -> None:
         """A path that starts and ends in the clear, at every height."""
         if not path.cuts:
             return
@@ -133,26 +136,19 @@ class Finishing:
         direct = bool(shapely.covers(self.free, back) and not shapely.intersects(self.near, back))
         is_open = bool(self._is_clear(np.array([path.start]))[0])
         above = self.zone.top
-        for number, z in enumerate(heights):
-            if number and direct:
-                pen.straight(path.start)
-            else:
-                pen.above(path.start)
-            if is_open:
-                pen.sink(z)
-            else:
-                pen.sink(above)
-                pen.ramp(path, z)
+        for number, z in enumerate(self.heights):
+            pen.go(path.start, number > 0 and direct)
+            pen.enter(path, above, z, is_open)
             pen.follow(path, inside=1 if self.settings.climb else -1)
             above = z
 
-    def _loop(self, pen: Pen, path: Path, heights: list[float], is_open: bool) -> None:
+    def _loop(self, pen: Pen, path: Path, is_open: bool) -> None:
         """A closed path without room for leads: sunk where it is clear, else ramped along itself."""
         if not path.cuts:
             return
         pen.above(path.start)
         pen.sink(self.zone.top)
-        for z in heights:
+        for z in self.heights:
             if is_open:
                 pen.sink(z)
             else:

@@ -22,19 +22,18 @@ from mechwright_cam.operations.choice import ROOMY, radius_in, usable_mills
 from mechwright_cam.operations.compensation import check_compensated
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.corners import corner_remarks
-from mechwright_cam.operations.floors import floor_allowance
 from mechwright_cam.operations.layer import Layer
 from mechwright_cam.operations.middle_lines import middle_lines
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.operations.recess import is_recess, plan_view, recess
-from mechwright_cam.operations.recess_zone import floor_mill, floor_radius, recess_zone
+from mechwright_cam.operations.recess import is_recess, plan_view
+from mechwright_cam.operations.recess_zone import first_look, floor_mill, floor_radius, recess_zone
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import SNUG, Zone
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.offsets import FIT, densified
 from mechwright_cam.plane.path import Path
-from mechwright_cam.setup.depths import bottom_of
+from mechwright_cam.setup.depths import bottom_of, floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
 
@@ -67,9 +66,7 @@ class Groove(Operation):
                 return Task(feature, self, (mill,), top, bottom, plan_view(feature), data=way)
         if not is_recess(feature) or floor_radius(feature) == 0:
             return None
-        bottom = bottom_of(job, feature.top, feature.depth)
-        mills = usable_mills(job, -bottom, floor_radius(feature))
-        shapes = recess(job, feature, mills)
+        mills, shapes = first_look(job, feature)
         if shapely.is_empty(shapes.must):
             return None
         mill, fills = floor_mill(job, feature, mills, shapes)
@@ -100,7 +97,7 @@ class Groove(Operation):
         heights += heights[-1:] * springs
         assert is_recess(task.feature)  # noqa: S101 - nothing else is claimed
         paths = middle_lines(zone, plan_view(task.feature), mill.radius, job.settings.climb)
-        layer = Layer(zone, stock, steps)
+        layer = Layer(zone, stock, steps, steps.cuts)
         write = partial(to_and_fro, paths=paths, top=zone.top, heights=heights)
         layer.add("groove", mill, write, depth=layer.pass_depth(mill, step_down))
         if not layer.cuts[-1].moves:
@@ -108,7 +105,6 @@ class Groove(Operation):
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; draw it as "
                 f"wide as the mill, {mill.diameter:g} mm, or wider"
             )
-        steps.cuts += layer.cuts
         return stock.without(zone.clear)
 
     def remarks(self, task: Task, job: Job) -> list[Finding]:
@@ -119,12 +115,8 @@ class Groove(Operation):
 def groove_mill(job: Job, feature: OpenProfile) -> Tool | None:
     """The mill that cuts a groove to its width in one; None if there is none.
 
-    Where clearing is adaptive, a narrower mill with room to turn in loops goes first.
-
-    Raises
-    ------
-    ToolError
-        No mill reaches the groove's bottom.
+    Where clearing is adaptive, a narrower mill with room to turn in loops goes first. Raises ToolError where
+    no mill reaches the groove's bottom.
     """
     if feature.side != "on" or feature.floor_radius > 0:
         return None

@@ -31,15 +31,15 @@ NEARLY = 0.9
 
 
 class Layer:
-    """A zone, what its cuts have left of the stock so far, and those cuts.
+    """A zone, what its cuts have left of the stock so far, and those cuts, which may go among other ``cuts``.
 
-    Layers of one wall may be cut side by side: none changes what another one holds.
+    Layers of one wall may be cut side by side: none then changes what another one holds.
     """
 
-    def __init__(self, zone: Zone, stock: Stock, steps: Steps) -> None:
+    def __init__(self, zone: Zone, stock: Stock, steps: Steps, cuts: list[Cut] | None = None) -> None:
         self.zone, self.stock, self.steps = zone, stock, steps
         self.settings = steps.job.settings
-        self.cuts: list[Cut] = []
+        self.cuts: list[Cut] = [] if cuts is None else cuts
 
     def taken(self) -> list[Cut]:
         """The cuts since they were last asked for."""
@@ -139,12 +139,8 @@ class Layer:
         """Along the wall."""
         settings, job, zone = self.settings, self.steps.job, self.zone
         deep = self.pass_depth(mill, finish_depth(settings, mill, job.part.material))
-        finishing: Finishing | CompensatedFinishing
-        if settings.compensation == "computer":
-            finishing = Finishing(zone, self.stock, settings, mill, job.part.material)
-        else:
-            finishing = CompensatedFinishing(zone, self.stock, job, mill)
-        self.add("finish", mill, finishing.write, depth=deep)
+        finishing = Finishing if settings.compensation == "computer" else CompensatedFinishing
+        self.add("finish", mill, finishing(zone, self.stock, job, mill).write, depth=deep)
         if not self.cuts[-1].moves and mill is zone.finisher:
             raise ToolError(
                 f"cam.tools: {mill.name} finds no way along {zone.name} of {job.part.name}; "

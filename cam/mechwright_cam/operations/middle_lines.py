@@ -91,8 +91,7 @@ def half(ring: Array, radius: float) -> Array:
     side = ring[:-1][ends[0] : ends[1] + 1]
     clear = np.minimum(np.hypot(*(side - side[0]).T), np.hypot(*(side - side[-1]).T)) > 4 * SNUG
     clear[[0, -1]] = True
-    kept: Array = side[clear]
-    return kept
+    return np.asarray(side[clear])
 
 
 def _extreme(ring: Array, points: Array, end: int) -> int:

@@ -26,21 +26,10 @@ def lifted_height(tabs: tuple[Tab, ...], place: Point, radius: float) -> float:
 def over_tabs(
     path: Path, start: float, end: float, tabs: tuple[Tab, ...], radius: float
 ) -> list[tuple[Path, float]]:
-    """Divide a path that leads over ramped tabs into stretches of even slope.
+    """Divide a path of the cutter's centre that leads over ramped tabs into stretches of even slope.
 
-    Parameters
-    ----------
-    path
-        Where the cutter's centre goes.
-    start, end
-        Heights that it goes evenly from and to beside the tabs, z in mm.
-    radius
-        Of the cutter, mm.
-
-    Returns
-    -------
-    stretches
-        Each with the height of its end; none if the path keeps off the tabs.
+    Beside the tabs it goes evenly from ``start`` to ``end``, z in mm. Each stretch comes with the height of
+    its end; there is none if the path keeps off the tabs.
     """
     steepest = max(tab.slope for tab in tabs)
     points = path.points(HEIGHT / 2 / steepest)
@@ -69,5 +58,5 @@ def _up(height: float) -> float:
     """A height as programs print it, rounded upwards."""
     if math.isinf(height):
         return height
-    last: float = 10.0**-DECIMALS
+    last = 10.0**-DECIMALS
     return math.ceil(height / last - 1e-6) * last

@@ -1,6 +1,8 @@
 """Writes moves: keeps the present position, and holds the rules of rapids and entries."""
 
 import math
+from collections.abc import Sequence
+from itertools import accumulate, repeat
 from typing import cast
 
 from mechwright.errors import ToolError
@@ -8,7 +10,7 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.over_tabs import lifted_height, over_tabs
 from mechwright_cam.operations.rates import Rates
-from mechwright_cam.plane.path import Path, polyline, rounded
+from mechwright_cam.plane.path import Path, polyline, printed, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Move, Rapid
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.shop.tool import Tool
@@ -26,16 +28,8 @@ TINY = 0.5
 class Pen:
     """A cutter at work.
 
-    Parameters
-    ----------
-    tool, rates
-        The cutter, its speed and feeds.
-    clearance
-        Height of rapids in X and Y, mm.
-    slope
-        Tangent of the steepest ramp.
-    over
-        Ramped tabs that it goes over: ``z`` follows their upper sides, ``level`` is its height beside them.
+    Its rapids in X and Y run at the height of ``clearance``, mm, and no ramp is steeper than the tangent
+    ``slope``. It goes ``over`` ramped tabs: ``z`` follows their upper sides, ``level`` is its height beside.
     """
 
     def __init__(
@@ -54,13 +48,20 @@ class Pen:
 
     def above(self, point: Point) -> None:
         """Retract, rapid over a point and down to just over the stock."""
-        point = (rounded(point[0]), rounded(point[1]))
+        point = printed(point)
         self.retract()
         if self.place != point:
             self.moves.append(Rapid(x=point[0], y=point[1]))
         height = min(APPROACH, self.clearance)
         self.moves.append(Rapid(z=height))
         self.place, self.z, self.level = point, height, height
+
+    def go(self, point: Point, direct: bool) -> None:
+        """Straight to a point where the way at this height is free, else over the stock."""
+        if direct:
+            self.straight(point)
+        else:
+            self.above(point)
 
     def retract(self) -> None:
         """Rapid up to the clearance height."""
@@ -70,21 +71,16 @@ class Pen:
 
     def sink(self, z: float, feed: float | None = None) -> None:
         """Feed straight down or up; through air unless told a feed for material."""
-        self.level = rounded(z)
-        z = self._lifted(self.level)
+        self.level = z = rounded(z)
+        if self.over and self.place is not None:  # on a tab if there is one
+            z = max(z, lifted_height(self.over, self.place, self.tool.radius))
         if z != self.z:
             self.moves.append(Feed(None, None, z, self.rates.feed if feed is None else feed))
             self.z = z
 
-    def _lifted(self, z: float) -> float:
-        """Height at this place, on a tab if there is one."""
-        if not self.over or self.place is None:
-            return z
-        return max(z, lifted_height(self.over, self.place, self.tool.radius))
-
     def straight(self, point: Point, feed: float | None = None) -> None:
         """Feed straight to a point at this height."""
-        point = (rounded(point[0]), rounded(point[1]))
+        point = printed(point)
         if point != self.place:
             if self.over and self._goes_over(polyline([self.place or point, point]), self.level, feed):
                 return
@@ -93,9 +89,7 @@ class Pen:
 
     def _goes_over(self, path: Path, z: float, feed: float | None, inside: int = 0) -> bool:
         """Run along a path that leads over tabs, down to ``z`` at its end; False if it leads over none."""
-        if not self.over:
-            return False
-        stretches = over_tabs(path, self.level, z, self.over, self.tool.radius)
+        stretches = self.over and over_tabs(path, self.level, z, self.over, self.tool.radius)
         if not stretches:
             return False
         feed = self.rates.feed if feed is None else feed
@@ -120,20 +114,33 @@ class Pen:
             return
         moves = cast("list[Move] | None", path.cache.get((feed, inside)))
         if moves is None:
-            moves = []
-            here = path.start
-            for cut in path.cuts:
-                if cut.turn:
-                    i, j = cut.cx - here[0], cut.cy - here[1]
-                    slow = cut.turn == inside
-                    pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
-                    moves.append(FeedArc(cut.x, cut.y, None, i, j, cut.turn > 0, pace))
-                else:
-                    moves.append(Feed(cut.x, cut.y, None, feed))
-                here = (cut.x, cut.y)
+            moves = self.along(path, feed, inside)
             path.cache[feed, inside] = moves
         self.moves.extend(moves)
         self.place = path.end
+
+    def along(
+        self,
+        path: Path,
+        feed: float,
+        inside: int = 0,
+        heights: Sequence[float] | None = None,
+        nearer: float = 0.0,
+    ) -> list[Move]:
+        """The moves along a path, each to its height if there are some, z in mm.
+
+        On arcs that turn ``inside``, see :meth:`follow`, the centre runs ``nearer`` mm nearer to the middle.
+        """
+        moves: list[Move] = []
+        for (here, cut, _), z in zip(path.walk(), heights or repeat(None), strict=False):
+            if cut.turn:
+                i, j = cut.cx - here[0], cut.cy - here[1]
+                centre = math.hypot(i, j) - nearer
+                pace = self.rates.inside(centre, self.tool.radius, feed) if cut.turn == inside else feed
+                moves.append(FeedArc(cut.x, cut.y, z, i, j, cut.turn > 0, pace))
+            else:
+                moves.append(Feed(cut.x, cut.y, z, feed))
+        return moves
 
     def descend(self, path: Path, z: float, feed: float | None = None) -> None:
         """Run along a path while going evenly down to ``z``, arcs as helices."""
@@ -143,32 +150,44 @@ class Pen:
 
     def _evenly(self, path: Path, z: float, feed: float, inside: int = 0) -> None:
         """Run along a path while going evenly to ``z``."""
-        here, start, total, done = path.start, self.z, path.length, 0.0
-        level = rounded(z) == self.z
-        for cut in path.cuts:
-            done += cut.length
-            height = rounded(z if cut is path.cuts[-1] else start + (z - start) * done / total)
-            word = None if level else height
-            if cut.turn:
-                i, j = cut.cx - here[0], cut.cy - here[1]
-                slow = cut.turn == inside
-                pace = self.rates.inside(math.hypot(i, j), self.tool.radius, feed) if slow else feed
-                self.moves.append(FeedArc(cut.x, cut.y, word, i, j, cut.turn > 0, pace))
-            else:
-                self.moves.append(Feed(cut.x, cut.y, word, feed))
-            here = (cut.x, cut.y)
+        start, total, heights = self.z, path.length, None
+        if rounded(z) != start:
+            ways = accumulate(cut.length for cut in path.cuts)
+            heights = [rounded(start + (z - start) * way / total) for way in ways]
+            heights[-1:] = [rounded(z)]
+        self.moves += self.along(path, feed, inside, heights)
         self.place, self.z = path.end, rounded(z)
         self.level = self.z
+
+    def enter(self, path: Path, above: float, z: float, clear: bool) -> None:
+        """Down at a path's start: straight to ``z`` where that is clear, else from ``above`` along it."""
+        self.sink(z if clear else above)
+        if not clear:
+            self.ramp(path, z)
+
+    def helix(
+        self,
+        turn: Path,
+        radius: float,
+        top: float,
+        bottom: float,
+        step: float = math.inf,
+        feed: float | None = None,
+    ) -> None:
+        """Go down along a circle, no more than ``step`` mm in a turn, and once round at the bottom."""
+        self.above(turn.start)
+        self.sink(top)
+        ramp = self.rates.ramp if feed is None else min(self.rates.ramp, feed)
+        # A little less than the steepest, for rounding.
+        for z in levels(top, bottom, min(step, math.tau * radius * self.slope * 0.999)):
+            self.descend(turn, z, ramp)
+        self.follow(turn, feed)
 
     def ramp(self, path: Path, z: float) -> None:
         """Go down to ``z`` along the beginning of a path, and end on its start.
 
-        A closed path is run round and round; an open one to and fro. A way too short for that is plunged.
-
-        Raises
-        ------
-        ToolError
-            The way is too short, and the cutter may not be plunged.
+        A closed path is run round and round; an open one to and fro. A way too short for that is plunged:
+        raises ToolError where the cutter may not be.
         """
         drop = self.level - rounded(z)
         if drop <= 0:
@@ -185,15 +204,14 @@ class Pen:
         run = drop / self.slope * (1 + EASIER) + EASIER
         start = self.level
         if path.closed:
-            laps = math.ceil(run / path.length)
-            for lap in range(1, laps + 1):
-                self.descend(path, start - drop * lap / laps)
-            return
-        part = path.split(run)[0] if run < path.length else path
-        legs = math.ceil(run / part.length)
-        legs += legs % 2
-        part = path.split(run / legs)[0] if run / legs < path.length else path
-        back = part.reversed()
+            part = back = path
+            legs = math.ceil(run / path.length)
+        else:
+            part = path.split(run)[0] if run < path.length else path
+            legs = math.ceil(run / part.length)
+            legs += legs % 2
+            part = path.split(run / legs)[0] if run / legs < path.length else path
+            back = part.reversed()
         for leg in range(1, legs + 1):
             self.descend(part if leg % 2 else back, start - drop * leg / legs)
 

@@ -11,13 +11,7 @@ from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.tool import Tool, ToolKind
-
-
-def tools_of(job: Job, kind: ToolKind) -> list[Tool]:
-    """The job's tools of a kind that cut its material, widest first."""
-    fit = [t for t in job.tools if t.kind is kind and job.part.material in t.cutting]
-    return sorted(fit, key=lambda tool: -tool.diameter)
+from mechwright_cam.shop.tool import Tool
 
 
 def spread(tool: Tool, height: float) -> float:

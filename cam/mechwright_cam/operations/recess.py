@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeGuard
 
+import numpy as np
 import shapely
 
 from mechwright.contracts import sections
@@ -25,14 +26,12 @@ from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import roomy_mills, run_out
-from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons
+from mechwright_cam.plane.offsets import ROUGH, areas, corners, filled, grow, opened, polygons, sound, swept
 from mechwright_cam.plane.reach import opening_keep
 from mechwright_cam.setup.depths import bottom_of
-from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.job import LEVEL, Job
 from mechwright_cam.shop.tool import Tool
 
-LEVEL = 1e-6
-"""Heights nearer than this are one, mm: far below the last decimal of a program."""
 SKIN = 2 * TOLERANCES.flatten
 """A boundary within this of the part's edge is on it, mm: what the chords of both may be off together."""
 FILM = 1e-6
@@ -73,23 +72,14 @@ def plan_view(feature: Feature) -> shapely.Geometry:
 def recess(
     job: Job, feature: Profile | Pocket, mills: Sequence[Tool], far: float = 0.0, *, roomy: bool = False
 ) -> Recess:
-    """Look at a feature.
+    """Look at a feature that ``mills`` may cut, largest first.
 
-    Parameters
-    ----------
-    mills
-        Those that may cut it, largest first.
-    far
-        How far beyond an open stretch the cutter's edge goes, mm; by default as far as the widest mill goes.
-    roomy
-        By default only as far as the widest goes that has room: others come in at its mouths, if at all.
+    Beyond an open stretch the cutter's edge goes ``far`` mm; by default as far as the widest mill goes, or of
+    ``roomy`` ones the widest that has room: others come in at its mouths, if at all.
     """
-    shape = plan_view(feature)
-    others = _at_least_as_deep(job, feature)
-    inside = filled(job.body)
-    edge = grow(inside, -SKIN, ROUGH)
-    edge = prepared(edge)
-    near = [other for other in others if shapely.dwithin(shape, other, SKIN)]
+    shape, inside = plan_view(feature), filled(job.body)
+    edge = prepared(grow(inside, -SKIN, ROUGH))
+    near = [other for other in _at_least_as_deep(job, feature) if shapely.dwithin(shape, other, SKIN)]
     if isinstance(feature, Pocket) and feature.floor_radius > 0:
         _check_alone(job, feature, shape)
     if shapely.contains_properly(edge, shape) and not near:
@@ -99,7 +89,8 @@ def recess(
         must = shapely.Polygon()  # so thin everywhere that it may stay as well
     if shapely.is_empty(must):
         return Recess(must, must, must, True)
-    if not far:
+    first = not far
+    if first:
         far = run_out(roomy_mills(mills, must)[:1], job.settings)
         far = far if roomy else max(far, mills[0].diameter)
     (x0, y0, x1, y1), wide = shape.bounds, 4 * far
@@ -107,7 +98,7 @@ def recess(
     bottom = bottom_of(job, feature.top, feature.depth)
     gone = shapely.union_all([shapely.difference(window, inside), *near])
     keep = shapely.difference(shapely.intersection(job.body, window), shapely.union_all([must, gone]))
-    keep = _without_skin(keep)
+    keep = without_skin(keep, looked_at=first)
     tabs = [tab.shape for tab in job.tabs if tab.top > bottom + LEVEL]
     if job.frame is not None:
         tabs.append(shapely.intersection(job.frame.holds, window))
@@ -123,16 +114,11 @@ def walls_of(job: Job, feature: Profile | Pocket, near: float) -> tuple[Layer, .
     Only what is at most ``near`` mm from it counts.
     """
     floor, around = feature.top + feature.depth, grow(plan_view(feature), near, ROUGH)
-    beside = [
-        other
-        for other in job.features
-        if not (isinstance(other, Profile) and other.side == "outside")
-        and shapely.intersects(plan_view(other), around)
-    ]
+    beside = [other for other in job.inner if shapely.intersects(plan_view(other), around)]
     plate = areas(shapely.intersection(job.body, around))
     layers: list[Layer] = []
     for section in reversed(sections.cut_layers(plate, beside, floor)):
-        wall = _without_skin(areas(section.shape))
+        wall = without_skin(areas(section.shape))
         if layers and shapely.symmetric_difference(wall, layers[-1][1]).area < SAME:
             wall = layers.pop()[1]
         layers.append((floor - section.top, wall))
@@ -147,12 +133,11 @@ def _check_alone(job: Job, feature: Pocket, shape: shapely.Geometry) -> None:
             f"part {job.part.name}: {feature.name} has a floor_radius of {feature.floor_radius:g} mm, but "
             "goes through to the underside; a fillet needs a floor"
         )
-    for other in job.features:
-        beside = other is feature or (isinstance(other, Profile) and other.side == "outside")
+    for other in job.inner:
         apart = other.top >= floor - LEVEL or other.top + other.depth <= feature.top + LEVEL
-        if not beside and not apart and shapely.dwithin(shape, plan_view(other), SKIN):
-            if _within(other, feature, shape):
-                continue
+        if other is feature or apart or not shapely.dwithin(shape, plan_view(other), SKIN):
+            continue
+        if not _within(other, feature, shape):
             raise DesignError(
                 f"part {job.part.name}: {feature.name} has a floor_radius and opens into {other.name}; the "
                 "fillet would end there. Draw them apart, or as one, or without the fillet"
@@ -168,24 +153,30 @@ def _within(other: Feature, feature: Pocket, shape: shapely.Geometry) -> bool:
 
 def reached_share(shapes: Recess, radius: float) -> float:
     """The part of a feature's area that a cutter of ``radius`` can reach."""
-    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
-    return float(shapely.intersection(reach, shapes.must).area / shapes.must.area)
+    return float(shapely.intersection(swept(shapes.around, radius), shapes.must).area / shapes.must.area)
 
 
 @lru_cache(maxsize=64)
-def _without_skin(keep: shapely.Geometry) -> shapely.Geometry:
+def without_skin(keep: shapely.Geometry, *, looked_at: bool = False) -> shapely.Geometry:
     """Without what rounding leaves standing where a feature ends at the edge: long and thin, no drawn wall.
 
-    The tip of a sharp wedge is as thin, but short. Choice, findings and plan ask for the same shapes.
+    The tip of a sharp wedge is as thin, but short. Paths follow the edge of what is thick; a shape that is
+    only looked at, to choose mills, keeps what lies on that edge within the rounding of numbers.
     """
-    thin = shapely.get_parts(shapely.difference(keep, opened(keep, SKIN / 2)))
+    thick = opened(keep, SKIN / 2)
+    thin = shapely.get_parts(shapely.difference(keep, thick))
     length, area = shapely.length(thin), shapely.area(thin)
     found = (length > LONG) | (area < FILM * length)
+    if looked_at:
+        corners, owner = shapely.get_coordinates(thin, return_index=True)
+        away = ~shapely.dwithin(prepared(thick), shapely.points(corners), FILM)
+        found &= np.bincount(owner[away], minlength=len(thin)) > 0
     if not found.any():
         return keep
     # What is thinner than numbers can tell has come out as lines.
-    bodies = [*thin[found & (area > 0)], *shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)]
-    return shapely.union_all(polygons(shapely.difference(keep, shapely.union_all(bodies))))
+    lines = shapely.buffer(thin[found & (area == 0)], FILM, quad_segs=1)
+    skin = shapely.multipolygons([*thin[found & (area > 0)], *lines])
+    return shapely.union_all(polygons(shapely.difference(keep, sound(skin))))
 
 
 def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geometry]:
@@ -193,9 +184,6 @@ def _at_least_as_deep(job: Job, feature: Profile | Pocket) -> list[shapely.Geome
     top, bottom = feature.top, feature.top + feature.depth
     return [
         plan_view(other)
-        for other in job.features
-        if other is not feature
-        and not (isinstance(other, Profile) and other.side == "outside")
-        and other.top <= top + LEVEL
-        and other.top + other.depth >= bottom - LEVEL
+        for other in job.inner
+        if other is not feature and other.top <= top + LEVEL and other.top + other.depth >= bottom - LEVEL
     ]

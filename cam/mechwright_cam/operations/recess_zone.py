@@ -22,7 +22,7 @@ from mechwright_cam.operations.choice import (
 from mechwright_cam.operations.compensation import entering
 from mechwright_cam.operations.recess import Layer, Recess, reached_share, recess, walls_of
 from mechwright_cam.operations.zone import SNUG, Zone
-from mechwright_cam.plane.offsets import ROUGH, areas, grow
+from mechwright_cam.plane.offsets import ROUGH, areas, grow, swept
 from mechwright_cam.setup.depths import bottom_of, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
@@ -43,26 +43,13 @@ def recess_zone(
 ) -> Zone:
     """Choose the mills of a recess and look at what they have to clear.
 
-    Parameters
-    ----------
-    job, feature
-        The feature is a pocket or an inside profile of the job.
-    filler
-        The mill that is just as wide as the recess and makes all of it, if there is one.
-    like
-        The zone of a turned copy: its mills are those of this one.
-
-    Raises
-    ------
-    ToolError
-        No mill of the job enters it, or makes its floor.
-    DesignError
-        There is nothing of the plate in it.
+    A ``filler`` is just as wide as the recess and makes all of it; of a zone ``like`` it, that of a turned
+    copy, the mills are taken over. Raises ToolError where no mill of the job enters it, or makes its floor;
+    DesignError where there is nothing of the plate in it.
     """
     bottom, radius = bottom_of(job, feature.top, feature.depth), floor_radius(feature)
-    known: tuple[Tool, ...] = (filler,) if filler is not None else ()
-    if like is not None:
-        known = like.finishers
+    filling = (filler,) if filler is not None else ()
+    known = filling if like is None else like.finishers
     usable = usable_mills(job, -bottom, radius)
     shapes = recess(job, feature, usable, run_out(known, job.settings) if known else 0.0)
     if shapely.is_empty(shapes.must):
@@ -130,6 +117,12 @@ def _mills(
     return tuple(mills), tuple(last_ones), tuple(finishing)
 
 
+def first_look(job: Job, feature: Profile | Pocket) -> tuple[list[Tool], Recess]:
+    """The mills that may cut a recess, largest first, and its shapes; raises ToolError if there is none."""
+    mills = usable_mills(job, -bottom_of(job, feature.top, feature.depth), floor_radius(feature))
+    return mills, recess(job, feature, mills)
+
+
 def floor_radius(feature: Profile | Pocket) -> float:
     """The fillet of a feature's floor, mm."""
     return feature.floor_radius if isinstance(feature, Pocket) else 0.0
@@ -142,18 +135,18 @@ def floor_mill(
 
     Raises ToolError if none has the radius, or none gets in.
     """
-    radius, path = floor_radius(feature), job.settings.path
+    radius, bias = floor_radius(feature), job.settings.path.bias
     able = [mill for mill in mills if makes_floor(mill, radius)]
     if not able:
         raise ToolError(
             f"cam.tools: no listed mill leaves the fillet of {radius:g} mm on the floor of {feature.name} of "
             f"part {job.part.name}; list a ball of {2 * radius:g} mm, or a bull nose with this corner radius"
         )
-    if reached_share(shapes, able[-1].radius + path.bias) < ENTERED:
+    if reached_share(shapes, able[-1].radius + bias) < ENTERED:
         fit = [mill for mill in able if reached_share(shapes, mill.radius - SNUG) >= FILLED]
         if fit:
             return fit[0], True
-    fit = [mill for mill in able if reached_share(shapes, mill.radius + path.bias) >= LEAST_SHARE]
+    fit = [mill for mill in able if reached_share(shapes, mill.radius + bias) >= LEAST_SHARE]
     if not fit:
         raise ToolError(
             f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
@@ -181,8 +174,7 @@ def _check_passages(job: Job, feature: Pocket | Profile, maker: Tool, shapes: Re
 
 def _missed(radius: float, shapes: Recess) -> shapely.Geometry:
     """What a mill that reaches so far does not get at, mm."""
-    reach = grow(grow(shapes.around, -radius, ROUGH), radius, ROUGH)
-    return areas(shapely.difference(shapes.must, reach))
+    return areas(shapely.difference(shapes.must, swept(shapes.around, radius)))
 
 
 def _walls(job: Job, feature: Pocket | Profile, mills: Sequence[Tool]) -> tuple[Layer, ...]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import shapely
 
-from mechwright_cam.setup.job import LEVEL, Air
+from mechwright_cam.setup.job import Air, air_below
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +41,11 @@ class Stock:
 
     def air_below(self, z: float) -> shapely.Geometry:
         """Where nothing stands below a height z, mm; for 0, where earlier setups have cut through."""
-        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
-        return found
+        return air_below(self.gone, z)
 
 
 def together_left(stocks: list[Stock]) -> Stock:
     """The stock of several layers of one recess, as seen from above."""
-    last = stocks[-1]
-    left = last.left if len(stocks) == 1 else shapely.union_all([stock.left for stock in stocks])
-    return replace(last, left=left, over=max(stock.over for stock in stocks))
+    left, *others = dict.fromkeys(stock.left for stock in stocks)
+    left = shapely.union_all([left, *others]) if others else left
+    return replace(stocks[-1], left=left, over=max(stock.over for stock in stocks))

@@ -31,12 +31,8 @@ BUILT_IN: tuple[Operation, ...] = (
 def asked(names: Sequence[str], more: Sequence[Operation] = ()) -> tuple[Operation, ...]:
     """The operations of a job: those of some names first, then the built-in ones.
 
-    ``more`` are those that others bring; without its name none of them is asked.
-
-    Raises
-    ------
-    DesignError
-        A name is not known; the message lists those that are.
+    ``more`` are those that others bring; without its name none of them is asked. Raises DesignError for a
+    name that is not known; the message lists those that are.
     """
     known = {operation.name: operation for operation in (*more, *BUILT_IN)}
     for name in names:

@@ -4,13 +4,14 @@ import math
 from functools import partial
 
 from mechwright.contracts.details import Thread
-from mechwright.contracts.part import Bore
 from mechwright.errors import ToolError
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.operations.pointed import DetailOperation, tools_of
-from mechwright_cam.plane.path import Path, arc, circle, rounded
+from mechwright_cam.operations.pointed import DetailOperation
+from mechwright_cam.plane.leads import half_circles
+from mechwright_cam.plane.path import printed, round_from_right
+from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
 
@@ -28,11 +29,7 @@ class ThreadOperation(DetailOperation):
 
     def task(self, detail: Thread, job: Job) -> Task:
         """Choose the tool; raises ToolError if there is none, and says what it needs."""
-        holes = [
-            f
-            for f in job.features
-            if isinstance(f, Bore) and math.dist(f.centre, detail.centre) < TOLERANCES.closure
-        ]
+        holes = [b for b in bores(job) if math.dist(b.centre, detail.centre) < TOLERANCES.closure]
         play = CORE_PLAY * detail.pitch
         hole = next(
             (h for h in holes if abs(h.diameter - detail.core) <= play and h.depth >= detail.depth), None
@@ -42,7 +39,7 @@ class ThreadOperation(DetailOperation):
                 f"cam.tools: thread {detail.name} of part {job.part.name} has no bore of {detail.core:.2f} "
                 f"mm that is {detail.depth:g} mm deep; draw one"
             )
-        for tool in tools_of(job, ToolKind.THREAD_MILL):
+        for tool in job.tools_of(ToolKind.THREAD_MILL):
             if tool.diameter <= hole.diameter - 2 * AROUND and tool.flute_length >= detail.depth:
                 write = partial(_turns, detail=detail, climb=job.settings.climb)
                 return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)
@@ -54,20 +51,16 @@ class ThreadOperation(DetailOperation):
 
 def _turns(pen: Pen, detail: Thread, climb: bool) -> None:
     """A right-hand helix: upwards counter-clockwise to climb, downwards clockwise against it."""
-    x, y = (rounded(value) for value in detail.centre)
     radius = detail.diameter / 2 - pen.tool.radius
-    turn = circle((x, y), radius, (x + radius, y), climb)
-    side = 1 if climb else -1
-    middle = ((x + turn.start[0]) / 2, y)
-    lead_in = Path((x, y), (arc((x, y), turn.start, middle, side),))
-    lead_out = Path(turn.start, (arc(turn.start, (x, y), middle, side),))
+    turn = round_from_right(printed(detail.centre), radius, climb)
+    lead_in, lead_out = half_circles(detail.centre, turn)
     turns = math.ceil(detail.depth / detail.pitch) + 1
     bottom = -detail.depth
     heights = [bottom + number * detail.pitch for number in range(turns + 1)]
     if not climb:
         heights.reverse()
     feed = pen.rates.inside(radius, pen.tool.radius)
-    pen.above((x, y))
+    pen.above(detail.centre)
     pen.sink(heights[0])
     pen.follow(lead_in, feed)
     for z in heights[1:]:

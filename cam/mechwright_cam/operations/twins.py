@@ -11,11 +11,13 @@ from mechwright.contracts.part import Feature, Pocket, Profile
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.operations.congruent import Turn, corners_of, turn_between
 from mechwright_cam.operations.recess import is_recess, plan_view
-from mechwright_cam.plane.offsets import ROUGH, areas
+from mechwright_cam.plane.offsets import ROUGH, areas, simplified
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.tool import widest_mill
 
-SAME = 2 * ROUGH
-"""What stands around two copies is the same to this, mm: it decides on cutters, and no path follows it."""
+SAME = 3 * ROUGH
+"""What stands around two copies is the same to this, mm, once it is thinned: it decides on cutters, and no
+path follows it."""
 ROUND = 64
 """Chords of a quarter of the circle within which is compared: up to 100 mm they are within SAME."""
 
@@ -25,7 +27,7 @@ class Twins:
 
     def __init__(self, job: Job) -> None:
         self.job = job
-        self.far = max((mill.diameter for mill in job.mills), default=0.0)
+        self.far = widest_mill(job.tools)
         self._known: list[Pocket | Profile] = []
         self._around: dict[str, dict[tuple[float, ...], shapely.Geometry]] = {}
 
@@ -54,9 +56,8 @@ class Twins:
             reach = float(np.abs(corners - middle).max()) + self.far
             disc = shapely.Point(middle.real, middle.imag).buffer(reach, quad_segs=ROUND)
             shapes: dict[tuple[float, ...], list[shapely.Geometry]] = {(): [job.body]}
-            for other in job.features:
-                outside = isinstance(other, Profile) and other.side == "outside"
-                if other is not feature and not outside:
+            for other in job.inner:
+                if other is not feature:
                     shapes.setdefault((other.top, other.depth), []).append(plan_view(other))
             for tab in job.tabs:
                 shapes.setdefault((tab.top,), []).append(tab.shape)
@@ -70,7 +71,7 @@ class Twins:
 
 def _clipped(shapes: Iterable[shapely.Geometry], disc: shapely.Polygon) -> shapely.Geometry:
     near = [shapely.intersection(shape, disc) for shape in shapes if shapely.intersects(shape, disc)]
-    return areas(shapely.union_all(near))
+    return simplified(areas(shapely.union_all(near)), ROUGH)
 
 
 def _same(one: shapely.Geometry, other: shapely.Geometry) -> bool:

@@ -23,18 +23,9 @@ TRIALS = 6
 
 
 def into_wedges(ring: Array, keep: shapely.Geometry, radius: float, bias: float) -> Array:
-    """The ring with a move to the end of each slender wedge and back.
+    """The closed ring (n + 1, 2), mm, with a move to the end of each slender wedge and back.
 
-    Parameters
-    ----------
-    ring
-        (n + 1, 2), mm, closed, at ``radius + bias`` from ``keep``.
-    keep
-        What must stay.
-    radius
-        Of the cutter, mm.
-    bias
-        Distance of the path from the wall, mm.
+    It runs at ``radius + bias`` from what must stay: the cutter's radius, and the path's distance, mm.
     """
     if bias <= TOUCH:
         return ring
@@ -60,5 +51,4 @@ def into_wedges(ring: Array, keep: shapely.Geometry, radius: float, bias: float)
     else:
         sharp, end = sharp[~near], end[~near]
     there_and_back = np.stack((end, corner[sharp]), axis=1).reshape(-1, 2)
-    longer: Array = np.insert(ring, np.repeat(sharp + 1, 2), there_and_back, axis=0)
-    return longer
+    return np.asarray(np.insert(ring, np.repeat(sharp + 1, 2), there_and_back, axis=0))

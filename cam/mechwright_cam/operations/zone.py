@@ -110,11 +110,6 @@ class Zone:
         return self.kind == "outside" and self.channel is None
 
     @property
-    def at_tabs(self) -> bool:
-        """Whether it is the layer of the tabs, below another one of the same wall."""
-        return self.tabs is not None or bool(self.slopes)
-
-    @property
     def height(self) -> float:
         """Height of the layer, mm."""
         return self.top - self.bottom

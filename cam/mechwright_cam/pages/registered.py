@@ -91,26 +91,26 @@ class SetupSheets(Page):
         machining, seen = _machining(build), build.made(Seen)
         if not machining.made:
             return {}
-        sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
-        pictures = {item.program.name: simulated_view(one, item.job) for item, one, _ in seen.measured}
-        deviations = {item.program.name: walls_view(walls, item.job) for item, _, walls in seen.measured}
-        table = machining.table[0]
+        control, table, design = machining.control, machining.table[0], build.path.name
         files = {item.program.name: list(item.files) for item in machining.made}
         made = {}
-        for sheet in sheets:
-            made[sheet[1].name + SHEET] = setup_html(
-                [sheet],
-                machining.control,
+        for item, simulation, walls in seen.measured:
+            name = item.program.name
+            made[name + SHEET] = setup_html(
+                item.job,
+                item.program,
+                seen.proofs[name],
+                control,
                 tool_table=table,
-                design=build.path.name,
-                pictures=pictures,
-                deviations=deviations,
+                design=design,
+                picture=simulated_view(simulation, item.job),
+                deviation=walls_view(walls, item.job),
                 summary=SUMMARY,
-                files=files,
+                files=files[name],
             )
-        name, design = build.design.name, build.path.name
+        sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
         made[SUMMARY] = summary_html(
-            sheets, machining.control, name=name, tool_table=table, design=design, files=files
+            sheets, control, name=build.design.name, tool_table=table, design=design, files=files
         )
         return made
 

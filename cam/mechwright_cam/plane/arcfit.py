@@ -8,29 +8,19 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.path import Cut, Path, arc, line, rounded
-from mechwright_cam.plane.runs import Index, Mask, course, runs_of
+from mechwright_cam.plane.path import Cut, Path, arc, line, printed
+from mechwright_cam.plane.runs import course, over_chord, runs_of
 
 LAST_DIGIT = 1e-4
 """A vertex this near to the line past it is one of rounding, mm: no bend of the path."""
 
 
 def fit(points: Array, tolerance: float, lines_per_arc: int = 1) -> Path:
-    """Give the path of lines and arcs that passes within ``tolerance`` of a polyline.
+    """Give the path of lines and arcs that passes within ``tolerance`` of a polyline (n, 2), mm.
 
-    Parameters
-    ----------
-    points
-        (n, 2), mm; a closed polyline repeats its first point.
-    tolerance
-        Largest distance of a vertex or of the middle of an edge from its line or arc, mm.
-    lines_per_arc
-        An arc is taken where it stands for at least so many lines; 1 gives the fewest moves.
-
-    Returns
-    -------
-    path
-        From the first point to the last, both rounded as programs print them. Corners are kept.
+    So near are all vertices, and middles of edges, to their lines and arcs. An arc is taken where it stands
+    for at least ``lines_per_arc`` lines; 1 gives the fewest moves. Corners are kept. The path leads from the
+    first point to the last, both rounded as programs print them.
     """
     return fit_all([points], tolerance, lines_per_arc)[0]
 
@@ -49,33 +39,9 @@ def fit_all(polylines: Sequence[Array], tolerance: float, lines_per_arc: int = 1
     ]
 
 
-def spans(points: Array, tolerance: float) -> tuple[Array, Index, Mask, Array]:
-    """The runs of one polyline that a line or an arc each can follow, from vertex to vertex.
-
-    Parameters
-    ----------
-    points, tolerance
-        As for :func:`fit`.
-
-    Returns
-    -------
-    points
-        (n, 2), the vertices that count: none doubled, none on a straight.
-    nodes
-        (k + 1,) index of the ends of the runs.
-    straight
-        (k,) whether a line will do.
-    height
-        (k,) of the centre over the chord, to the left of it, mm.
-    """
-    way = course([points], tolerance)
-    runs = runs_of(way, tolerance)
-    return np.column_stack(way.points), runs.nodes, runs.straight, runs.height
-
-
 def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:
     """The path through the chosen vertices."""
-    ends = [(rounded(x), rounded(y)) for x, y in points.tolist()]
+    ends = [printed(place) for place in points.tolist()]
     cuts: list[Cut] = []
     here = ends[0]
     line_from: Point | None = None
@@ -92,11 +58,8 @@ def _assemble(points: Array, straight: list[bool], height: list[float]) -> Path:
                 line_from, passed = here, []
             cuts.append(line(here, end))
         else:
-            dx, dy = end[0] - here[0], end[1] - here[1]
-            chord = math.hypot(dx, dy)
-            centre = ((here[0] + end[0]) / 2 - k * dy / chord, (here[1] + end[1]) / 2 + k * dx / chord)
             # Less than half a circle: with the centre on the left it turns to the left.
-            cuts.append(arc(here, end, centre, 1 if k > 0 else -1))
+            cuts.append(arc(here, end, over_chord(here, end, k), 1 if k > 0 else -1))
             line_from = None
         here = end
     return Path(ends[0], tuple(cuts))

@@ -66,8 +66,7 @@ def places(bend: Bend, t: Array) -> Array:
     """Points (n, 2) at shares (n,) of the way along a line or arc."""
     start, end = np.array(bend.start), np.array(bend.end)
     if not bend.turn:
-        ahead: Array = start + t[:, None] * (end - start)
-        return ahead
+        return np.asarray(start + t[:, None] * (end - start))
     angle = math.atan2(*(start - bend.centre)[::-1]) + bend.turn * bend.sweep * t
     return np.array(bend.centre) + bend.radius * np.column_stack((np.cos(angle), np.sin(angle)))
 
@@ -75,12 +74,10 @@ def places(bend: Bend, t: Array) -> Array:
 def left_of(bend: Bend, points: Array) -> Array:
     """Distance (n,) of points to the left of a line or arc, mm; negative to the right."""
     if bend.turn:
-        inside: Array = bend.turn * (bend.radius - np.hypot(*(points - bend.centre).T))
-        return inside
+        return np.asarray(bend.turn * (bend.radius - np.hypot(*(points - bend.centre).T)))
     heading = bend.heading(bend.start)
     x, y = (points - bend.start).T
-    left: Array = y * math.cos(heading) - x * math.sin(heading)
-    return left
+    return np.asarray(y * math.cos(heading) - x * math.sin(heading))
 
 
 def biarc(a: Point, b: Point, start: float, end: float) -> tuple[Bend, Bend] | None:

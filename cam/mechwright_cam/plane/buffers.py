@@ -34,16 +34,9 @@ FEW = 9
 
 
 def buffered(shape: Any, distance: float, quad_segs: int) -> Any:
-    """The shape grown by ``distance``, mm, or shrunk if that is negative.
+    """The shape, or an array of lines or points, grown by ``distance``, mm, or shrunk if that is negative.
 
-    Parameters
-    ----------
-    shape
-        A geometry, or an array of lines or points.
-    distance
-        mm.
-    quad_segs
-        Chords per quarter circle at corners.
+    At corners there are ``quad_segs`` chords per quarter circle.
 
     Examples
     --------
@@ -178,15 +171,13 @@ def _without_false_openings(grown: Any, shape: Any, distance: float, quad_segs: 
 def _corners(ring: Any) -> NDArray[Any]:
     """A few corners of a ring: of a true one every corner is far enough, of a false one none."""
     points = shapely.get_coordinates(ring)
-    found: NDArray[Any] = shapely.points(points[:: max(1, len(points) // 3)])
-    return found
+    return np.asarray(shapely.points(points[:: max(1, len(points) // 3)]))
 
 
 def _apart(points: NDArray[Any], shape: Any, distance: float, quad_segs: int) -> NDArray[np.bool_]:
     """Which points are ``distance`` away from the shape, as nearly as GEOS has it."""
     least = distance * (math.cos(math.pi / (4 * quad_segs)) - THINNING)
-    apart: NDArray[np.bool_] = shapely.distance(points, shape) >= least
-    return apart
+    return np.asarray(shapely.distance(points, shape) >= least)
 
 
 def _joined(pieces: NDArray[Any]) -> Any:

@@ -25,9 +25,9 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.arcfit import spans
 from mechwright_cam.plane.bends import FLAT, SHARP, Bend, along, biarc, left_of, meeting, places, wrapped
-from mechwright_cam.plane.path import Cut, Path, arc, line, rounded
+from mechwright_cam.plane.path import Cut, Path, arc, line, printed
+from mechwright_cam.plane.runs import course, over_chord, runs_of
 
 SCRAP = 0.1
 """Pieces of a ring below this length, mm, may be what is left of a corner."""
@@ -46,18 +46,10 @@ HALVINGS = 6
 
 
 def contour_beside(ring: Array, inset: float, side: int, tolerance: float) -> Path:
-    """The contour beside a ring or a run of one.
+    """The contour ``inset`` mm beside a ring (n, 2), mm, or a run of one; a ring repeats its first point.
 
-    Parameters
-    ----------
-    ring
-        (n, 2), mm; a closed one repeats its first point.
-    inset
-        Distance to the wall's side, mm.
-    side
-        1 if the tool runs on the left of the contour, with the wall on its right, else -1.
-    tolerance
-        Largest deviation from the ring, mm.
+    ``side`` is 1 if the tool runs on the left of the contour, with the wall on its right, else -1;
+    ``tolerance`` is the largest deviation from the ring, mm.
     """
     closed = bool(np.all(ring[0] == ring[-1]))
     bends = _smooth(ring, closed, side, tolerance)
@@ -69,12 +61,13 @@ def contour_beside(ring: Array, inset: float, side: int, tolerance: float) -> Pa
 
 def _smooth(ring: Array, closed: bool, side: int, tolerance: float) -> list[Bend]:
     """Lines and arcs along a ring that have one heading at every node but sharp corners."""
-    points, nodes, straight, height = spans(ring, tolerance / 2)
+    way = course([ring], tolerance / 2)
+    fitted, points = runs_of(way, tolerance / 2), np.column_stack(way.points)
+    runs = [points[a : b + 1] for a, b in itertools.pairwise(fitted.nodes)]
     first = [
-        _bend(points[a], points[b], bool(s), float(k))
-        for a, b, s, k in zip(nodes[:-1], nodes[1:], straight, height, strict=True)
+        _bend(run[0], run[-1], bool(s), float(k))
+        for run, s, k in zip(runs, fitted.straight, fitted.height, strict=True)
     ]
-    runs = [points[a : b + 1] for a, b in itertools.pairwise(nodes)]
     first, runs = _without_scraps(first, runs, closed, side, tolerance)
     start, end = _headings(first, closed, tolerance)
     found: list[Bend] = []
@@ -140,21 +133,22 @@ def _rounds(pair: tuple[Bend, Bend], one: Bend, two: Bend, side: int, tolerance:
     """Whether two arcs come no nearer to the wall than what they replace, and leave little in the corner."""
     t = np.linspace(0.0, 1.0, ON_FILLET)
     points = np.concatenate([places(bend, t) for bend in (one, two)])
-    q = np.array(pair[0].end)
-    second = (points - q) @ (np.array(pair[1].end) - np.array(pair[0].start)) > 0
-    # To the left of the pair, seen along it.
-    left = np.concatenate([left_of(pair[0], points[~second]), left_of(pair[1], points[second])])
-    inwards = side * left
+    inwards = side * _left_of(pair, points)
     return bool(inwards.max() <= tolerance / 4 and inwards.min() >= -LEFT - tolerance / 4)
 
 
+def _left_of(pair: tuple[Bend, Bend], points: Array) -> Array:
+    """Distance (n,) of points to the left of the nearer of two bends, seen along them, mm; in any order."""
+    one, two = pair
+    second = (points - one.end) @ np.subtract(two.end, one.start) > 0
+    return np.concatenate([left_of(one, points[~second]), left_of(two, points[second])])
+
+
 def _bend(a: Array, b: Array, straight: bool, height: float) -> Bend:
-    (x0, y0), (x1, y1) = a.tolist(), b.tolist()
-    chord = math.hypot(x1 - x0, y1 - y0)
-    if straight or chord == 0:
+    (x0, y0), (x1, y1) = start, end = a.tolist(), b.tolist()
+    if straight or (x0, y0) == (x1, y1):
         return Bend((x0, y0), (x1, y1))
-    centre = ((x0 + x1) / 2 - height * (y1 - y0) / chord, (y0 + y1) / 2 + height * (x1 - x0) / chord)
-    return Bend((x0, y0), (x1, y1), centre, 1 if height > 0 else -1)
+    return Bend((x0, y0), (x1, y1), over_chord(start, end, height), 1 if height > 0 else -1)
 
 
 def _headings(bends: list[Bend], closed: bool, tolerance: float) -> tuple[list[float], list[float]]:
@@ -197,23 +191,9 @@ def _run(points: Array, bend: Bend, start: float, end: float, tolerance: float, 
 
 def _deviation(points: Array, pair: tuple[Bend, Bend]) -> float:
     """Largest distance of a run from its two arcs, mm, at its vertices and on its edges."""
-    one, two = pair
     t = np.linspace(0.0, 1.0, ON_EDGE, endpoint=False)[:, None]
     edges = (1 - t) * points[:-1, None] + t * points[1:, None]
-    points = np.concatenate((edges.reshape(-1, 2), points[-1:]))
-    q = np.array(one.end)
-    split = (points - q) @ (np.array(two.end) - np.array(one.start)) > 0
-    worst = 0.0
-    for bend, mine in ((one, points[~split]), (two, points[split])):
-        if not len(mine):
-            continue
-        if bend.turn:
-            off = np.abs(np.hypot(*(mine - bend.centre).T) - bend.radius)
-        else:
-            a, b = np.array(bend.start), np.array(bend.end)
-            off = np.abs((mine - a) @ np.array((a[1] - b[1], b[0] - a[0]))) / max(math.dist(a, b), 1e-12)
-        worst = max(worst, float(off.max()))
-    return worst
+    return float(np.abs(_left_of(pair, np.concatenate((edges.reshape(-1, 2), points[-1:])))).max())
 
 
 # -- to the wall --------------------------------------------------------------------------------------------
@@ -300,8 +280,8 @@ def _path(bends: list[Bend], closed: bool) -> Path:
     kept = _without_crumbs(bends, closed)
     if not kept:
         return Path((0.0, 0.0), ())
-    ends = [(rounded(b.end[0]), rounded(b.end[1])) for b in kept]
-    here = start = ends[-1] if closed else (rounded(kept[0].start[0]), rounded(kept[0].start[1]))
+    ends = [printed(bend.end) for bend in kept]
+    here = start = ends[-1] if closed else printed(kept[0].start)
     cuts: list[Cut] = []
     for bend, end in zip(kept, ends, strict=True):
         if end != here:

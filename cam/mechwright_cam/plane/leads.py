@@ -2,12 +2,14 @@
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright_cam.plane.path import Path, arc, rounded
+from mechwright.geometry.segments import Point
+from mechwright_cam.plane.path import Path, arc, printed
 
 CANDIDATES = 120
 """Places of a ring at which leads are tried."""
@@ -38,29 +40,13 @@ def best_start(
     clear: Test,
     exact: Callable[[Array], bool],
 ) -> tuple[int, float, float] | None:
-    """Where to enter a ring, and with which lead.
+    """Where to enter a ring (n + 1, 2), mm, and with which lead: its vertex, radius and sweep of the lead.
 
-    Parameters
-    ----------
-    ring
-        (n + 1, 2), mm, first point repeated.
-    shapes
-        Leads to try in this order.
-    climb
-        The wall is on the right; on the left if false.
-    free
-        Points (k, 2) to whether the cutter's centre may be there.
-    clear
-        Points (k, 2) to whether the cutter may be sunk there.
-    exact
-        Whether the cutter may run along a polyline (k, 2): asked of the lead that is chosen, for between the
-        points that ``free`` is asked for a corner of the wall may stand.
-
-    Returns
-    -------
-    start
-        Index of the vertex, radius and sweep of the lead; None if no lead fits anywhere. Of all places
-        where a lead fits it is the middle of the longest stretch.
+    Leads are tried in the order of ``shapes``, radius, mm, and sweep, rad. Of all places where one fits it is
+    the middle of the longest stretch; None if no lead fits anywhere. ``climb`` has the wall on the right.
+    ``free`` tells of points (k, 2) whether the cutter's centre may be there, ``clear`` whether the cutter may
+    be sunk there, and ``exact`` whether it may run along a polyline (k, 2): that is asked of the lead that is
+    chosen, for between the points that ``free`` is asked for a corner of the wall may stand.
     """
     edge = np.diff(ring, axis=0)
     heading = np.arctan2(edge[:, 1], edge[:, 0])
@@ -91,8 +77,7 @@ def best_start(
 def _arcs(rho: float, sweep: float, along: Array, away: Array) -> Array:
     """A lead in and a lead out (k, 2), mm, from the place on the wall at which both meet."""
     a = np.linspace(-sweep, sweep, 2 * FINE_STEPS + 1)[:, None]
-    points: Array = rho * (np.sin(a) * along + (1 - np.cos(a)) * away)
-    return points
+    return rho * (np.sin(a) * along + (1 - np.cos(a)) * away)
 
 
 def middle_of_longest(flags: NDArray[np.bool_]) -> int:
@@ -109,15 +94,26 @@ def middle_of_longest(flags: NDArray[np.bool_]) -> int:
 
 def with_leads(path: Path, heading: float, rho: float, sweep: float, climb: bool) -> Path:
     """A closed path with an arc in front and one behind, tangent to ``heading``, rad, at its start."""
-    x, y = path.start
     side = 1 if climb else -1
+    rise, along = rho * (1 - math.cos(sweep)), rho * math.sin(sweep)
+    begin, end = (printed(_off(path.start, heading, side, rise, way)) for way in (-along, along))
+    centre = _off(path.start, heading, side, rho, 0.0)
+    return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))
+
+
+def half_circles(centre: Point, turn: Path) -> tuple[Path, Path]:
+    """The ways from the middle of a circle to its start, and from there back."""
+    middle, start, side = printed(centre), turn.start, turn.cuts[0].turn
+    between = ((middle[0] + start[0]) / 2, (middle[1] + start[1]) / 2)
+    into, off = arc(middle, start, between, side), arc(start, middle, between, side)
+    return Path(middle, (into,)), Path(start, (off,))
+
+
+def _off(place: Point, heading: float, side: int, rise: Any, along: Any) -> Any:
+    """What is so far off a wall, and ahead along it, from a place on it, mm: a point, or x and y of many."""
     tx, ty = math.cos(heading), math.sin(heading)
     nx, ny = -ty * side, tx * side
-    rise, along = rho * (1 - math.cos(sweep)), rho * math.sin(sweep)
-    begin = (rounded(x + rise * nx - along * tx), rounded(y + rise * ny - along * ty))
-    end = (rounded(x + rise * nx + along * tx), rounded(y + rise * ny + along * ty))
-    centre = (x + rho * nx, y + rho * ny)
-    return Path(begin, (arc(begin, path.start, centre, side), *path.cuts, arc(path.start, end, centre, side)))
+    return place[0] + rise * nx + along * tx, place[1] + rise * ny + along * ty
 
 
 def led(
@@ -125,31 +121,19 @@ def led(
 ) -> Path:
     """An open path with an arc in front and one behind, each as roomy as it fits.
 
-    Parameters
-    ----------
-    headings
-        Of the path at its start and at its end, rad.
-    shapes
-        Radius, mm, and sweep, rad, of leads to try in this order.
-    climb
-        The wall is on the right; on the left if false.
-    test
-        Points (k, 2) of a lead to whether the cutter may be there with nothing in its way.
+    ``headings`` are those of the path at its start and at its end, rad; ``test`` tells of points (k, 2) of a
+    lead whether the cutter may be there with nothing in its way. The rest is as for :func:`best_start`.
     """
     side = 1 if climb else -1
     for at_end, heading in enumerate(headings):
-        x, y = path.end if at_end else path.start
-        tx, ty = math.cos(heading), math.sin(heading)
-        nx, ny = -ty * side, tx * side
-        way = 1 if at_end else -1
+        place, way = (path.end, 1) if at_end else (path.start, -1)
         for rho, sweep in shapes:
             a = np.linspace(0, sweep, STEPS + 1)[1:]
             rise, along = rho * (1 - np.cos(a)), way * rho * np.sin(a)
-            points = np.column_stack((x + rise * nx + along * tx, y + rise * ny + along * ty))
+            points = np.column_stack(_off(place, heading, side, rise, along))
             if not test(points).all():
                 continue
-            far = (rounded(float(points[-1, 0])), rounded(float(points[-1, 1])))
-            centre = (x + rho * nx, y + rho * ny)
+            far, centre = printed(points[-1].tolist()), _off(place, heading, side, rho, 0.0)
             if at_end:
                 path = path + Path(path.end, (arc(path.end, far, centre, side),))
             else:

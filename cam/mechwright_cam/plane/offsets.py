@@ -54,6 +54,11 @@ def grow(shape: shapely.Geometry, distance: float, tolerance: float = FINE) -> s
     return buffered(shape, distance, corners(abs(distance), tolerance))
 
 
+def swept(room: shapely.Geometry, radius: float, tolerance: float = ROUGH) -> shapely.Geometry:
+    """All of a room that a disc gets to without leaving it."""
+    return grow(grow(room, -radius, tolerance), radius, tolerance)
+
+
 def areas(shape: shapely.Geometry) -> shapely.Geometry:
     """The shape without the lines and points that overlays leave, and which others fail on."""
     if shape.geom_type in ("Polygon", "MultiPolygon"):
@@ -122,8 +127,7 @@ LEAST_RING = 4
 
 def _thinned_ring(ring: shapely.LinearRing, tolerance: float) -> Array:
     # Nothing but a line follows from it, so its topology need not be watched: that takes most time.
-    points: Array = shapely.get_coordinates(shapely.simplify(ring, tolerance, preserve_topology=False))
-    return points
+    return np.asarray(shapely.get_coordinates(shapely.simplify(ring, tolerance, preserve_topology=False)))
 
 
 def rings(shape: shapely.Geometry, climb: bool, tolerance: float = FINE) -> list[Array]:
@@ -141,8 +145,7 @@ def rings(shape: shapely.Geometry, climb: bool, tolerance: float = FINE) -> list
 
 def densified(ring: Array, step: float) -> Array:
     """The ring with edges of at most ``step``."""
-    dense: Array = shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step))
-    return dense
+    return np.asarray(shapely.get_coordinates(shapely.segmentize(shapely.LineString(ring), step)))
 
 
 BISECTIONS = 12
@@ -165,19 +168,11 @@ class Piece:
 def pieces(
     ring: Array, wanted: NDArray[np.bool_], near: NDArray[np.bool_], room: shapely.Geometry, order: int
 ) -> list[Piece]:
-    """The runs of a ring that have to be cut.
+    """The runs of a ring (n + 1, 2), mm, densified, that have to be cut; ``order`` goes into the pieces.
 
-    Parameters
-    ----------
-    ring
-        (n + 1, 2), mm, densified.
-    wanted, near
-        (n + 1,) per vertex: it cuts something; it is near something to cut. A run goes on while it is near,
-        so that it starts and ends in the clear, and has a wanted vertex.
-    room
-        Where the centre may be, prepared; a run that leaves it ends on its edge.
-    order
-        Goes into the pieces.
+    Per vertex ``wanted`` (n + 1,) tells that it cuts something, ``near`` that it is near something to cut. A
+    run goes on while it is near, so that it starts and ends in the clear, and has a wanted vertex. ``room``,
+    prepared, is where the centre may be; a run that leaves it ends on its edge.
     """
     inside = shapely.contains_xy(room, ring[:, 0], ring[:, 1])
     go = (near & inside)[:-1]

@@ -11,7 +11,7 @@ closed
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -43,6 +43,11 @@ def rounded(value: float) -> float:
     return round(value, DECIMALS) + 0.0
 
 
+def printed(point: Point) -> Point:
+    """A point as programs print it."""
+    return rounded(point[0]), rounded(point[1])
+
+
 def line(start: Point, end: Point) -> Cut:
     """A straight cut."""
     return Cut(end[0], end[1], 0.0, 0.0, 0, math.hypot(end[0] - start[0], end[1] - start[1]))
@@ -65,6 +70,26 @@ def arc(start: Point, end: Point, centre: Point, turn: int) -> Cut:
     b = math.atan2(end[1] - cy, end[0] - cx)
     sweep = ((b - a) * turn) % math.tau
     return Cut(end[0], end[1], cx, cy, turn, sweep * math.hypot(chord / 2, height))
+
+
+class Place(NamedTuple):
+    """A place on a cut: length from the path's start, mm, the point, and the heading, rad."""
+
+    at: float
+    point: Point
+    heading: float
+
+
+def place_on(start: Point, cut: Cut, share: float, done: float) -> Place:
+    """The place at a share of a cut."""
+    at = done + share * cut.length
+    if not cut.turn:
+        x, y = (a + share * (b - a) for a, b in zip(start, (cut.x, cut.y), strict=True))
+        return Place(at, (x, y), math.atan2(cut.y - start[1], cut.x - start[0]))
+    radius = math.hypot(start[0] - cut.cx, start[1] - cut.cy)
+    angle = math.atan2(start[1] - cut.cy, start[0] - cut.cx) + share * cut.turn * cut.length / radius
+    point = cut.cx + radius * math.cos(angle), cut.cy + radius * math.sin(angle)
+    return Place(at, point, angle + cut.turn * math.pi / 2)
 
 
 @dataclass(frozen=True)
@@ -97,32 +122,29 @@ class Path:
 
     def reversed(self) -> "Path":
         """The same way run backwards."""
-        starts = [self.start, *((cut.x, cut.y) for cut in self.cuts[:-1])]
-        back = tuple(
-            Cut(x, y, cut.cx, cut.cy, -cut.turn, cut.length)
-            for (x, y), cut in zip(starts[::-1], self.cuts[::-1], strict=True)
-        )
-        return Path(self.end, back)
+        back = [Cut(*start, cut.cx, cut.cy, -cut.turn, cut.length) for start, cut, _ in self.walk()]
+        return Path(self.end, tuple(back[::-1]))
+
+    def walk(self) -> Iterator[tuple[Point, Cut, float]]:
+        """The cuts, with their starts and the way before them."""
+        here, done = self.start, 0.0
+        for cut in self.cuts:
+            yield here, cut, done
+            here, done = (cut.x, cut.y), done + cut.length
 
     def split(self, at: float) -> tuple["Path", "Path"]:
         """The parts before and after ``at`` mm of the way; either may be empty."""
-        done = 0.0
-        here = self.start
-        for number, cut in enumerate(self.cuts):
+        for number, (here, cut, done) in enumerate(self.walk()):
             if done + cut.length >= at:
                 first, second = _cut_at(here, cut, at - done)
-                before = self.cuts[:number] + first
-                middle = Path(self.start, before).end
-                return Path(self.start, before), Path(middle, second + self.cuts[number + 1 :])
-            done += cut.length
-            here = (cut.x, cut.y)
+                before = Path(self.start, self.cuts[:number] + first)
+                return before, Path(before.end, second + self.cuts[number + 1 :])
         return self, Path(self.end, ())
 
     def points(self, step: float) -> Array:
         """Points (n, 2) along the way, both ends included, at most ``step`` mm apart."""
         rows: list[Array] = [np.array([self.start])]
-        here = self.start
-        for cut in self.cuts:
+        for here, cut, _ in self.walk():
             count = max(1, math.ceil(cut.length / step))
             t = np.arange(1, count + 1)[:, None] / count
             if cut.turn:
@@ -132,7 +154,6 @@ class Path:
                 rows.append(np.hstack((cut.cx + radius * np.cos(angle), cut.cy + radius * np.sin(angle))))
             else:
                 rows.append(np.array(here) + t * (np.array((cut.x, cut.y)) - here))
-            here = (cut.x, cut.y)
         return np.concatenate(rows)
 
 
@@ -143,21 +164,16 @@ def _cut_at(start: Point, cut: Cut, at: float) -> tuple[tuple[Cut, ...], tuple[C
         return (), (cut,)
     if cut.length - at < least:
         return (cut,), ()
-    end = (cut.x, cut.y)
+    end, middle = (cut.x, cut.y), printed(place_on(start, cut, at / cut.length, 0.0).point)
     if not cut.turn:
-        t = at / cut.length
-        middle = (rounded(start[0] + t * (end[0] - start[0])), rounded(start[1] + t * (end[1] - start[1])))
         return (line(start, middle),), (line(middle, end),)
-    radius = math.hypot(start[0] - cut.cx, start[1] - cut.cy)
-    angle = math.atan2(start[1] - cut.cy, start[0] - cut.cx) + cut.turn * at / radius
-    middle = (rounded(cut.cx + radius * math.cos(angle)), rounded(cut.cy + radius * math.sin(angle)))
     centre = (cut.cx, cut.cy)
     return (arc(start, middle, centre, cut.turn),), (arc(middle, end, centre, cut.turn),)
 
 
 def polyline(points: Iterable[Point]) -> Path:
     """A path of straight cuts through these points, rounded; points that coincide count once."""
-    rows = [(rounded(x), rounded(y)) for x, y in points]
+    rows = list(map(printed, points))
     cuts = []
     here = rows[0]
     for row in rows[1:]:
@@ -169,12 +185,17 @@ def polyline(points: Iterable[Point]) -> Path:
 
 def circle(centre: Point, radius: float, start: Point, ccw: bool) -> Path:
     """A full circle from ``start`` in two halves, rounded."""
-    begin = (rounded(start[0]), rounded(start[1]))
-    far = (rounded(2 * centre[0] - start[0]), rounded(2 * centre[1] - start[1]))
+    begin = printed(start)
+    far = printed((2 * centre[0] - start[0], 2 * centre[1] - start[1]))
     turn = 1 if ccw else -1
     half = math.pi * radius
     one = Cut(*far, (begin[0] + far[0]) / 2, (begin[1] + far[1]) / 2, turn, half)
     return Path(begin, (one, one._replace(x=begin[0], y=begin[1])))
+
+
+def round_from_right(centre: Point, radius: float, ccw: bool) -> Path:
+    """A full circle from its rightmost point."""
+    return circle(centre, radius, (centre[0] + radius, centre[1]), ccw)
 
 
 CIRCLE_BIAS = TOLERANCES.flatten + 1e-4

@@ -10,7 +10,6 @@ remainder
 """
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -20,7 +19,6 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
-from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import ROUGH, grow, polygons, thinned
 
@@ -40,14 +38,6 @@ SAFE = (1 + CUT_SHORT) * ROUGH
 
 ROUGHLY = SAFE + ROUGH
 """How far a first look may be off, mm: made larger to be safe, and the thinned shape may be larger itself."""
-
-
-@dataclass(frozen=True)
-class Spot:
-    """A place on the wall that the cutter does not reach, and how far it stays away, mm."""
-
-    place: Point
-    depth: float
 
 
 @lru_cache(maxsize=16)
@@ -82,8 +72,7 @@ def roughly_swollen(keep: shapely.Geometry, radius: float) -> shapely.Geometry:
 @lru_cache(maxsize=32)
 def _walls(keep: shapely.Geometry) -> Array:
     """Places (n, 2) on the edge of a shape: its corners, and some on long edges."""
-    points: Array = shapely.get_coordinates(shapely.segmentize(keep, SPACING))
-    return points
+    return np.asarray(shapely.get_coordinates(shapely.segmentize(keep, SPACING)))
 
 
 @lru_cache(maxsize=32)
@@ -92,31 +81,26 @@ def _points(keep: shapely.Geometry, near: shapely.Geometry | None) -> Array:
     points = _walls(keep)
     if near is None:
         return points
+    x0, y0, x1, y1 = shapely.bounds(shapely.buffer(shapely.box(*near.bounds), 2 * TOLERANCES.flatten))
+    points = points[((points >= (x0, y0)) & (points <= (x1, y1))).all(axis=1)]
     near = prepared(near)
-    found: Array = points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)]
-    return found
+    return np.asarray(points[shapely.dwithin(near, shapely.points(points), TOLERANCES.flatten)])
 
 
-def remainder_depths(
-    keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None
-) -> tuple[Array, Array]:
-    """Wall points (n, 2), mm, and the thickness (n,) that a cutter of ``radius`` leaves on each.
+def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
+    """The greatest thickness that a cutter of ``radius`` leaves on the wall of ``keep``, mm.
 
-    Thickness is the distance from the wall point to the nearest place that the cutter touches. If a shape
+    Thickness is the distance from a wall point to the nearest place that the cutter touches. If a shape
     ``near`` is given, only walls that stand at it count.
     """
-    walls = _points(keep, near)
-    touched = shapely.boundary(closing(keep, radius))
-    touched = prepared(touched)
-    depths = np.zeros(len(walls))
-    # Nearly every point is touched; the prepared test for that is much faster than a distance.
-    points = shapely.points(walls)
-    away = np.flatnonzero(~shapely.dwithin(touched, points, 2 * PRECISION))
-    if away.size:
-        parts = shapely.STRtree(_edges(touched))
-        _, distance = parts.query_nearest(points[away], return_distance=True, all_matches=False)
-        depths[away] = distance
-    return walls, depths
+    # Nearly every point is touched, and distances take long.
+    away = _deep(grow(_swollen(keep, radius), -radius - 2 * PRECISION, PRECISION), keep, near)
+    if not away.any():
+        return 0.0
+    edges = shapely.STRtree(_edges(shapely.boundary(closing(keep, radius))))
+    points = shapely.points(_points(keep, near)[away])
+    _, distance = edges.query_nearest(points, return_distance=True, all_matches=False)
+    return float(distance.max())
 
 
 def _edges(lines: shapely.Geometry) -> NDArray[Any]:
@@ -161,8 +145,7 @@ def _deep(
     """Which places on the edge of ``keep``, or those ``near`` a shape, lie in another one."""
     shape = prepared(shape)
     x, y = _points(keep, near).T
-    inside: NDArray[np.bool_] = shapely.contains_xy(shape, x, y)
-    return inside
+    return np.asarray(shapely.contains_xy(shape, x, y))
 
 
 def closed_area(swollen: shapely.Geometry, radius: float) -> float:
@@ -186,24 +169,6 @@ def closed_area(swollen: shapely.Geometry, radius: float) -> float:
 def roughly_closed_area(keep: shapely.Geometry, radius: float) -> float:
     """Area of what a cutter of ``radius`` leaves around ``keep``, mm², from a first look."""
     return closed_area(roughly_swollen(keep, radius), radius + SAFE)
-
-
-def remainder(keep: shapely.Geometry, radius: float, near: shapely.Geometry | None = None) -> float:
-    """The greatest thickness that a cutter of ``radius`` leaves on the wall of ``keep``, mm."""
-    return float(remainder_depths(keep, radius, near)[1].max(initial=0.0))
-
-
-def unreachable(keep: shapely.Geometry, radius: float, limit: float) -> tuple[Spot, ...]:
-    """The places where more than ``limit`` is left, one spot for each run of the wall, thickest first."""
-    walls, depths = remainder_depths(keep, radius)
-    over = depths > limit
-    starts = np.flatnonzero(over & ~np.concatenate(([False], over[:-1])))
-    spots = []
-    for start in starts.tolist():
-        stop = start + int(np.argmin(np.append(over[start:], False)))
-        worst = start + int(np.argmax(depths[start:stop]))
-        spots.append(Spot((float(walls[worst, 0]), float(walls[worst, 1])), float(depths[worst])))
-    return tuple(sorted(spots, key=lambda spot: -spot.depth))
 
 
 def opening_keep(opening: shapely.Polygon, margin: float) -> shapely.Polygon:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.geometry.segments import Point
 
 CORNER = 0.5
 """A turn of more than this at one vertex, rad, is a corner of the path; offset arcs turn by less."""
@@ -61,40 +62,26 @@ Axes = tuple[Array, ...]
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """Polylines one after the other, ready to be searched.
-
-    Parameters
-    ----------
-    points
-        x and y of the vertices, (n,) each, mm.
-    most
-        (n,) the vertex that no run from here may pass: the next corner, or where an arc has turned enough.
-    bounds
-        (k + 1,) where each of the polylines begins, and their end.
-    """
+    """Polylines one after the other, ready to be searched."""
 
     points: Axes
+    """x and y of the vertices, (n,) each, mm."""
     most: Index
+    """(n,) the vertex that no run from here may pass: the next corner, or where an arc has turned enough."""
     bounds: Index
+    """(k + 1,) where each of the polylines begins, and their end."""
 
 
 @dataclass(frozen=True, eq=False)
 class Runs:
-    """Runs of lines and arcs along a course.
-
-    Parameters
-    ----------
-    nodes
-        (k + 1,) vertices at which they begin and end.
-    straight
-        (k,) whether a line will do.
-    height
-        (k,) of an arc's centre over the chord, to the left of it, mm.
-    """
+    """Runs of lines and arcs along a course."""
 
     nodes: Index
+    """(k + 1,) vertices at which they begin and end."""
     straight: Mask
+    """(k,) whether a line will do."""
     height: Array
+    """(k,) of an arc's centre over the chord, to the left of it, mm."""
 
 
 def course(polylines: Sequence[Array], tolerance: float) -> Course:
@@ -187,6 +174,13 @@ def runs_of(way: Course, tolerance: float, lines_per_arc: int = 1) -> Runs:
     return found
 
 
+def over_chord(a: Point, b: Point, height: float) -> Point:
+    """The centre of an arc so high over the chord from a to b, to the left of it, mm."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    chord = math.hypot(dx, dy)
+    return (a[0] + b[0]) / 2 - height * dy / chord, (a[1] + b[1]) / 2 + height * dx / chord
+
+
 def _chain(by_line: Index, by_arc: Index, lines_per_arc: int) -> tuple[Index, Mask]:
     """The vertices of a way with the fewest runs, and which of them begin a line.
 
@@ -268,8 +262,7 @@ def _holds(way: Course, first: Index, last: Index, tolerance: float, lines: bool
         at = (first + 0.5 + (last - first) * FRACTIONS).astype(np.intp)
         inner = tuple(axis.take(at) for axis in way.points)
     straight, curved, _ = shapes(way, first, last, inner, tolerance, lines=lines)
-    good: Mask = straight | curved
-    return good
+    return straight | curved
 
 
 def shapes(

@@ -2,7 +2,7 @@
 
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.planner import plan
-from mechwright_cam.planning.remarks import check_tools, lay_out
+from mechwright_cam.planning.remarks import lay_out
 from mechwright_cam.planning.selection import choose_tools
 
-__all__ = ["Assignments", "check_tools", "choose_tools", "lay_out", "plan"]
+__all__ = ["Assignments", "choose_tools", "lay_out", "plan"]

@@ -53,10 +53,7 @@ def assign(job: Job, operations: Sequence[Operation]) -> Assigned:
 class Assignments:
     """The tasks of the jobs of one build, each worked out when it is first asked for.
 
-    Parameters
-    ----------
-    more
-        Operations besides the built-in ones; a design asks for them by name.
+    Of ``more`` operations besides the built-in ones a design asks for some by name.
     """
 
     def __init__(self, more: Sequence[Operation] = ()) -> None:

@@ -26,7 +26,7 @@ from mechwright_cam.shop.holding import Nesting
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.tool import MILLS, widest_mill
 
 WEB = 3.0
 """Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
@@ -69,10 +69,8 @@ def arranged(
 ) -> list[Part]:
     """The plate parts as they are cut: those that go together are one nest, at the place of the first.
 
-    Raises
-    ------
-    DesignError
-        A part of ``[cam.nest]`` is not known or does not go with the others, or the plate is too small.
+    Raises DesignError where a part of ``[cam.nest]`` is not known or does not go with the others, or the
+    plate is too small.
     """
     wanted = settings_of(design).cam.nest
     if wanted is None:
@@ -100,7 +98,7 @@ def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list
     if not names:
         alike: dict[tuple[str, float], list[Part]] = {}
         for part in parts:
-            if part.name not in settings_of(design).parts and not _second_side(part):
+            if part.name not in settings_of(design).parts and not sides(part)[1]:
                 alike.setdefault((part.material, part.thickness), []).append(part)
         groups = [group for group in alike.values() if sum(map(copies, group)) > 1]
         if not groups:
@@ -125,13 +123,9 @@ def _groups(design: Design, wanted: Nesting, parts: Sequence[Part]) -> list[list
                 f"{design.path}: cam.part.{name}: the part is cut in the nest; set it in "
                 f"[cam.part.{wanted.name}], or take the part out of cam.nest.parts"
             )
-        if _second_side(part):
+        if sides(part)[1]:
             raise DesignError(f"{where}: {name} is cut from both sides; it cannot be nested, leave it out")
     return [[known[name] for name in names]]
-
-
-def _second_side(part: Part) -> bool:
-    return bool(sides(part)[1])
 
 
 def copies(part: Part) -> int:
@@ -182,7 +176,7 @@ def channel_of(
         mills = [channel_width(job, tool) for tool in tools if tool.kind in MILLS]
         found.append(max(mills, default=0.0))
     # With room for any cutter, laying out the nest comes to what is missing, and not to the gap.
-    widest = max((tool.diameter for tool in library.tools if tool.kind in MILLS), default=0.0)
+    widest = widest_mill(library)
     return min(found, default=widest)
 
 
@@ -191,12 +185,8 @@ def nest_of(
 ) -> Nest:
     """Lay all copies of some parts on one plate, ``gap`` mm apart at least.
 
-    The first placed part, the largest, keeps its axis at the nest's origin.
-
-    Raises
-    ------
-    DesignError
-        They do not fit on a plate of the given size.
+    The first placed part, the largest, keeps its axis at the nest's origin. Raises DesignError where they do
+    not fit on a plate of the given size.
     """
     items = [_Item(part, label, _box(part)) for part in group for label in _labels(part)]
     items.sort(key=lambda item: (-max(item.size), -min(item.size)))
@@ -221,10 +211,8 @@ def nest_of(
     for item, (x, y, turned) in zip(items, layout.spots, strict=True):
         x0, y0, _, y1 = item.box
         # Turned by +90 degrees, (x, y) goes to (-y, x): the box begins at (-y1, x0).
-        corner = (-y1, x0) if turned else (x0, y0)
-        placed.append(
-            Placed(item.part, item.label, x - corner[0], y - corner[1], math.pi / 2 if turned else 0.0)
-        )
+        (left, low), angle = ((-y1, x0), math.pi / 2) if turned else ((x0, y0), 0.0)
+        placed.append(Placed(item.part, item.label, x - left, y - low, angle))
     dx, dy = placed[0].x, placed[0].y
     shifted = tuple(Placed(p.part, p.label, p.x - dx, p.y - dy, p.angle) for p in placed)
     return make_nest(name, shifted, gap)
@@ -250,13 +238,10 @@ def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tu
     """
     least = max(min(size) if turn else size[0] for size in sizes)
     most = sum(max(size) if turn else size[0] for size in sizes) + gap * (len(sizes) - 1)
-    found = []
-    for width in np.linspace(least, max(least, most), WIDTHS).tolist():
-        layout = _bottom_left(sizes, width, math.inf, gap, turn)
-        if layout is not None:
-            found.append(layout)
+    widths = np.linspace(least, max(least, most), WIDTHS).tolist()
+    found = (_bottom_left(sizes, width, math.inf, gap, turn) for width in widths)
     return min(
-        found,
+        filter(None, found),
         key=lambda f: (
             max(0.0, f.width + gap - room[0]) + max(0.0, f.height + gap - room[1]),
             (f.width + gap) * (f.height + gap),
@@ -291,18 +276,14 @@ def _bottom_left(
             xs = np.unique(np.append(boxes[:, 2] + gap, 0.0))
             ys = np.unique(np.append(boxes[:, 3] + gap, 0.0))
             xs, ys = xs[xs + a <= width + SNAP], ys[ys + b <= height + SNAP]
-            x, y = (grid.ravel() for grid in np.meshgrid(xs, ys))
-            met = (
-                (x[:, None] < boxes[:, 2] + gap - SNAP)
-                & (x[:, None] + a > boxes[:, 0] - gap + SNAP)
-                & (y[:, None] < boxes[:, 3] + gap - SNAP)
-                & (y[:, None] + b > boxes[:, 1] - gap + SNAP)
-            ).any(axis=1)
-            x, y = x[~met], y[~met]
-            if x.size == 0:
+            beside = (xs[:, None] < boxes[:, 2] + gap - SNAP) & (xs[:, None] + a > boxes[:, 0] - gap + SNAP)
+            above = (ys[:, None] < boxes[:, 3] + gap - SNAP) & (ys[:, None] + b > boxes[:, 1] - gap + SNAP)
+            # How many boxes a place would meet, as a product of matrices; both ways ascend.
+            free = np.argwhere(above.astype(np.float32) @ beside.T.astype(np.float32) == 0)
+            if free.size == 0:
                 continue
-            place = np.lexsort((x, y))[0]
-            at = (float(y[place]) + b, float(x[place]), float(y[place]), turned)
+            row, column = free[0]
+            at = (float(ys[row]) + b, float(xs[column]), float(ys[row]), turned)
             best = at if best is None else min(best, at)
         if best is None:
             return None

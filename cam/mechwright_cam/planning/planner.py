@@ -23,16 +23,10 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 
 def plan(job: Job, assignments: Assignments | None = None) -> Program:
-    """Plan the whole machining of a plate part.
+    """Plan the whole machining of a plate part; ``assignments`` keeps who cuts what.
 
-    Who cuts what is taken from ``assignments``, and decided there if it has not been yet.
-
-    Raises
-    ------
-    ToolError
-        The cutters of the job cannot make the part.
-    DesignError
-        The holding or the stock is in the way.
+    Raises ToolError where the cutters of the job cannot make the part, DesignError where the holding or the
+    stock is in the way.
     """
     return _Planner(job, assignments or Assignments()).program()
 
@@ -66,9 +60,8 @@ class _Planner:
                     f"cam.hold.method: part {job.part.name} has no opening to clamp through before its "
                     'outside is cut; use method = "tabs"'
                 )
-            sections[-1] = _with_operation(
-                sections[-1], Operation("clamp", (Pause(clamp_message(self.job)),))
-            )
+            stop = Operation("clamp", (Pause(clamp_message(job)),))
+            sections[-1] = replace(sections[-1], operations=(*sections[-1].operations, stop))
             sections += self._sections(outer)
         else:
             sections = self._sections(inner | outer)
@@ -169,19 +162,7 @@ def _lowest(moves: tuple[Move, ...]) -> float:
     return min((z for z in heights if z is not None), default=math.inf)
 
 
-def _with_operation(section: ToolSection, operation: Operation) -> ToolSection:
-    return ToolSection(section.tool, section.spindle, section.coolant, (*section.operations, operation))
-
-
 def _merged(sections: list[ToolSection]) -> tuple[ToolSection, ...]:
     """Neighbours with one tool become one section."""
-    merged: list[ToolSection] = []
-    for section in sections:
-        if merged and merged[-1].tool == section.tool:
-            last = merged[-1]
-            merged[-1] = ToolSection(
-                last.tool, last.spindle, last.coolant, last.operations + section.operations
-            )
-        else:
-            merged.append(section)
-    return tuple(merged)
+    runs = (list(run) for _, run in groupby(sections, key=lambda section: section.tool))
+    return tuple(replace(run[0], operations=sum((one.operations for one in run), ())) for run in runs)

@@ -1,6 +1,6 @@
 """From a design to jobs: its plates, nested where that is wanted, with cutters, stock and holding."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import shapely
 
@@ -8,8 +8,8 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, err
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
+from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
-from mechwright_cam.planning.cut import cut_outlines
 from mechwright_cam.planning.nesting import arranged
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.setup.job import Job
@@ -30,10 +30,7 @@ def cut_plates(
 ) -> list[Part]:
     """The plates among the parts as they are cut: nested where that is wanted.
 
-    Raises
-    ------
-    DesignError
-        A nest is not possible, or a table ``[cam.part.NAME]`` names no plate and no nest.
+    Raises DesignError where a nest is not possible, or ``[cam.part.NAME]`` names no plate and no nest.
     """
     cut = arranged(design, plates(parts), library, assignments)
     known = sorted({part.name for part in (*plates(parts), *cut)})
@@ -66,15 +63,8 @@ def prepare(
 ) -> tuple[list[Finding], list[Job]]:
     """Choose cutters and lay the plates among the parts into their stock.
 
-    ``assignments`` keeps who cuts what.
-
-    Returns
-    -------
-    findings
-        What the cutters cannot do, and what the family says of the parts as they leave them.
-    jobs
-        One for each part, and one more where the underside is milled as well; fewer if a finding is an
-        error.
+    Gives what the cutters cannot do, with what the family says of the parts as they leave them, and a job for
+    each part, with one more where the underside is milled as well; fewer if a finding is an error.
     """
     assignments = assignments or Assignments()
     library = library_of(design)
@@ -83,10 +73,9 @@ def prepare(
     jobs: list[Job] = []
     for part in cut:
         cam = settings_of(design).of(part.name)
-        laid, found = lay_out_setups(
-            part, cam, library.cutting(cam.cutting).measured(cam.measured.lengths), assignments
-        )
-        found = [*found, *(finding for job in laid for finding in check_machine(job))]
+        own = library.cutting(cam.cutting).measured(cam.measured.lengths)
+        laid, found = lay_out_setups(part, cam, own, assignments)
+        found += [finding for job in laid for finding in check_machine(job)]
         findings += dict.fromkeys(found)  # two features may have the same to say
         if not errors(found):
             jobs += laid
@@ -114,30 +103,40 @@ def _as_cut(design: Design, tops: Sequence[Job], assignments: Assignments) -> li
     return findings
 
 
-def _unused_data(design: Design, jobs: Sequence[Job]) -> list[Finding]:
+def _unused_data(design: Design, jobs: Sequence[Job]) -> Iterator[Finding]:
     """Cutting data in the design for tools that no job has."""
     settings = settings_of(design)
     named = dict.fromkeys(name for cam in (settings.cam, *settings.parts.values()) for name in cam.cutting)
     used = {tool.name for job in jobs for tool in job.tools}
-    return [
-        Finding(
-            "cam.cutting-unused",
-            Severity.NOTE,
-            f"cam.cutting.{name}",
-            f"{name} is not used here, so its cutting data change nothing",
-        )
-        for name in named
-        if name not in used
-    ]
+    for name in named:
+        if name not in used:
+            message = f"{name} is not used here, so its cutting data change nothing"
+            yield Finding("cam.cutting-unused", Severity.NOTE, f"cam.cutting.{name}", message)
+
+
+def cut_outlines(job: Job, assignments: Assignments | None = None) -> tuple[shapely.Polygon, ...]:
+    """The target as the chosen cutters leave it: corners that none of them reaches stay filled.
+
+    There is one for the part, or one for each part of a nest, work coordinates. Each wall is judged with the
+    cutter that finishes it, as its task says.
+    """
+    tasks = (assignments or Assignments()).of(job).every()
+    edges = [(task, task.operation.edge(task, job)) for task in tasks]
+    walls = [edge for task, edge in edges if task.is_outside and edge is not None]
+    holes = [edge for task, edge in edges if not task.is_outside and edge is not None]
+    opened, cut = shapely.union_all(holes), []
+    for plate in polygons(job.target):
+        own = [wall for wall in walls if shapely.intersects(wall, plate)]
+        outside = own[0] if own else shapely.Polygon(plate.exterior)
+        left = polygons(outside.difference(opened) if holes else outside)
+        cut.append(max(left, key=lambda part: float(part.area)))
+    return tuple(cut)
 
 
 def parts_as_cut(job: Job, assignments: Assignments | None = None) -> list[tuple[str, shapely.Polygon]]:
     """Name of each part of a job, and what the cutters leave of it, in its own coordinates."""
-    cut = [_in_part_coordinates(outline, job) for outline in cut_outlines(job, assignments)]
+    outlines = cut_outlines(job, assignments)
+    cut = [shapely.transform(outline, lambda points: points + job.origin) for outline in outlines]
     if isinstance(job.part, Nest):
         return [(one.part.name, one.back(left)) for one, left in zip(job.part.placed, cut, strict=True)]
     return [(job.part.name, cut[0])]
-
-
-def _in_part_coordinates(polygon: shapely.Polygon, job: Job) -> shapely.Polygon:
-    return shapely.transform(polygon, lambda points: points + job.origin)

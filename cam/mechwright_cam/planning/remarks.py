@@ -1,7 +1,7 @@
 """What stands in the way of cutting a part with its cutters, and what is worth knowing about them."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from mechwright.contracts.finding import Finding, Severity
@@ -13,28 +13,20 @@ from mechwright_cam.operations.bending import MOST, deflection
 from mechwright_cam.operations.choice import long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
-from mechwright_cam.operations.rates import Rates, rates, runs_too_fast
+from mechwright_cam.operations.rates import rates, runs_too_fast
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import check_clamp, make_job
-from mechwright_cam.setup.nest import Nest
+from mechwright_cam.setup.limits import check_travel
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import MILLS, CuttingData, Tool, ToolKind
+from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 SLENDER = 5.0
 """Beyond this many diameters of depth a mill bends noticeably: makers list such cutters as long-reach."""
-
-
-def check_tools(part: Part, settings: CamSettings, library: Library) -> list[Finding]:
-    """Find what stands in the way of cutting a part, and what is worth knowing about its cutters.
-
-    Errors: a tool that is not in the library, a wall, bore or opening that no listed cutter makes, a clamp or
-    stock in the way. Warnings: a cutter that this machine runs too fast or feeds too slowly, a listed tool
-    without data for the material. Notes: slender cutters, and stock that stays in corners.
-    """
-    return lay_out(part, settings, library)[1]
+RUBS = 0.5
+"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
 
 
 def lay_out(
@@ -44,11 +36,13 @@ def lay_out(
     below: Sequence[Feature] = (),
     assignments: Assignments | None = None,
 ) -> tuple[Job | None, list[Finding]]:
-    """Choose the cutters of a part and lay it into its stock, with all that :func:`check_tools` finds.
+    """Choose the cutters of a part and lay it into its stock; the job is None where that cannot be done.
 
     Tabs stay clear of the features that are cut from ``below`` later. Who cuts what stays in ``assignments``.
 
-    The job is None if the cutters cannot be chosen or the part does not fit its stock.
+    Errors: a tool that is not in the library, a wall, bore or opening that no listed cutter makes, a clamp or
+    stock in the way. Warnings: a cutter that this machine runs too fast or feeds too slowly, a listed tool
+    without data for the material. Notes: slender cutters, and stock that stays in corners.
     """
     assignments = assignments or Assignments()
     try:
@@ -56,25 +50,25 @@ def lay_out(
         job = make_job(part, settings, tools, below)
         assigned = assignments.of(job)
     except MechwrightError as error:
-        return None, [_refusal(error)]
+        return None, [refusal(error)]
     refused = list(assigned.refused)
     try:
         check_clamp(job)
     except DesignError as error:
         refused.append(error)
-    found = [_refusal(error) for error in refused]
+    found = [refusal(error) for error in refused]
     if not found:
         for task in assigned.tasks:
             found += task.operation.remarks(task, job)
         idle = _idle(job, assigned.tasks)
         if settings.tools:
-            found += [_unused(job, mill) for mill in idle]
+            found += [_idling(job, mill) for mill in idle]
         elif idle:
             # Of the chosen cutters a wider one has turned out to be as good.
             used = tuple(tool for tool in job.tools if tool not in idle)
             job = assignments.carry(job, replace(job, tools=used))
     depths = {} if refused else _depths(assigned.tasks)
-    return job, found + _travel(job) + _remarks(job, depths)
+    return job, [*found, *check_travel(job), *_remarks(job, depths)]
 
 
 def _idle(job: Job, tasks: Sequence[Task]) -> list[Tool]:
@@ -92,178 +86,91 @@ def _depths(tasks: Sequence[Task]) -> dict[str, float]:
     return deep
 
 
-def _unused(job: Job, mill: Tool) -> Finding:
-    return Finding(
-        "cam.tool-unused",
-        Severity.WARNING,
-        "cam.tools",
-        f"{mill.name} has nothing to do in {job.part.name}: {_why_idle(job, mill)}",
-        remedy="take it out of cam.tools",
-    )
-
-
-def _why_idle(job: Job, mill: Tool) -> str:
-    if mill.nose == mill.radius:
-        return f"no floor has a fillet of {mill.nose:g} mm, and flat floors are for the others"
-    if not long_enough(mill, job.thickness):
-        return f"its flutes are too short for what others cut, {mill.flute_length:g} mm"
-    return "the others reach as far"
-
-
-def _travel(job: Job) -> list[Finding]:
-    """Whether the machine is large enough: the least that the finest end mill travels around the part."""
-    machine = job.settings.machine
-    if not job.mills:
-        return []
-    x0, y0, x1, y1 = job.target.bounds
-    around = job.mills[-1].diameter
-    axes = (("x", x1 - x0 + around, machine.travel_x), ("y", y1 - y0 + around, machine.travel_y))
-    return [
-        Finding(
-            "cam.travel",
-            Severity.ERROR,
-            f"cam.machine.travel_{axis}",
-            f"part {job.part.name} asks for {wanted:.1f} mm of travel in {axis.upper()}",
-            wanted,
-            travel,
-            "mm",
-            "take a larger machine" + (", or nest fewer parts" if isinstance(job.part, Nest) else ""),
-        )
-        for axis, wanted, travel in axes
-        if wanted > travel
-    ]
-
-
-def _refusal(error: MechwrightError) -> Finding:
+def refusal(error: MechwrightError, code: str = "cam.cannot-cut") -> Finding:
     """An error that names its parameter in front, as a finding."""
     text = str(error)
     parameter, _, message = text.partition(": ")
     if not parameter.startswith("cam") or " " in parameter:
         parameter, message = "cam.tools" if isinstance(error, ToolError) else "cam", text
-    return Finding("cam.cannot-cut", Severity.ERROR, parameter, message)
+    return Finding.error(code, parameter, message)
 
 
-def _spotted(job: Job, spot: Tool) -> float:
-    """Diameter of the widest spot that a spot drill makes, mm."""
-    drills = [tool.diameter for tool in job.tools if tool.kind is ToolKind.DRILL]
-    return min(SPOT * max(drills), spot.diameter) if drills else spot.diameter
+def _idling(job: Job, mill: Tool) -> Finding:
+    if mill.nose == mill.radius:
+        why = f"no floor has a fillet of {mill.nose:g} mm, and flat floors are for the others"
+    elif not long_enough(mill, job.thickness):
+        why = f"its flutes are too short for what others cut, {mill.flute_length:g} mm"
+    else:
+        why = "the others reach as far"
+    return _unused(f"{mill.name} has nothing to do in {job.part.name}: {why}", "take it out of cam.tools")
 
 
-def _remarks(job: Job, depths: Mapping[str, float]) -> list[Finding]:
+def _unused(message: str, remedy: str) -> Finding:
+    return Finding.warning("cam.tool-unused", "cam.tools", message, remedy=remedy)
+
+
+def _remarks(job: Job, depths: Mapping[str, float]) -> Iterator[Finding]:
     """What is worth knowing of the cutters; one whose depth is not known is taken to cut through."""
-    found = []
-    machine, material = job.settings.machine, job.part.material
+    material = job.part.material
     for tool in job.tools:
-        data = tool.cutting.get(material)
-        if data is None:
-            found.append(
-                Finding(
-                    "cam.tool-unused",
-                    Severity.WARNING,
-                    "cam.tools",
-                    f"{tool.name} has no cutting data for {material} and is not used",
-                    remedy=f"add {material} to its table in the tool library",
-                )
-            )
+        if material not in tool.cutting:
+            remedy = f"add {material} to its table in the tool library"
+            yield _unused(f"{tool.name} has no cutting data for {material} and is not used", remedy)
             continue
-        planned = rates(tool, material, machine)
-        width = _spotted(job, tool) if tool.kind is ToolKind.SPOT_DRILL else tool.diameter
-        if runs_too_fast(tool, material, machine, width):
-            found.append(
-                Finding(
-                    "cam.too-fast",
-                    Severity.WARNING,
-                    "cam.machine.spindle_min",
-                    f"{tool.name} runs faster than {data.cutting_speed:g} m/min in {material}",
-                    machine.spindle_min,
-                    1000 * data.cutting_speed / (math.pi * width),
-                    "rpm",
-                    "take a smaller tool",
-                )
-            )
-        found += _rubbing(tool, data, planned)
-        deep = depths.get(tool.name, tool.nose - job.floor)
-        if tool.kind in MILLS and deep > SLENDER * tool.diameter:
-            found.append(
-                Finding(
-                    "cam.slender",
-                    Severity.NOTE,
-                    "cam.tools",
-                    f"{tool.name} cuts {deep:g} mm deep, {deep / tool.diameter:.1f} diameters",
-                    deep / tool.diameter,
-                    SLENDER,
-                    "",
-                )
-            )
-            found += _bending(job, tool, deep)
-        found += _figures(tool, material)
-    return found
+        yield from _speeds(job, tool)
+        if tool.kind in MILLS:
+            yield from _bending(job, tool, depths.get(tool.name, tool.nose - job.floor))
+            yield from _figures(tool, material)
 
 
-RUBS = 0.5
-"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
-
-
-def _rubbing(tool: Tool, data: CuttingData, planned: Rates) -> list[Finding]:
-    """Whether the machine feeds so slowly that the teeth take next to nothing."""
-    if planned.chip >= RUBS * data.chip_load:
-        return []
-    return [
-        Finding(
-            "cam.rubbing",
-            Severity.WARNING,
-            "cam.machine.max_feed",
+def _speeds(job: Job, tool: Tool) -> Iterator[Finding]:
+    """Whether the machine turns a tool too fast, or feeds so slowly that its teeth take next to nothing."""
+    machine, material, width = job.settings.machine, job.part.material, tool.diameter
+    data, planned = tool.cutting[material], rates(tool, material, machine)
+    if tool.kind is ToolKind.SPOT_DRILL:  # it goes no deeper than the widest of the drills asks for
+        drills = [other.diameter for other in job.tools if other.kind is ToolKind.DRILL]
+        width = min(SPOT * max(drills), width) if drills else width
+    if runs_too_fast(tool, material, machine, width):
+        message = f"{tool.name} runs faster than {data.cutting_speed:g} m/min in {material}"
+        slowest, wanted = machine.spindle_min, 1000 * data.cutting_speed / (math.pi * width)
+        where, remedy = "cam.machine.spindle_min", "take a smaller tool"
+        yield Finding.warning("cam.too-fast", where, message, slowest, wanted, "rpm", remedy)
+    least = RUBS * data.chip_load
+    if planned.chip < least:
+        message = (
             f"{tool.name} gets {planned.chip:.3f} mm per tooth at {planned.spindle:.0f} rev/min, not the "
-            f"{data.chip_load:g} mm of its chip load, and rubs",
-            planned.chip,
-            RUBS * data.chip_load,
-            "mm",
-            "take a smaller cutter or one with fewer flutes, or a slower spindle if the machine has one",
+            f"{data.chip_load:g} mm of its chip load, and rubs"
         )
-    ]
+        remedy = "take a smaller cutter or one with fewer flutes, or a slower spindle if the machine has one"
+        where = "cam.machine.max_feed"
+        yield Finding.warning("cam.rubbing", where, message, planned.chip, least, "mm", remedy)
 
 
-def _bending(job: Job, tool: Tool, deep: float) -> list[Finding]:
-    """Whether a slender mill bends too much in its deepest cut."""
+def _bending(job: Job, tool: Tool, deep: float) -> Iterator[Finding]:
+    """Whether a mill is slender, and then bends too much in its deepest cut."""
+    slender = deep / tool.diameter
+    if deep <= SLENDER * tool.diameter:
+        return
+    message = f"{tool.name} cuts {deep:g} mm deep, {slender:.1f} diameters"
+    yield Finding("cam.slender", Severity.NOTE, "cam.tools", message, slender, SLENDER)
     bent = deflection(tool, job.part.material, deep)
-    if bent <= MOST:
-        return []
-    return [
-        Finding(
-            "cam.deflection",
-            Severity.WARNING,
-            "cam.tools",
-            f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}",
-            bent,
-            MOST,
-            "mm",
-            "take less step_down in the tool library, or a thicker cutter",
-        )
-    ]
+    if bent > MOST:
+        message = f"{tool.name} bends {bent:.3f} mm in its roughing cut, {deep:g} mm deep in {job.part.name}"
+        remedy = "take less step_down in the tool library, or a thicker cutter"
+        yield Finding.warning("cam.deflection", "cam.tools", message, bent, MOST, "mm", remedy)
 
 
-def _figures(tool: Tool, workpiece: str) -> list[Finding]:
+def _figures(tool: Tool, workpiece: str) -> Iterator[Finding]:
     """Whether an end mill's cutting data are of the usual size: a slip of the decimal point is not."""
-    if tool.kind not in MILLS:
-        return []
     data, usual = tool.cutting[workpiece], material_of(workpiece)
     share = HSS_SPEED if tool.substrate == "hss" else 1.0
-    found = []
     for what, value, (low, high), unit in (
         ("cutting_speed", data.cutting_speed, (usual.speed[0] * share, usual.speed[1] * share), "m/min"),
         ("chip_load", data.chip_load, tuple(tool.diameter * s for s in usual.chip_share), "mm"),
     ):
         if not low <= value <= high:
-            found.append(
-                Finding(
-                    "cam.cutting-data",
-                    Severity.WARNING,
-                    "cam.tool_library",
-                    f"{what} of {tool.name} in {workpiece}: {value:g} {unit}, usual {low:.3g} to {high:.3g}",
-                    value,
-                    high if value > high else low,
-                    unit,
-                    "look at what the cutter's maker says, and correct the tool library",
-                )
-            )
-    return found
+            limit = high if value > high else low
+            where = f"{what} of {tool.name} in {workpiece}"
+            message = f"{where}: {value:g} {unit}, usual {low:.3g} to {high:.3g}"
+            remedy = "look at what the cutter's maker says, and correct the tool library"
+            yield Finding.warning("cam.cutting-data", "cam.tool_library", message, value, limit, unit, remedy)

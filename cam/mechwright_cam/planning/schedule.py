@@ -10,21 +10,14 @@ from mechwright_cam.shop.tool import Tool
 
 @dataclass(frozen=True)
 class Step:
-    """An operation that waits for others.
-
-    Parameters
-    ----------
-    name, moves, tool, spindle
-        The operation.
-    after
-        Indices of the steps that come before it.
-    """
+    """An operation that waits for others."""
 
     name: str
     tool: Tool
     spindle: float
     moves: tuple[Move, ...]
     after: frozenset[int]
+    """Indices of the steps that come before it."""
 
 
 def order(steps: Sequence[Step]) -> list[list[int]]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import shapely
 
 from mechwright.contracts.details import Detail
-from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright_cam.operations.bore import cutters_of
 from mechwright_cam.operations.choice import entry_place, usable_mills
@@ -14,13 +14,12 @@ from mechwright_cam.operations.compensation import has_entries
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.rates import runs_too_fast
-from mechwright_cam.operations.recess import recess
-from mechwright_cam.operations.recess_zone import floor_mill
+from mechwright_cam.operations.recess_zone import first_look, floor_mill
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.assign import Assignments, assign
-from mechwright_cam.setup.depths import bottom_of, through
+from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.limits import height_of
@@ -47,10 +46,7 @@ def choose_tools(
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
     with cutting data for the material count, and cutters that get over the part within the machine's travel.
 
-    Raises
-    ------
-    ToolError
-        A name is not in the library (close matches are listed), or no cutter can make the part.
+    Raises ToolError where a name is not in the library (close matches are listed), or no cutter can make it.
     """
     if settings.tools:
         doubles = {name for name in settings.tools if settings.tools.count(name) > 1}
@@ -97,7 +93,7 @@ def _turn(feature: Feature) -> tuple[float, ...]:
     """Outsides are asked first, and bores last, from the smallest on: its mill may bore the larger too."""
     if isinstance(feature, Bore):
         return (2, feature.diameter, feature.top, feature.depth)
-    return (0,) if isinstance(feature, Profile) and feature.side == "outside" else (1,)
+    return (0,) if is_outside(feature) else (1,)
 
 
 def _wanted(
@@ -179,9 +175,7 @@ def _floor_mills(every: Job) -> list[Tool]:
     found = []
     for feature in every.features:
         if isinstance(feature, Pocket) and feature.floor_radius > 0:
-            bottom = bottom_of(every, feature.top, feature.depth)
-            mills = usable_mills(every, -bottom, feature.floor_radius)
-            shapes = recess(every, feature, mills)
+            mills, shapes = first_look(every, feature)
             if not shapely.is_empty(shapes.must):
                 found.append(floor_mill(every, feature, mills, shapes)[0])
     return found
@@ -208,10 +202,5 @@ def _drills(every: Job) -> list[Tool]:
     for width, drill in sorted(wanted, key=lambda hole: hole[1].diameter):
         if not any(OPENS * width <= other.diameter for other in drills.values()):
             drills[drill.name] = drill
-    spots = [
-        tool
-        for tool in every.tools
-        if tool.kind is ToolKind.SPOT_DRILL and every.part.material in tool.cutting
-    ]
-    first = [max(spots, key=lambda tool: tool.diameter)] if spots and drills else []
-    return first + sorted(drills.values(), key=lambda tool: -tool.diameter)
+    spots = every.tools_of(ToolKind.SPOT_DRILL) if drills else []
+    return spots[:1] + sorted(drills.values(), key=lambda tool: -tool.diameter)

@@ -17,14 +17,14 @@ from typing import Literal
 import numpy as np
 import shapely
 
-from mechwright.contracts.finding import Finding, Severity, errors
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.part import Bore, Feature, Part
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright_cam.plane.offsets import ROUGH, filled, grow
 from mechwright_cam.planning.assign import Assignments
-from mechwright_cam.planning.remarks import lay_out
+from mechwright_cam.planning.remarks import lay_out, refusal
 from mechwright_cam.setup.job import LEVEL, Air, Job
 from mechwright_cam.setup.sides import SIGNS, _over, sides
 from mechwright_cam.setup.thin_floors import thin_floors
@@ -33,13 +33,16 @@ from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.holding import Hold, Stock
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.tool import widest_mill
 
 DOWEL_FRAME = 3.0
 """Stock between the channel around the part and a dowel's wall, mm: what holds the tabs."""
 
 UNDERSIDE = "-underside"
 """What a part's name ends in for its second setup."""
+
+SECOND = "cam.second-side"
+"""Code of what is wrong with it."""
 
 WALL = 3.0
 """Stock around a dowel hole, mm: it must not break out under the dowel."""
@@ -56,7 +59,7 @@ def lay_out_setups(
     try:
         upper, under = sides(part)
     except DesignError as error:
-        return [], [_refusal("cam", str(error))]
+        return [], [refusal(error, SECOND)]
     if not under:
         job, found = lay_out(part, settings, library, (), assignments)
         return ([], found) if job is None else ([job], [*found, *thin_floors(part, upper, ())])
@@ -74,14 +77,9 @@ def lay_out_setups(
                 return [], found
         second, more = _second(job, part, under, library, assignments)
     except DesignError as error:
-        parameter, _, message = str(error).partition(": ")
-        return [], [*found, _refusal(parameter, message)]
+        return [], [*found, refusal(error, SECOND)]
     thin = thin_floors(part, upper, under)
     return ([job] if second is None else [job, second]), [*found, *more, *thin]
-
-
-def _refusal(parameter: str, message: str) -> Finding:
-    return Finding("cam.second-side", Severity.ERROR, parameter, message)
 
 
 def _second(
@@ -131,13 +129,8 @@ def _second(
     job, found = lay_out(over, settings, library, (), assignments)
     if job is None or errors(found):
         return None, found
-    located: list[Bore] = []
-    match side.locate:
-        case "bore":
-            located = [max(bores, key=lambda bore: bore.diameter)]
-        case "dowels":
-            located = dowels
-    turned = (turned_point(bore.centre, side.flip) for bore in located)
+    located = {"bore": sorted(bores, key=lambda bore: -bore.diameter)[:1], "dowels": dowels}
+    turned = (turned_point(bore.centre, side.flip) for bore in located.get(side.locate, ()))
     pick_up = tuple((x - job.origin[0], y - job.origin[1]) for x, y in turned)
     return assignments.carry(job, replace(job, side="underside", pick_up=pick_up)), found
 
@@ -167,12 +160,15 @@ def carried(cut: Sequence[tuple[shapely.Geometry, float]], first: Job, second: J
 
 def _with_room(job: Job) -> CamSettings:
     """Settings with stock for dowels on two sides, where the design leaves the stock open."""
-    settings, side = job.settings, job.settings.second_side
+    settings = job.settings
     if settings.stock != Stock():
         return settings
-    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    margin = widest + DOWEL_FRAME + WALL + side.dowel_diameter + WALL
-    return settings.model_copy(update={"stock": Stock(margin=math.ceil(margin))})
+    return settings.model_copy(update={"stock": Stock(margin=math.ceil(_beside(job)))})
+
+
+def _beside(job: Job) -> float:
+    """Least stock beside both ends of the part for a dowel, mm."""
+    return widest_mill(job.tools) + DOWEL_FRAME + WALL + job.settings.second_side.dowel_diameter + WALL
 
 
 def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
@@ -187,8 +183,7 @@ def _dowels(job: Job, settings: CamSettings) -> tuple[Bore, ...]:
         mx = my = wanted.margin or 0.0
     inset = WALL + diameter / 2
     along = (x0 - mx + inset, x1 + mx - inset) if side.flip == "x" else (y0 - my + inset, y1 + my - inset)
-    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    need = widest + DOWEL_FRAME + WALL + diameter + WALL
+    need = _beside(job)
     if (mx if side.flip == "x" else my) < need:
         raise DesignError(
             f"cam.stock: dowels of {diameter:g} mm on the {side.flip.upper()} axis need {need:.1f} mm of "

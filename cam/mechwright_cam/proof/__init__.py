@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from mechwright_cam.proof.carried import cut_away
     from mechwright_cam.proof.judge import prove
     from mechwright_cam.proof.report import Check, OperationTime, Proof, Spot
-    from mechwright_cam.proof.rule import Rule
+    from mechwright_cam.proof.rules import Rule
     from mechwright_cam.proof.scene import Scene
 
 __all__ = ["Check", "OperationTime", "Proof", "Rule", "Scene", "Spot", "cut_away", "prove"]
 
-_HOME = {"cut_away": "carried", "prove": "judge", "Rule": "rule", "Scene": "scene"}
+_HOME = {"cut_away": "carried", "prove": "judge", "Rule": "rules", "Scene": "scene"}
 """Name to module of this folder; the others are those of the report."""
 
 

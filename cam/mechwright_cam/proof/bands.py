@@ -35,22 +35,15 @@ def run_out(diameter: Length) -> Length:
 
 @dataclass(frozen=True)
 class Band:
-    """A layer of the part.
-
-    Parameters
-    ----------
-    top, bottom
-        z in work coordinates, mm.
-    keep
-        The finished part's cross-section, tabs not counted.
-    section
-        Number of the cross-section: bands of one number have the same.
-    """
+    """A layer of the part."""
 
     top: float
     bottom: float
+    """Both z in work coordinates, mm."""
     keep: Shape
+    """The finished part's cross-section, tabs not counted."""
     section: int = 0
+    """Number of the cross-section: bands of one number have the same."""
 
 
 def floor_of(feature: Feature, job: Job) -> Shape:
@@ -106,8 +99,7 @@ def _run_outs(job: Job, frame: Frame, features: tuple[Feature, ...]) -> Shape:
     within = prepared(grow(frame.body, -SKIN))
     drawn = [shape for shape in map(inside_of, features) if not shapely.contains_properly(within, shape)]
     floors = shapely.intersection(shapely.union_all(drawn), frame.body)
-    beyond: Shape = shapely.difference(grow(floors, run_out(widest)), frame.body)
-    return beyond
+    return shapely.difference(grow(floors, run_out(widest)), frame.body)
 
 
 def asked(job: Job) -> Shape | None:
@@ -118,13 +110,9 @@ def asked(job: Job) -> Shape | None:
     if job.frame is None:
         return None
     limit, drawn = TOLERANCES.leftover, shapely.union_all(list(map(inside_of, job.features)))
-    found: Shape = shapely.intersection(grow(drawn, limit), grow(job.frame.body, -limit))
-    return found
+    return shapely.intersection(grow(drawn, limit), grow(job.frame.body, -limit))
 
 
 def stock_shape(job: Job) -> shapely.Polygon:
     """The plate seen from above."""
     return shapely.box(*job.stock)
-
-
-__all__ = ["Band", "asked", "bands", "floor_of", "grow", "inside_of", "run_out", "stock_shape"]

@@ -17,8 +17,8 @@ from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import heights
-from mechwright_cam.proof.gouge import Gouge, deepest_cut
-from mechwright_cam.proof.paths import Paths, Pieces
+from mechwright_cam.proof.gouge import Gouge, deepest_cut, worst_of
+from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
@@ -68,10 +68,6 @@ def _contours(run: Run) -> list[Ints]:
     return [span[1:] for span in spans if span.size > 1]
 
 
-def _all_of(steps: Ints) -> Pieces:
-    return Pieces(steps, np.zeros(steps.size), np.ones(steps.size), np.zeros(steps.size))
-
-
 def _off(planned: Paths, paths: Paths, more: float) -> tuple[float, int]:
     """How far a run is from being beside the planned one at a distance, mm, and the worst step.
 
@@ -88,8 +84,8 @@ def _off(planned: Paths, paths: Paths, more: float) -> tuple[float, int]:
         count = last - first
         owner = np.repeat(np.arange(two.size), count)
         chosen = np.arange(owner.size) - np.repeat(np.cumsum(count) - count, count) + first[owner]
-        ways = shapely.geometrycollections(planned.lines(_all_of(one))[chosen], indices=owner)
-        points, step = paths.points(_all_of(two), SPACED)
+        ways = shapely.geometrycollections(planned.lines(planned.whole(one))[chosen], indices=owner)
+        points, step = paths.points(paths.whole(two), SPACED)
         off = np.abs(shapely.distance(shapely.points(points), ways[step]) - more)
         if off.size and off.max() > worst:
             worst, at = float(off.max()), int(two[step[np.argmax(off)]])
@@ -104,4 +100,4 @@ def _gouge(paths: Paths, job: Job) -> Gouge | None:
     some.steps = paths.steps[on[paths.steps]]
     cuts = [deepest_cut(some, band.keep, band.top) for band in bands(job, heights(job))]
     cuts += [deepest_cut(some, tab.shape, tab.top) for tab in job.tabs]
-    return max((cut for cut in cuts if cut is not None), key=lambda cut: cut.depth, default=None)
+    return worst_of(cuts)

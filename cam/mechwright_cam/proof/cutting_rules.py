@@ -127,17 +127,11 @@ def pecks(scene: Scene) -> Check:
         deep = top - paths.end[steps, 2]
         for index in np.flatnonzero(deep > diameters * tool.diameter + NEAR).tolist():
             step = int(steps[index])
-            found = _in_material(scene, step)
-            if found > diameters * tool.diameter:
+            found = float(top[index] - paths.end[step, 2])
+            if found > diameters * tool.diameter and scene.stock.meets(step):
                 message = (
                     f"T{tool.number} ({tool.name}) drills {found:.1f} mm in one go, "
                     f"{diameters * tool.diameter:.1f} mm at most; use G73 or G83 with a smaller Q"
                 )
                 return scene.bad(step, message, found, diameters * tool.diameter, "mm")
     return Check(True, "no drill goes too deep in one go")
-
-
-def _in_material(scene: Scene, step: int) -> float:
-    """How far a drill goes down in material that is there: what stands at the hole, before it."""
-    start, end = scene.paths.start[step], scene.paths.end[step]
-    return float(min(start[2], 0.0) - end[2]) if scene.stock.meets(step) else 0.0

@@ -44,8 +44,7 @@ class _Cuts:
 
     def asked(self, limit: float) -> Array:
         """Height z of each step, mm, above which it may be ``limit`` deep; the upper end of a steep one."""
-        height: Array = np.maximum(self.paths.low, self.top - limit)
-        return height
+        return np.maximum(self.paths.low, self.top - limit)
 
     @cached_property
     def _repeats(self) -> tuple[Ints, Array]:
@@ -65,26 +64,12 @@ class _Cuts:
         steps, before = self._repeats
         return steps[before <= self.asked(limit)[steps] + limit + NEAR]
 
-    def radius_of(self, number: int) -> float:
-        """Radius of a tool, mm."""
-        return float(self.paths.tools[number].radius)
-
-    @cached_property
-    def _points(self) -> tuple[Array, Ints]:
-        return self.paths.points(self.paths.below(np.inf, steps=self.steps), PIECE_CHORD)
-
     @cached_property
     def pieces(self) -> tuple[Array, Array, Ints]:
         """Start and end of each piece (m, 2), mm, and the step that it belongs to."""
-        points, owner = self._points
+        points, owner = self.paths.points(self.paths.whole(self.steps), PIECE_CHORD)
         same = np.flatnonzero(owner[:-1] == owner[1:])
         return points[same], points[same + 1], self.steps[owner[same]]
-
-    @cached_property
-    def height(self) -> Array:
-        """(m,) height down to which a piece cuts, mm; what a rounded corner leaves is not asked."""
-        step = self.pieces[2]
-        return self.top[step]
 
 
 def depth_of_cut(scene: Scene) -> Check:
@@ -142,23 +127,24 @@ def _suspects(cuts: _Cuts, tool: Tool, limit: float, middle: float) -> tuple[lis
     if not deep.size:
         return [], []
     first, last, before = cuts.pieces
+    height = cuts.top[before]  # down to which they cut; what a rounded corner leaves is not asked
     places, owner = _places(first, last, before, deep, PLACES_APART * tool.diameter)
     covered = np.zeros(len(places), dtype=np.bool_)
     # Most follow the same way of the same cutter, which reaches least: only what is left asks wider ones.
     numbers = paths.run.tool[before]
-    for number in sorted(set(numbers.tolist()), key=lambda n: (n != tool.number, -cuts.radius_of(n))):
-        reach = cuts.radius_of(number) - middle
+    for number in sorted(set(numbers.tolist()), key=lambda n: (n != tool.number, -paths.tools[n].radius)):
+        reach = paths.tools[number].radius - middle
         open_ = np.flatnonzero(~covered)
         if reach <= 0 or not open_.size:
             continue
         lowest = low[deep].max() + limit + NEAR
-        useful = np.flatnonzero((numbers == number) & (cuts.height <= lowest))
+        useful = np.flatnonzero((numbers == number) & (height <= lowest))
         if not useful.size:
             continue
         chords = Chords(first[useful], last[useful])
         index, place = chords.pairs(places[open_], reach)
         step, piece = owner[open_][place], useful[index]
-        good = np.flatnonzero((before[piece] < step) & (cuts.height[piece] <= low[step] + limit + NEAR))
+        good = np.flatnonzero((before[piece] < step) & (height[piece] <= low[step] + limit + NEAR))
         index, place = index[good], place[good]
         close = chords.distances(places[open_], place, index) <= reach
         covered[open_[place[close]]] = True

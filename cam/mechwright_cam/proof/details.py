@@ -46,16 +46,14 @@ def heights(job: Job) -> tuple[float, ...]:
 
 def deepest(paths: Paths, job: Job, bands: list[Band]) -> list[Gouge | None]:
     """The deepest cut into each band: the tools of details may cut those, all others nothing."""
-    if not job.details:
-        return [deepest_cut(paths, band.keep, band.top) for band in bands]
-    special = {OWN[type(detail)] for detail in job.details}
+    others, special = _by_tool(paths, job)
     found = []
     for band in bands:
-        found.append(deepest_cut(paths.of_kinds(set(ToolKind) - special), band.keep, band.top))
-        for kind in sorted(special):
-            given = [_given(d) for d in job.details if OWN[type(d)] is kind and _reaches(d, band)]
+        found.append(deepest_cut(others, band.keep, band.top))
+        for own, details in special:
+            given = [_given(detail) for detail in details if band.top > -_depth(detail) + NEAR]
             keep = shapely.difference(band.keep, shapely.union_all(given)) if given else band.keep
-            found.append(deepest_cut(paths.of_kinds({kind}), keep, band.top))
+            found.append(deepest_cut(own, keep, band.top))
     return found
 
 
@@ -64,23 +62,24 @@ def deepest_in_fillet(paths: Paths, job: Job, fillet: Fillet) -> list[Gouge | No
 
     A chamfer goes on over the mouth of a recess, and takes the upper end of the fillet there.
     """
-    special = {OWN[type(detail)] for detail in job.details}
-    if not special:
-        return [fillet.deepest(paths)]
-    found = [fillet.deepest(paths.of_kinds(set(ToolKind) - special))]
-    for kind in sorted(special):
-        own = paths.of_kinds({kind})
-        if own.steps.size == 0:
-            continue
-        for z in fillet.heights_in(FINE):
-            given = [_given(d, -z) for d in job.details if OWN[type(d)] is kind and _depth(d) > NEAR - z]
-            keep = fillet.solid(z)
-            found.append(deepest_cut(own, shapely.difference(keep, shapely.union_all(given)), z))
+    others, special = _by_tool(paths, job)
+    found = [fillet.deepest(others)]
+    for own, details in special:
+        for z in fillet.heights_in(FINE) if own.steps.size else ():
+            given = [_given(detail, -z) for detail in details if _depth(detail) > NEAR - z]
+            found.append(deepest_cut(own, shapely.difference(fillet.solid(z), shapely.union_all(given)), z))
     return found
 
 
-def _reaches(detail: Detail, band: Band) -> bool:
-    return band.top > -_depth(detail) + NEAR
+def _by_tool(paths: Paths, job: Job) -> tuple[Paths, list[tuple[Paths, list[Detail]]]]:
+    """The moves of tools that may cut no detail; those of each other kind, with the details for it."""
+    if not job.details:
+        return paths, []
+    own: dict[ToolKind, list[Detail]] = {}
+    for detail in job.details:
+        own.setdefault(OWN[type(detail)], []).append(detail)
+    others = paths.of_kinds(set(ToolKind) - own.keys())
+    return others, [(paths.of_kinds({kind}), own[kind]) for kind in sorted(own)]
 
 
 def _depth(detail: Detail) -> float:

@@ -30,24 +30,16 @@ radius from a straight wall, and a cutter that has made both ends has made that 
 
 @dataclass(frozen=True)
 class Fillet:
-    """The fillet of one recess.
-
-    Parameters
-    ----------
-    feature
-        The recess, work coordinates.
-    floor
-        Its z, mm.
-    walls
-        Lines at which a wall stands on the floor.
-    inside
-        Plan view of the floor.
-    """
+    """The fillet of one recess."""
 
     feature: Pocket
+    """The recess, work coordinates."""
     floor: float
+    """Its z, mm."""
     walls: shapely.Geometry
+    """Lines at which a wall stands on the floor."""
     inside: Shape
+    """Plan view of the floor."""
 
     @property
     def radius(self) -> float:
@@ -69,20 +61,17 @@ class Fillet:
         if not self.floor - NEAR <= z < self.floor + self.radius:
             return shapely.Polygon()
         strip = shapely.intersection(self.inside, grow(self.walls, self.feature.inset(z - self.floor)))
-        whole: Shape = shapely.union_all(polygons(strip))  # without the edges at which the two only touch
-        return whole
+        return shapely.union_all(polygons(strip))  # without the edges at which the two only touch
 
     @cached_property
     def foot(self) -> Shape:
         """Plan view of the fillet."""
-        strip: Shape = shapely.intersection(self.inside, grow(self.walls, self.radius))
-        return strip
+        return shapely.intersection(self.inside, grow(self.walls, self.radius))
 
     def rise(self, away: Array) -> Array:
         """Height of the fillet above the floor at distances (n,) from the wall, mm."""
         short = np.maximum(self.radius - away, 0.0)
-        out: Array = self.radius - np.sqrt(self.radius**2 - short**2)
-        return out
+        return self.radius - np.sqrt(self.radius**2 - short**2)
 
     def deepest(self, paths: Paths) -> Gouge | None:
         """The deepest cut into the fillet."""

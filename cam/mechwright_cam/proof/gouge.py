@@ -3,9 +3,12 @@
 A cutter whose tip is at z is nowhere thinner above than below. Within a band of constant cross-section the
 depth of a cut is therefore its radius at the band's top less the plan-view distance from the path below it to
 the cross-section; there is no height map and no grid. Into a floor the depth is how far the cutter's end
-goes below it at that distance, so the smaller of the two counts.
+goes below it at that distance, so the smaller of the two counts. The upper side of a ramped tab is no level:
+along the moves near it the cutter is asked, place by place, how far the highest of the tab that its disc
+covers stands above its tip.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +19,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
+from mechwright_cam.setup.holding import Tab
 
 DEAR = 6
 """To grow a shape by one corner takes about a sixth of the time of one question about nearness."""
@@ -30,6 +34,11 @@ class Gouge:
     depth: float
     step: int
     at: tuple[float, float, float]
+
+
+def worst_of(cuts: Iterable[Gouge | None]) -> Gouge | None:
+    """The deepest of some cuts; None if there is none."""
+    return max((cut for cut in cuts if cut is not None), key=lambda cut: cut.depth, default=None)
 
 
 def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
@@ -106,8 +115,7 @@ def _first_of_each(rows: Ints) -> Ints:
     _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
     if (rows[index][kind] != rows).any():  # different rows with one key
         _, index = np.unique(rows, axis=0, return_index=True)
-    first: Ints = index
-    return first
+    return index
 
 
 def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
@@ -119,3 +127,28 @@ def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:
     out = np.zeros(len(pieces))
     np.maximum.at(out, owner, deep)
     return out
+
+
+RAMP_SPACING = 0.005
+"""Distance of the places, mm: between two of them a slope of 45 degrees rises by no more than the gouge
+limit."""
+RAMP_MARGIN = 0.1
+"""A move is looked at if its cutter comes so near to a tab, mm: more than the chords of arcs are off."""
+
+
+def deepest_in_tab(paths: Paths, tab: Tab) -> Gouge | None:
+    """The deepest cut of any move into a ramped tab; None if nothing touches it."""
+    pieces = paths.below(tab.top - NEAR)
+    radius = paths.radius[pieces.step]
+    near = shapely.dwithin(tab.shape, paths.lines(pieces), radius + RAMP_MARGIN)
+    worst: Gouge | None = None
+    for step in np.unique(pieces.step[near]).tolist():
+        points, z, _ = paths.samples(np.array([step]), RAMP_SPACING)
+        depth = tab.least_z(points, float(paths.radius[step])) - z
+        # The tab's strips end where its shape does: beyond, and in openings, there is nothing to cut.
+        depth[~shapely.dwithin(tab.shape, shapely.points(points), float(paths.radius[step]))] = -np.inf
+        deep = int(np.argmax(depth))
+        if depth[deep] > (worst.depth if worst else 0.0):
+            x, y = points[deep].tolist()
+            worst = Gouge(float(depth[deep]), int(step), (x, y, float(z[deep])))
+    return worst

@@ -12,10 +12,8 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.beyond import SPOTS
 from mechwright_cam.proof.holding import loose
-from mechwright_cam.proof.leftover import Remains
 from mechwright_cam.proof.report import Proof, Spot
-from mechwright_cam.proof.rule import Rule, ask
-from mechwright_cam.proof.rules import BUILT_IN
+from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import operations, step_times
 from mechwright_cam.setup.job import Job
@@ -69,27 +67,22 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     run, _, _ = scene.run, scene.stock, scene.sweeps
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine, scene.control.lookahead), scene.remains
+    area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
+    notes = loose(scene.sweeps, scene.job)
+    if left.beyond:
+        where = f"in {len(left.beyond)} place(s), up to {deepest:.3f} mm, {area:.3f} mm² in all"
+        notes.insert(0, f"stock that no cutter of the program reaches: {where}")
     return Proof(
         part=scene.job.part.name,
         checks={check.name: check for check in checks},
         gouge_max_mm=max((cut.depth for cut in (scene.gouge, scene.in_tab) if cut), default=0.0),
         leftover_reachable_max_mm=left.reachable,
-        unreachable_area_mm2=sum(spot[4] for spot in left.beyond),
-        unreachable_max_mm=max((spot[3] for spot in left.beyond), default=0.0),
+        unreachable_area_mm2=area,
+        unreachable_max_mm=deepest,
         unreachable=tuple(Spot(*spot) for spot in left.beyond[:SPOTS]),
         rapids_in_stock=len(scene.stock.rapids),
         time_estimate_s=float(seconds.sum()),
         cutting_length_mm=float(np.nansum(run.length[run.cutting])),
         operations=operations(run, seconds),
-        notes=(*_notes(left), *loose(scene.sweeps, scene.job)),
-    )
-
-
-def _notes(left: Remains) -> tuple[str, ...]:
-    if not left.beyond:
-        return ()
-    deepest = left.beyond[0]
-    return (
-        f"stock that no cutter of the program reaches: in {len(left.beyond)} place(s), "
-        f"up to {deepest[3]:.3f} mm, {sum(spot[4] for spot in left.beyond):.3f} mm² in all",
+        notes=tuple(notes),
     )

@@ -9,9 +9,11 @@ less that cutter's radius. Where it is nothing a disc touches the wall, and the 
 wall is clear; so walls need no areas. Floors do, and get them.
 
 What is between the part and its closing no cutter of the program can remove: it is measured and located.
-A bore has no such corners: it is cut to its wall (``bores``), or the program is not that of the part.
+A bore has no such corners: it is cut to its wall, whichever the cutters are, or the program is not that of
+the part.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,13 +21,12 @@ import shapely
 
 from mechwright.contracts.part import Bore
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.proof.bands import Band, floor_of, stock_shape
+from mechwright_cam.proof.bands import Band, bands, floor_of, stock_shape
 from mechwright_cam.proof.beyond import Foot, beyond_reach
-from mechwright_cam.proof.bores import uncut_bores
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Boundary, Shape, grow, swept
 from mechwright_cam.proof.sweep import Sweep, Sweeps
-from mechwright_cam.proof.wall_stock import on_walls
+from mechwright_cam.proof.wall import on_walls
 from mechwright_cam.proof.wanted import COARSE, Wanted, recesses
 from mechwright_cam.setup.job import Job
 
@@ -77,8 +78,7 @@ def _both(one: Shape | None, two: Shape | None) -> Shape | None:
     """Where two regions are both; None is everywhere."""
     if one is None or two is None:
         return two if one is None else one
-    both: Shape = shapely.intersection(one, two)
-    return both
+    return shapely.intersection(one, two)
 
 
 def _on_floors(
@@ -105,3 +105,36 @@ def _on_floors(
     distance = Boundary(reached).distance(shapely.points(corners))
     worst = int(np.argmax(distance))
     return float(distance[worst]), (float(corners[worst, 0]), float(corners[worst, 1]))
+
+
+AROUND = 64
+"""So many places on the wall of a bore are looked at: it is a circle, and so is the path that makes it."""
+
+
+def uncut_bores(sweeps: Sweeps, job: Job) -> tuple[float, tuple[float, float, float] | None, Bore | None]:
+    """Thickest stock on a bore's wall, mm, its place and the bore; the diameter where nothing has cut."""
+    worst, at, uncut = 0.0, None, None
+    bores = [feature for feature in job.features if isinstance(feature, Bore)]
+    turn = np.linspace(0.0, math.tau, AROUND, endpoint=False)
+    ray = np.column_stack((np.cos(turn), np.sin(turn)))
+    for band in bands(job) if bores else ():
+        here = [
+            bore
+            for bore in bores
+            if -bore.top >= band.top - NEAR and -(bore.top + bore.depth) <= band.bottom + NEAR
+        ]
+        if not here:
+            continue
+        wall = np.concatenate([bore.centre + bore.diameter / 2 * ray for bore in here])
+        most = np.repeat([bore.diameter for bore in here], AROUND)
+        places = shapely.points(wall)
+        # Where it opens into something else, or beyond the stock, there is no wall.
+        walled = shapely.dwithin(band.keep, places, TOLERANCES.leftover)
+        thick = np.where(walled, most, 0.0)
+        for group in sweeps.foot(band.bottom, job.thickness)[1]:
+            thick = np.minimum(thick, group.chords.distance(wall) - group.radius)
+        best = int(np.argmax(thick))
+        if thick[best] > worst:
+            worst, at = float(thick[best]), (float(wall[best, 0]), float(wall[best, 1]), band.bottom)
+            uncut = here[best // AROUND]
+    return worst, at, uncut

@@ -2,9 +2,11 @@
 
 import math
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.run import Ints
@@ -21,6 +23,12 @@ class Chords:
     def __init__(self, first: Array, last: Array) -> None:
         self.first, self.last = first, last
 
+    @classmethod
+    def along(cls, points: Array, owner: Ints) -> "Chords":
+        """Those between points (k, 2) that follow on each other and belong to one thing (k,)."""
+        same = owner[:-1] == owner[1:]
+        return cls(points[:-1][same], points[1:][same])
+
     @cached_property
     def tree(self) -> shapely.STRtree:
         """For questions without a hint; a line without length is a point there, as GEOS wants it."""
@@ -31,10 +39,14 @@ class Chords:
 
     def distance(self, places: Array) -> Array:
         """Distance (k,) from each place (k, 2) to the nearest line, mm; inf if there is no line."""
-        out = np.full(len(places), np.inf)
-        if len(self.first) and len(places):
+        return self.nearest(shapely.points(places))
+
+    def nearest(self, shapes: NDArray[Any], within: float | None = None) -> Array:
+        """Distance (k,) of each shape to the nearest line, mm; inf where it is beyond ``within``."""
+        out = np.full(len(shapes), np.inf)
+        if len(self.first) and len(shapes):
             (at, _), found = self.tree.query_nearest(
-                shapely.points(places), return_distance=True, all_matches=False
+                shapes, max_distance=within, return_distance=True, all_matches=False
             )
             out[at] = found
         return out
@@ -134,8 +146,7 @@ class _Grid:
     def _filled(self, x0: Ints, y0: Ints, x1: Ints, y1: Ints) -> Ints:
         """Indices of the rectangles of cells that have any place in them."""
         below = self.lower_left
-        filled: Ints = np.flatnonzero(below[y1, x1] - below[y1, x0] - below[y0, x1] + below[y0, x0])
-        return filled
+        return np.flatnonzero(below[y1, x1] - below[y1, x0] - below[y0, x1] + below[y0, x0])
 
 
 def _divided(first: Array, last: Array, longest: float) -> tuple[Ints, Array, Array]:
@@ -154,5 +165,4 @@ def _divided(first: Array, last: Array, longest: float) -> tuple[Ints, Array, Ar
 def _counted(lengths: Ints) -> Ints:
     """0, 1, ... for each of several lengths, one after the other."""
     ends = np.cumsum(lengths)
-    counted: Ints = np.arange(int(ends[-1]) if ends.size else 0) - np.repeat(ends - lengths, lengths)
-    return counted
+    return np.arange(int(ends[-1]) if ends.size else 0) - np.repeat(ends - lengths, lengths)

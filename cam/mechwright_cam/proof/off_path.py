@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
@@ -83,20 +84,38 @@ def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.boo
     own, other = copy(paths), copy(paths)
     own.steps = paths.steps[flat[paths.steps]]
     other.steps = paths.steps[~flat[paths.steps]]
-    found = np.zeros(len(paths.run), dtype=np.bool_)
-    for band in bands(job, heights(job)):
-        pieces = own.below(band.top - limit)
-        reach = own.radius[pieces.step] + off[pieces.step] - limit
-        least, most = own.extent(pieces.step)
-        x0, y0, x1, y1 = band.keep.bounds
-        apart = (least > np.array((x1, y1)) + reach[:, None]) | (most < np.array((x0, y0)) - reach[:, None])
-        near = np.flatnonzero(~apart.any(axis=1))
-        if near.size:
-            pieces, keep = pieces.only(near), prepared(band.keep)
-            within = shapely.dwithin(keep, own.lines(pieces), reach[near])
-            found[pieces.step[within]] = True
+    found = reaching(own, job, off - limit, limit)
     if other.steps.size:
         cut = deepest_off_path(other, job, off)
         if cut is not None and cut.depth > limit:
             found[cut.step] = True
     return found
+
+
+def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.bool_]:
+    """Which steps (n,) come to the finished part with tools whose radius is ``more`` (n,) larger, mm.
+
+    Layers count from ``sunk`` below their top on, mm.
+    """
+    found = np.zeros(len(paths.run), dtype=np.bool_)
+    for band in bands(job, heights(job)):
+        pieces = paths.below(band.top - sunk)
+        reach = paths.radius[pieces.step] + more[pieces.step]
+        least, most = paths.extent(pieces.step)
+        x0, y0, x1, y1 = band.keep.bounds
+        apart = (least > np.array((x1, y1)) + reach[:, None]) | (most < np.array((x0, y0)) - reach[:, None])
+        near = np.flatnonzero(~apart.any(axis=1))
+        if near.size:
+            pieces, keep = pieces.only(near), prepared(band.keep)
+            within = shapely.dwithin(keep, paths.lines(pieces), reach[near])
+            found[pieces.step[within]] = True
+    return found
+
+
+def corridor(paths: Paths, job: Job, off: Array) -> float:
+    """How far the control may be off the path, mm, where tools come to the walls of the finished part.
+
+    ``off`` (n,) is of each step, mm. What leaves stock for another pass does not count.
+    """
+    near = reaching(paths, job, off + TOLERANCES.leftover, TOLERANCES.gouge)
+    return float(off[near].max(initial=0.0))

@@ -2,10 +2,19 @@
 
 import math
 
+import numpy as np
+import shapely
+
+from mechwright.contracts.part import Profile
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
+from mechwright_cam.proof.bands import floor_of, stock_shape
 from mechwright_cam.proof.details import missing
+from mechwright_cam.proof.paths import NEAR, Paths, Pieces
+from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.sweep import ROUNDING
 
 
 def gouge(scene: Scene) -> Check:
@@ -50,3 +59,47 @@ def details(scene: Scene) -> Check:
     """Every chamfer, thread and engraving is there."""
     lacking = missing(scene.paths, scene.job)
     return Check(not lacking, lacking or "chamfers, threads and engravings are cut")
+
+
+AT_ONCE = 64
+"""So many of the deepest moves are asked first whether they cut a feature."""
+AROUND_OUTSIDE = 0.5
+"""The cut around an outside is looked for so near to it, mm: half of the least frame between two channels."""
+ROUGHLY_AROUND = 0.01
+"""Accuracy of that, mm."""
+
+
+def depth(scene: Scene) -> Check:
+    """Every feature is cut down to its floor, somewhere at least; the rest is for the leftover check."""
+    paths, job = scene.paths, scene.job
+    for feature in job.features:
+        floor = -min(feature.top + feature.depth, job.thickness)
+        shape = floor_of(feature, job)
+        if isinstance(feature, Profile) and feature.side == "outside":
+            # At its own wall: further away, in a nest, are the cuts around its neighbours.
+            around = shapely.intersection(grow(shape, AROUND_OUTSIDE, ROUGHLY_AROUND), stock_shape(job))
+            shape = shapely.difference(around, shape)
+        if shape.is_empty or shape.area <= NEAR:
+            continue
+        shape = prepared(shape)
+        low = _lowest(paths, paths.below(floor + ROUNDING, steps=paths.cuts), shape)
+        if low > floor + ROUNDING:
+            low = _lowest(paths, paths.below(-NEAR, steps=paths.cuts), shape)
+        if low > floor + ROUNDING:
+            message = f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}"
+            return Check(False, message, None, low, floor, "mm")
+    return Check(True, "every feature is cut to its full depth")
+
+
+def _lowest(paths: Paths, pieces: Pieces, shape: Shape) -> float:
+    """Lowest z at which any piece cuts into a shape; 0 if none does."""
+    order, some, begin = np.argsort(pieces.low, kind="stable"), AT_ONCE, 0
+    while begin < order.size:  # the lowest first: one of them nearly always does
+        few = pieces.only(order[begin : begin + some])
+        # The disc has to enter the feature, not to touch it: a bore beside an edge is not its neighbour's.
+        radius = np.maximum(paths.radius[few.step] - NEAR, NEAR)
+        near = np.flatnonzero(shapely.dwithin(shape, paths.lines(few), radius))
+        if near.size:
+            return min(float(few.low[near[0]]), 0.0)
+        begin, some = begin + some, 4 * some
+    return 0.0

@@ -36,22 +36,15 @@ Geometries = NDArray[Any]
 
 @dataclass(frozen=True)
 class Pieces:
-    """Pieces of moves.
-
-    Parameters
-    ----------
-    step
-        (m,) index into the run.
-    first, last
-        (m,) the part of the move, from 0 to 1.
-    low
-        (m,) lowest z of the piece, mm.
-    """
+    """Pieces of moves."""
 
     step: Ints
+    """(m,) index into the run."""
     first: Array
     last: Array
+    """(m,) the part of the move, from 0 to 1."""
     low: Array
+    """(m,) lowest z of the piece, mm."""
 
     def __len__(self) -> int:
         return int(self.step.size)
@@ -84,8 +77,7 @@ class Paths:
     @property
     def cuts(self) -> Ints:
         """Those of the steps that are feed moves."""
-        cuts: Ints = self.steps[self.run.cutting[self.steps]]
-        return cuts
+        return self.steps[self.run.cutting[self.steps]]
 
     @property
     def rapids(self) -> Ints:
@@ -133,6 +125,10 @@ class Paths:
         """(m,) largest radius at ``height`` over each piece, mm, taken at its lowest place."""
         return self.cutters(pieces.step).radius_at(height - pieces.low)
 
+    def whole(self, steps: Ints) -> Pieces:
+        """All of some steps."""
+        return self.below(np.inf, steps=steps)
+
     def below(self, height: float, *, steps: Ints | None = None) -> Pieces:
         """The pieces that run at or below ``height``."""
         steps = self.steps if steps is None else steps
@@ -154,9 +150,7 @@ class Paths:
         largest = 2 * np.arccos(np.maximum(1 - chord / np.maximum(radius, chord), 0.0))
         count = np.where(arc, np.ceil(np.abs(turn) / largest), 1).astype(np.int64) + 1
         count = np.maximum(count, 2)
-        owner = np.repeat(np.arange(step.size), count)
-        offset = np.cumsum(count) - count
-        share = (np.arange(owner.size) - offset[owner]) / (count[owner] - 1)
+        owner, share = _spread(count)
         t = pieces.first[owner] + (pieces.last - pieces.first)[owner] * share
         start = self.start[step, :2]
         way = self.end[step, :2] - start
@@ -171,9 +165,8 @@ class Paths:
         """Places (k, 2) and heights (k,) along the moves, ends included, and the step (k,) of each."""
         run = self.run
         count = np.maximum(np.ceil(np.nan_to_num(run.length[steps]) / spacing), 1).astype(np.int64) + 1
-        owner = np.repeat(steps, count)
-        first = np.repeat(np.cumsum(count) - count, count)
-        share = (np.arange(owner.size) - first) / (np.repeat(count, count) - 1)
+        place, share = _spread(count)
+        owner = steps[place]
         start, end = self.start[owner], self.end[owner]
         places = start[:, :2] + (end - start)[:, :2] * share[:, None]
         arc = run.kind[owner] == Kind.ARC
@@ -237,6 +230,12 @@ class Paths:
         chain = np.concatenate(([0], np.cumsum(~joined)))[owner]
         distinct = {line.wkb: line for line in _lines(points, chain)}
         return np.array(list(distinct.values()), dtype=object)
+
+
+def _spread(count: Ints) -> tuple[Ints, Array]:
+    """Index (k,) of each of so many places (m,), and its share of the way from the first to the last."""
+    owner = np.repeat(np.arange(count.size), count)
+    return owner, (np.arange(owner.size) - (np.cumsum(count) - count)[owner]) / (count[owner] - 1)
 
 
 def _lines(points: Array, owner: Ints) -> Geometries:

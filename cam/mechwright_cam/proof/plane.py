@@ -12,13 +12,13 @@ from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.plane.buffers import buffered
+from mechwright_cam.proof.near import Chords
 from mechwright_cam.setup.views import ROUND, Shape, quarter
 
 
 def grow(shape: Any, distance: float, error: float = ROUND) -> Shape:
     """The shape and all within ``distance`` of it; shrunk if that is negative."""
-    grown: Shape = buffered(shape, distance, quarter(distance, error))
-    return grown
+    return buffered(shape, distance, quarter(distance, error))
 
 
 def closing(keep: Shape, radius: float) -> Shape:
@@ -48,8 +48,7 @@ def _turns_back(points: Array) -> Ints:
     step = np.diff(points, axis=0)
     length = np.hypot(*step.T)
     cosine = (step[:-1] * step[1:]).sum(axis=1)
-    found: Ints = np.flatnonzero(cosine < BACK * length[:-1] * length[1:]) + 1
-    return found
+    return np.flatnonzero(cosine < BACK * length[:-1] * length[1:]) + 1
 
 
 def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
@@ -67,8 +66,7 @@ def swept(chains: NDArray[Any], radius: float, error: float) -> Shape:
                 shapely.LineString(stretch[i : i + CHUNK]) for i in range(0, len(stretch) - 1, CHUNK - 1)
             ]
     discs = shapely.buffer(np.array(pieces, dtype=object), radius, quad_segs=quarter(radius, error))
-    area: Shape = shapely.union_all(discs)
-    return area
+    return shapely.union_all(discs)
 
 
 class Boundary:
@@ -78,26 +76,13 @@ class Boundary:
         self.shape = prepared(shape)
 
     @cached_property
-    def _edges(self) -> NDArray[Any]:
+    def _edges(self) -> Chords:
         rings = shapely.get_rings(shapely.get_parts(self.shape))
-        points, owner = shapely.get_coordinates(rings, return_index=True)
-        same = owner[:-1] == owner[1:]
-        edges: NDArray[Any] = shapely.linestrings(np.stack((points[:-1][same], points[1:][same]), axis=1))
-        return edges
-
-    @cached_property
-    def _tree(self) -> shapely.STRtree:
-        return shapely.STRtree(self._edges)
+        return Chords.along(*shapely.get_coordinates(rings, return_index=True))
 
     def distance(self, shapes: NDArray[Any], within: float | None = None) -> Array:
         """Distance (m,) of each shape to the edge, mm; inf where it is beyond ``within``."""
-        out = np.full(len(shapes), np.inf)
-        if len(shapes) and len(self._edges):
-            (index, _), distance = self._tree.query_nearest(
-                shapes, max_distance=within, return_distance=True, all_matches=False
-            )
-            out[index] = distance
-        return out
+        return self._edges.nearest(shapes, within)
 
     def inside(self, shapes: NDArray[Any]) -> Ints:
         """Indices of the shapes that touch the inside."""

@@ -57,21 +57,14 @@ class Surroundings:
 
 @dataclass(frozen=True)
 class Reach:
-    """The mills of a program.
-
-    Parameters
-    ----------
-    mills
-        All of them, one at least.
-    play
-        Air on either side without which a cutter does not enter, mm.
-    through
-        How deep cuts through the plate are, mm: a cutter counts as far down as its flutes reach.
-    """
+    """The mills of a program."""
 
     mills: Sequence[Tool]
+    """All of them, one at least."""
     play: float
+    """Air on either side without which a cutter does not enter, mm."""
     through: float
+    """How deep cuts through the plate are, mm: a cutter counts as far down as its flutes reach."""
 
     @property
     def flat(self) -> float:
@@ -198,8 +191,7 @@ class Reach:
                 continue  # above it, layers say where the walls are
             off = stay(tool.nose, fillet.radius, tip - fillet.floor)
             shapes.append(grow(fillet.walls, tool.radius + off + self.play))
-        whole: Shape = shapely.union_all(shapes)
-        return whole
+        return shapely.union_all(shapes)
 
 
 def _is_ball(tool: Tool) -> bool:

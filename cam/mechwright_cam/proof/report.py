@@ -9,32 +9,22 @@ from mechwright.errors import ProofError
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One question that the proof asked.
-
-    Parameters
-    ----------
-    passed
-        The answer.
-    message
-        One line: what is wrong, where, the limit, what to do; for a pass, what was found.
-    line
-        Line of the program text, None where no single line is to blame.
-    value, limit
-        What was found and what is allowed, in ``unit``.
-    at
-        Place in work coordinates, mm.
-    name
-        That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in.
-    """
+    """One question that the proof asked."""
 
     passed: bool
+    """The answer."""
     message: str
+    """One line: what is wrong, where, the limit, what to do; for a pass, what was found."""
     line: int | None = None
+    """Line of the program text, None where no single line is to blame."""
     value: float | None = None
     limit: float | None = None
+    """What was found and what is allowed, in ``unit``."""
     unit: str = ""
     at: tuple[float, float, float] | None = None
+    """Place in work coordinates, mm."""
     name: str = ""
+    """That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,46 +51,31 @@ class OperationTime:
 
 @dataclass(frozen=True)
 class Proof:
-    """The result of a simulation.
-
-    Parameters
-    ----------
-    part
-        Name of the part.
-    checks
-        Name to answer, in the order they were asked.
-    gouge_max_mm
-        Deepest cut into the finished part or its tabs.
-    leftover_reachable_max_mm
-        Thickest stock left on a wall that a cutter of the program could have reached.
-    unreachable_area_mm2, unreachable_max_mm
-        Stock that no cutter of the program reaches: area seen from above, and greatest depth.
-    unreachable
-        Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`.
-    rapids_in_stock
-        Number of rapid moves that meet material.
-    time_estimate_s
-        See :mod:`mechwright_cam.proof.timing`.
-    cutting_length_mm
-        Length of all feed moves.
-    operations
-        In program order.
-    notes
-        Remarks that forbid nothing.
-    """
+    """The result of a simulation."""
 
     part: str
+    """Name of the part."""
     checks: dict[str, Check]
+    """Name to answer, in the order they were asked."""
     gouge_max_mm: float
+    """Deepest cut into the finished part or its tabs."""
     leftover_reachable_max_mm: float
+    """Thickest stock left on a wall that a cutter of the program could have reached."""
     unreachable_area_mm2: float
     unreachable_max_mm: float
+    """Stock that no cutter of the program reaches: area seen from above, and greatest depth."""
     unreachable: tuple[Spot, ...]
+    """Where that is, deepest first; at most :data:`mechwright_cam.proof.beyond.SPOTS`."""
     rapids_in_stock: int
+    """Number of rapid moves that meet material."""
     time_estimate_s: float
+    """See :mod:`mechwright_cam.proof.timing`."""
     cutting_length_mm: float
+    """Length of all feed moves."""
     operations: tuple[OperationTime, ...] = ()
+    """In program order."""
     notes: tuple[str, ...] = field(default=())
+    """Remarks that forbid nothing."""
 
     @property
     def failures(self) -> tuple[Check, ...]:

@@ -1,34 +1,69 @@
-"""The rules that are built in, in the order of the report. Nothing heavy is imported before one is asked."""
+"""The contract of a rule, one question of the proof, ours or anybody's; and the rules that are built in.
 
+Nothing heavy is imported before one is asked.
+"""
+
+from abc import abstractmethod
+from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
+from mechwright.contracts.plugin import Plugin
+from mechwright.errors import PluginError
 from mechwright_cam.proof.report import Check
-from mechwright_cam.proof.rule import Rule
+
+if TYPE_CHECKING:
+    from mechwright_cam.proof.scene import Scene
+
+
+class Rule(Plugin):
+    """Judges a program that has been read back; a program is written if no rule objects.
+
+    Its name is that of its check in ``proof.json`` and in the messages of a refusal. Rules are asked side by
+    side: none may depend on another, and what several need is on the :class:`Scene`, which keeps it.
+    """
+
+    kind = "rule"
+    plural = "rules"
+
+    @abstractmethod
+    def check(self, scene: "Scene") -> Check:
+        """The answer: one line that says what was found, or what is wrong, where, the limit, what to do."""
+
+
+def ask(rule: Rule, scene: "Scene") -> Check:
+    """The check of a rule, under the rule's name; raises PluginError if the rule fails or gives no check."""
+    try:
+        found = rule.check(scene)
+    except (Exception, SystemExit) as error:  # a rule that cannot tell must not end as a pass
+        reason = " ".join(f"{type(error).__name__}: {error}".split())
+        raise PluginError(
+            f"rule {rule.name} cannot judge the program of {scene.job.part.name}: {reason}"
+        ) from error
+    if not isinstance(found, Check) or not isinstance(found.passed, bool):
+        raise PluginError(
+            f"rule {rule.name} gives {found!r}; a rule gives a Check, which has passed or has not"
+        )
+    return replace(found, name=rule.name)
+
 
 if TYPE_CHECKING:
     from mechwright_cam.proof.scene import Scene
 
 _HOMES = (
     ("machine_rules", "program_end modes tools work_offset"),
-    ("tables", "offset_tables"),
-    ("offset_rules", "length_offset diameter_offset"),
-    ("machine_rules", "positions"),
-    ("machine_moves", "machine_moves"),
-    ("corridor", "path_tolerance"),
+    ("offset_rules", "offset_tables length_offset diameter_offset"),
+    ("machine_rules", "positions machine_moves"),
+    ("cutting_state", "path_tolerance"),
     ("machine_rules", "tool_change stops"),
     ("cutting_state", "spindle coolant arcs feeds speeds"),
     ("cutting_rules", "cutting_speed chips pecks"),
     ("depth_of_cut", "depth_of_cut"),
     ("cutting_state", "dwells"),
     ("motion_rules", "travel flutes underside beside"),
-    ("rapid_rules", "rapid_height rapids_in_stock"),
-    ("entry_rules", "entries"),
-    ("holder", "holder"),
-    ("held", "clamp"),
-    ("part_rules", "gouge tabs"),
-    ("depth", "depth"),
-    ("part_rules", "leftover"),
+    ("entry_rules", "rapid_height rapids_in_stock entries"),
+    ("held", "holder clamp"),
+    ("part_rules", "gouge tabs depth leftover"),
     ("holding", "holding"),
     ("part_rules", "details"),
     ("compensation", "compensation"),
@@ -36,17 +71,10 @@ _HOMES = (
 """Module of this folder to the functions in it that judge a scene; a rule is called as its function is."""
 
 
-class BuiltIn(Rule):
-    """A rule of ours."""
-
-    home: ClassVar[str]
-    """Module of this folder that has its function."""
-
-
-def _rule(module: str, function: str) -> type[BuiltIn]:
+def _rule(module: str, function: str) -> type[Rule]:
     """A rule made of a function from scene to check."""
 
-    class Built(BuiltIn):
+    class Built(Rule):
         name = function.replace("_", "-")
         home = module
 

@@ -1,6 +1,6 @@
 """What all rules look at."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,14 +9,14 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.lookahead import Motion
 from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, deepest_cut
+from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.paths import NEAR, Paths
-from mechwright_cam.proof.ramped import deepest_in_tab
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
@@ -26,25 +26,17 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A program, the job that it should make, and all that follows from the two: each thing worked out once.
-
-    Parameters
-    ----------
-    text
-        The program as the control would get it, from this project's posts or from anywhere; several files,
-        name to text, if they are run one after the other.
-    job
-        The part, its stock, its holding and the tools on the machine.
-    control
-        The control that reads it.
-    block_delete
-        Whether the switch is on that skips lines which start with ``/``.
-    """
+    """A program, the job that it should make, and all that follows from both: each thing worked out once."""
 
     text: str | Mapping[str, str]
+    """The program as the control would get it, from this project's posts or from anywhere; several files,
+    name to text, if they are run one after the other."""
     job: Job
+    """The part, its stock, its holding and the tools on the machine."""
     control: Control
+    """The control that reads it."""
     block_delete: bool = False
+    """Whether the switch is on that skips lines which start with ``/``."""
 
     @cached_property
     def run(self) -> Run:
@@ -65,6 +57,11 @@ class Scene:
         return {tool.number: tool for tool in self.job.tools}
 
     @cached_property
+    def motion(self) -> Motion:
+        """How the control runs through the moves: how long, and how far off the path."""
+        return self.control.lookahead.motion(self.run, self.job.settings.machine)
+
+    @cached_property
     def paths(self) -> Paths:
         """Where the tools go."""
         return Paths(self.run, self.job.tools)
@@ -83,7 +80,7 @@ class Scene:
     def gouge(self) -> Gouge | None:
         """The deepest cut into the finished part."""
         paths, job = self.paths, self.job
-        return _deepest(
+        return worst_of(
             [
                 *deepest(paths, job, bands(job, heights(job))),
                 *(cut for fillet in fillets(job) for cut in deepest_in_fillet(paths, job, fillet)),
@@ -99,22 +96,12 @@ class Scene:
             deepest_cut(self.paths, shapely.union_all([t.shape for t in upright if t.top == top]), top)
             for top in sorted({tab.top for tab in upright})
         ]
-        return _deepest([*cuts, *(deepest_in_tab(self.paths, tab) for tab in tabs if tab.ramped)])
+        return worst_of([*cuts, *(deepest_in_tab(self.paths, tab) for tab in tabs if tab.ramped)])
 
     @cached_property
     def remains(self) -> Remains:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
-
-    def line(self, step: int) -> int:
-        """Line of a step, in its file."""
-        return int(self.run.line[step])
-
-    def spot(self, step: int) -> str:
-        """File and line of a step, in words; there is no file's name where there is one file."""
-        names = self.run.files
-        name = f"{names[int(self.run.file[step])]}: " if len(names) > 1 else ""
-        return f"{name}line {self.line(step)}"
 
     def state(self, step: int) -> State:
         """Machine state in a step."""
@@ -133,8 +120,10 @@ class Scene:
         x, y, z = self.run.end[step].tolist() if at is None else at
         at = x, y, z
         place = " ".join(f"{a}{v:.3f}" for a, v in zip("XYZ", at, strict=True) if np.isfinite(v))
-        text = f"{self.spot(step)}: {message}" + (f", at {place}" if place else "")
-        return Check(False, text, self.line(step), value, limit, unit, at)
+        names, line = self.run.files, int(self.run.line[step])
+        spot = f"{names[int(self.run.file[step])]}: line {line}" if len(names) > 1 else f"line {line}"
+        text = f"{spot}: {message}" + (f", at {place}" if place else "")
+        return Check(False, text, line, value, limit, unit, at)
 
 
 def planned_offsets(job: Job) -> dict[int, float]:
@@ -143,11 +132,6 @@ def planned_offsets(job: Job) -> dict[int, float]:
     # Where a drill happens to have the number, the D is the mill's.
     tools = sorted(job.tools, key=lambda tool: tool.kind is ToolKind.END_MILL)
     return {tool.d_number: 0.0 if wear else tool.radius for tool in tools}
-
-
-def _deepest(cuts: Iterable[Gouge | None]) -> Gouge | None:
-    found = [cut for cut in cuts if cut is not None]
-    return max(found, key=lambda cut: cut.depth, default=None)
 
 
 def first(which: NDArray[np.bool_]) -> int | None:

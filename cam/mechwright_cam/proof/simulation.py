@@ -38,54 +38,36 @@ FINEST = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """How hard a tool works.
-
-    Parameters
-    ----------
-    tool
-        T number.
-    feed_per_tooth
-        Greatest feed per tooth in material, mm.
-    chip
-        Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most;
-        less where only the rounded corner of a cutter is in the cut.
-    engagement
-        Greatest engagement in a window, degrees.
-    removal
-        Greatest rate of removal in a window, cm³/min.
-    line
-        Line of the program where that is.
-    """
+    """How hard a tool works."""
 
     tool: int
+    """T number."""
     feed_per_tooth: float
+    """Greatest feed per tooth in material, mm."""
     chip: float
+    """Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most;
+    less where only the rounded corner of a cutter is in the cut."""
     engagement: float
+    """Greatest engagement in a window, degrees."""
     removal: float
+    """Greatest rate of removal in a window, cm³/min."""
     line: int
+    """Line of the program where that is."""
 
 
 @dataclass(frozen=True)
 class Simulation:
-    """What the grid has seen.
-
-    Parameters
-    ----------
-    air_mm, feed_mm
-        Length of feed moves that took nothing, and of all, mm; moves above the stock count.
-    works
-        One for each tool that cut.
-    heights
-        (ny, nx) float32, mm: the stock at last, seen from above; rows from the lower edge.
-    cell
-        Width of a cell, mm.
-    """
+    """What the grid has seen."""
 
     air_mm: float
     feed_mm: float
+    """Length of feed moves that took nothing, and of all, mm; moves above the stock count."""
     works: tuple[Work, ...]
+    """One for each tool that cut."""
     heights: NDArray[np.float32]
+    """(ny, nx) float32, mm: the stock at last, seen from above; rows from the lower edge."""
     cell: float
+    """Width of a cell, mm."""
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for ``proof.json``."""
@@ -111,18 +93,10 @@ def simulate(paths: Paths, job: Job) -> Simulation:
     heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
     length = np.nan_to_num(run.length)
     idle = steps[volume[steps] <= cell**2 * NEAR]
-    works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in _used(run, steps)]
-    return Simulation(
-        float(length[idle].sum()),
-        float(length[steps].sum()),
-        tuple(work for work in works if work is not None),
-        heights,
-        cell,
-    )
-
-
-def _used(run: Run, steps: Ints) -> list[int]:
-    return list(dict.fromkeys(run.tool[steps].tolist()))
+    used = dict.fromkeys(run.tool[steps].tolist())
+    works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in used]
+    did = tuple(work for work in works if work is not None)
+    return Simulation(float(length[idle].sum()), float(length[steps].sum()), did, heights, cell)
 
 
 def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
@@ -181,8 +155,7 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     """Height of the tool's end above its tip, cell by cell; far up where the tool is not."""
     half = math.ceil(tool.radius / cell)
     at = np.arange(-half, half + 1) * cell
-    disc: NDArray[np.float32] = cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
-    return disc
+    return cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
 
 
 def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Work | None:

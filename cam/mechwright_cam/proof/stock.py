@@ -52,7 +52,7 @@ class Stock:
         x0, y0, x1, y1 = shapely.bounds(body)
         apart = (least[index] > (x1 + reach, y1 + reach)) | (most[index] < (x0 - reach, y0 - reach))
         steps = self.cuts[index[~apart.any(axis=1)]]
-        lines: Geometries = self.paths.lines(self.paths.below(np.inf, steps=steps))
+        lines: Geometries = self.paths.lines(self.paths.whole(steps))
         body = prepared(body)
         near: Ints = steps[shapely.dwithin(body, lines, reach)]
         return near
@@ -102,5 +102,4 @@ class Stock:
         shapes = [
             grow(line, r, ACCURACY) for line, r in zip(paths.lines(pieces), radius, strict=True) if r > 0
         ]
-        gone: Shape = shapely.union_all(shapes)
-        return gone
+        return shapely.union_all(shapes)

@@ -43,9 +43,7 @@ class Sweep:
     @cached_property
     def chords(self) -> Chords:
         """The straight pieces of all paths."""
-        points, owner = self._points
-        same = owner[:-1] == owner[1:]
-        return Chords(points[:-1][same], points[1:][same])
+        return Chords.along(*self._points)
 
     @cached_property
     def _extents(self) -> tuple[Array, Array]:

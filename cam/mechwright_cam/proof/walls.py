@@ -27,8 +27,7 @@ from mechwright_cam.proof.beyond import VISIBLE
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.proof.sweep import ROUNDING, Sweep, Sweeps
-from mechwright_cam.proof.wall import Wall
-from mechwright_cam.proof.wall_stock import HINTED
+from mechwright_cam.proof.wall import HINTED, Wall
 from mechwright_cam.proof.wanted import TAB_SLACK, play
 from mechwright_cam.setup.job import Job
 
@@ -56,31 +55,23 @@ class Place:
 
 @dataclass(frozen=True)
 class Walls:
-    """What was found along the walls.
-
-    Parameters
-    ----------
-    points, outward
-        (n, 2) float, mm: places in work coordinates, in order along each wall, and unit vectors off the part.
-    z, off
-        (n,) float, mm.
-    corner
-        (n,) bool.
-    run
-        (n,) int: places of one number follow on each other along a wall.
-    left, cut, corners
-        The worst places: stock left within reach, cuts into the part, and corners.
-    """
+    """What was found along the walls."""
 
     points: Array
     outward: Array
+    """(n, 2) float, mm: places in work coordinates, in order along each wall, and unit vectors off the
+    part."""
     z: Array
     off: Array
+    """(n,) float, mm."""
     corner: NDArray[np.bool_]
+    """(n,) bool."""
     run: Ints
+    """(n,) int: places of one number follow on each other along a wall."""
     left: tuple[Place, ...]
     cut: tuple[Place, ...]
     corners: tuple[Place, ...]
+    """The worst places: stock left within reach, cuts into the part, and corners."""
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for ``proof.json``, mm to a tenth of a micrometre."""
@@ -196,5 +187,4 @@ def _runs(points: Array, z: Array) -> Ints:
     """Numbers of the stretches between which a wall is interrupted, or another begins."""
     step = np.hypot(*np.diff(points, axis=0).T)
     usual = float(np.median(step)) if step.size else 0.0
-    new: Ints = np.concatenate(([0], np.cumsum((step > 3 * usual) | (np.diff(z) != 0)))).astype(np.int64)
-    return new
+    return np.concatenate(([0], np.cumsum((step > 3 * usual) | (np.diff(z) != 0)))).astype(np.int64)

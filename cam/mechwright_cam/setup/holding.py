@@ -21,31 +21,22 @@ class Clamp:
 
 @dataclass(frozen=True)
 class Tab:
-    """A bridge from the part to the frame.
-
-    Parameters
-    ----------
-    shape
-        Plan view, at the underside.
-    top
-        Its upper side, z in mm, below 0.
-    width
-        At the top, mm.
-    slope
-        Tangent of its sides: the upper side falls so steeply beyond the width; inf where they are upright.
-    at, along
-        Its middle on the wall, and the unit vector along the wall there; out is to the right of it.
-    ends
-        Where it ends, inside the part and in the frame, ``out`` in mm.
-    """
+    """A bridge from the part to the frame."""
 
     shape: shapely.Polygon
+    """Plan view, at the underside."""
     top: float
+    """Its upper side, z in mm, below 0."""
     width: float
+    """At the top, mm."""
     slope: float = math.inf
+    """Tangent of its sides: the upper side falls so steeply beyond the width; inf where they are upright."""
     at: Point = (0.0, 0.0)
+    """Its middle on the wall."""
     along: Point = (1.0, 0.0)
+    """The unit vector along the wall there; out is to the right of it."""
     ends: tuple[float, float] = (0.0, 0.0)
+    """Where it ends, inside the part and in the frame, ``out`` in mm."""
 
     @property
     def ramped(self) -> bool:
@@ -66,17 +57,12 @@ class Tab:
         -inf where the cutter is beside the tab. The nearest of the tab's strips that the disc covers is the
         highest one.
         """
-        s, out = self._local(points)
+        (dx, dy), (tx, ty) = (points - self.at).T, self.along
+        s, out = dx * tx + dy * ty, dx * ty - dy * tx
         beyond = np.maximum(np.maximum(self.ends[0] - out, out - self.ends[1]), 0.0)
         half = np.sqrt(np.maximum(radius**2 - beyond**2, 0.0))
         height = self.top - self.slope * np.maximum(np.abs(s) - half - self.width / 2, 0.0)
-        lowest: Array = np.where(beyond < radius, height, -np.inf)
-        return lowest
-
-    def _local(self, points: Array) -> tuple[Array, Array]:
-        dx, dy = (points - self.at).T
-        tx, ty = self.along
-        return dx * tx + dy * ty, dx * ty - dy * tx
+        return np.asarray(np.where(beyond < radius, height, -np.inf))
 
 
 def least_z(tabs: tuple[Tab, ...], points: Array, radius: float) -> Array:
@@ -90,8 +76,7 @@ def least_z(tabs: tuple[Tab, ...], points: Array, radius: float) -> Array:
 def _piece_at(shape: shapely.Geometry, place: tuple[float, float, Point]) -> shapely.Polygon:
     """The piece of a tab, cut by openings of the part, that lies on the wall."""
     pieces = shapely.get_parts(shape)
-    nearest: shapely.Polygon = pieces[int(np.argmin(shapely.distance(pieces, shapely.Point(place[:2]))))]
-    return nearest
+    return pieces[int(np.argmin(shapely.distance(pieces, shapely.Point(place[:2]))))]
 
 
 def _rectangle(place: tuple[float, float, Point], base: float, ends: tuple[float, float]) -> shapely.Polygon:
@@ -99,9 +84,7 @@ def _rectangle(place: tuple[float, float, Point], base: float, ends: tuple[float
     return shapely.Polygon(_corners(place, base, ends))
 
 
-def _corners(
-    place: tuple[float, float, Point], base: float, ends: tuple[float, float]
-) -> list[tuple[float, float]]:
+def _corners(place: tuple[float, float, Point], base: float, ends: tuple[float, float]) -> list[Point]:
     """Corners of a rectangle across the wall, those of its inner end first."""
     x, y, (tx, ty) = place
     nx, ny = ty, -tx  # outwards of a counter-clockwise ring

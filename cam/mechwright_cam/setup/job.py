@@ -17,6 +17,7 @@ cut
 Planner and proof both start from a job and from nothing else, so that the proof does not depend on the plan.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -24,7 +25,7 @@ from typing import Literal
 import shapely
 
 from mechwright.contracts.details import Detail, moved
-from mechwright.contracts.part import Feature, Part
+from mechwright.contracts.part import Feature, Part, is_outside
 from mechwright.geometry.segments import Point
 from mechwright_cam.setup.holding import Clamp, Jaw, Tab
 from mechwright_cam.setup.nest import moved_feature
@@ -47,57 +48,41 @@ def wear_margin(settings: CamSettings) -> float:
 
 @dataclass(frozen=True)
 class Air:
-    """What earlier setups have cut from the other side: in ``shape`` nothing stands below ``top``.
-
-    ``shape`` is a plan view in work coordinates, ``top`` a height z, mm: 0 where they have cut through.
-    """
+    """What earlier setups have cut from the other side: nothing stands there below ``top``."""
 
     shape: shapely.Geometry
+    """Plan view in work coordinates."""
     top: float
+    """Height z, mm: 0 where they have cut through."""
+
+
+def air_below(gone: Sequence[Air], z: float) -> shapely.Geometry:
+    """Where nothing stands below a height z, mm; for 0, where earlier setups have cut through."""
+    return shapely.union_all([air.shape for air in gone if air.top >= z - LEVEL])
 
 
 @dataclass(frozen=True)
 class Job:
-    """Everything that planning and proof need to know.
-
-    Parameters
-    ----------
-    part
-        A plate part, or a nest of several.
-    settings
-        The table ``[cam]``.
-    tools
-        The cutters that may be used.
-    origin
-        Where X0 Y0 lies in the part's own coordinates, mm.
-    stock
-        Least x, least y, greatest x, greatest y of the plate, work coordinates, mm.
-    tabs
-        Bridges that hold the part; empty if a clamp does.
-    clamp
-        The bore clamp, if that holds the part.
-    jaws
-        The jaws of the vice, if that holds the part.
-    side
-        ``"underside"`` if the plate has been turned over.
-    gone
-        What of the plate earlier setups have cut away, by height; higher regions lie in lower ones.
-    pick_up
-        Middle of the bore, or of the two dowels, by which a plate that has been turned over is picked up,
-        work coordinates.
-    """
+    """Everything that planning and proof need to know; what holds the part is one of three."""
 
     part: Part
+    """A plate part, or a nest of several."""
     settings: CamSettings
     tools: tuple[Tool, ...]
+    """The cutters that may be used."""
     origin: Point
+    """Where X0 Y0 lies in the part's own coordinates, mm."""
     stock: tuple[float, float, float, float]
+    """Least x, least y, greatest x, greatest y of the plate, work coordinates, mm."""
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
     jaws: tuple[Jaw, ...] = ()
     side: Literal["top", "underside"] = "top"
+    """The underside is on top where the plate has been turned over."""
     gone: tuple[Air, ...] = ()
+    """What of the plate earlier setups have cut away, by height; higher regions lie in lower ones."""
     pick_up: tuple[Point, ...] = ()
+    """Middle of the bore, or of the two dowels, by which a plate turned over is found, work coordinates."""
 
     @property
     def thickness(self) -> float:
@@ -122,8 +107,7 @@ class Job:
 
     def air_below(self, z: float) -> shapely.Geometry:
         """Where earlier setups have left nothing below a height z, mm; for 0, where they have cut through."""
-        found: shapely.Geometry = shapely.union_all([air.shape for air in self.gone if air.top >= z - LEVEL])
-        return found
+        return air_below(self.gone, z)
 
     @cached_property
     def target(self) -> shapely.Geometry:
@@ -151,6 +135,11 @@ class Job:
         x, y = -self.origin[0], -self.origin[1]
         return tuple(moved_feature(feature, x, y) for feature in self.part.features)
 
+    @property
+    def inner(self) -> list[Feature]:
+        """The features apart from outsides."""
+        return [feature for feature in self.features if not is_outside(feature)]
+
     @cached_property
     def details(self) -> tuple[Detail, ...]:
         """The part's details in work coordinates."""
@@ -168,6 +157,11 @@ class Job:
     def wear_margin(self) -> float:
         """That of the settings, see :func:`wear_margin`."""
         return wear_margin(self.settings)
+
+    def tools_of(self, kind: ToolKind) -> list[Tool]:
+        """The tools of a kind that cut the material, widest first."""
+        fit = (tool for tool in self.tools if tool.kind is kind and self.part.material in tool.cutting)
+        return sorted(fit, key=lambda tool: -tool.diameter)
 
     @property
     def end_mills(self) -> tuple[Tool, ...]:

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import shapely
 
-from mechwright.contracts.part import Bore, Feature, Part, Profile
+from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.errors import DesignError
+from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.holding import Clamp
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, moved_feature
@@ -14,27 +15,17 @@ from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.setup.tabs import lay_tabs
 from mechwright_cam.setup.vice import CLAMP_GAP, lay_jaws
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import MILLS, Tool
+from mechwright_cam.shop.tool import Tool, widest_mill
 
 
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
     """Lay a plate part into its stock and decide how it is held.
 
-    Parameters
-    ----------
-    part, settings, tools
-        What is made, and with what.
-    below
-        Features that a second setup cuts from the underside, and its dowels: tabs stay clear of them.
-
-    Raises
-    ------
-    GeometryError
-        The part is no plate.
-    DesignError
-        The stock is too small, or the part has no bore to be held by.
+    ``below`` are features that a second setup cuts from the underside, and its dowels: tabs stay clear of
+    them. Raises GeometryError for a part that is no plate; DesignError where the stock is too small, or
+    nothing of the part can be held as the settings say.
     """
-    widest = max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)
+    widest = widest_mill(tools)
     # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
     stock = plate_box(part, settings, widest + 3.0)
     origin = {
@@ -69,10 +60,9 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
 
 
 def _clamp(job: Job) -> Clamp:
-    bores = [feature for feature in job.features if isinstance(feature, Bore)]
-    openings = [f for f in job.features if isinstance(f, Profile) and f.side == "inside"]
-    if bores:
-        centre = max(bores, key=lambda bore: bore.diameter).centre
+    round_, openings = bores(job), [f for f in job.features if isinstance(f, Profile) and f.side == "inside"]
+    if round_:
+        centre = max(round_, key=lambda bore: bore.diameter).centre
     elif openings:
         middle = shapely.Polygon(openings[0].loop.flatten()).centroid
         centre = (middle.x, middle.y)

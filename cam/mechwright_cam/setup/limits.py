@@ -1,7 +1,10 @@
 """What the machine is too small for, before any program is planned."""
 
-from mechwright.contracts.finding import Finding, Severity
+from collections.abc import Iterator
+
+from mechwright.contracts.finding import Finding
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
@@ -15,37 +18,36 @@ def height_of(tool: Tool, settings: CamSettings, thickness: float) -> float:
     return tool.flute_length + HOLDER + settings.clearance + clamp + thickness
 
 
-def check_machine(job: Job) -> list[Finding]:
+def check_travel(job: Job) -> Iterator[Finding]:
+    """Travel of X and Y: the least that the finest end mill travels around the part."""
+    machine = job.settings.machine
+    if not job.mills:
+        return
+    x0, y0, x1, y1 = job.target.bounds
+    around = job.mills[-1].diameter
+    remedy = "take a larger machine" + (", or nest fewer parts" if isinstance(job.part, Nest) else "")
+    for axis, size, travel in (("x", x1 - x0, machine.travel_x), ("y", y1 - y0, machine.travel_y)):
+        wanted = size + around
+        if wanted > travel:
+            where = f"cam.machine.travel_{axis}"
+            message = f"part {job.part.name} asks for {wanted:.1f} mm of travel in {axis.upper()}"
+            yield Finding.error("cam.travel", where, message, wanted, travel, "mm", remedy)
+
+
+def check_machine(job: Job) -> Iterator[Finding]:
     """Travel of Z for the longest tool, and places in the tool changer."""
-    machine, found = job.settings.machine, []
+    machine, part = job.settings.machine, job.part.name
     longest = max(job.tools, key=lambda tool: tool.flute_length, default=None)
-    if longest is not None:
-        wanted = height_of(longest, job.settings, job.thickness)
-        if wanted > machine.travel_z:
-            found.append(
-                Finding(
-                    "cam.tool-too-long",
-                    Severity.ERROR,
-                    "cam.machine.travel_z",
-                    f"{longest.name} with its holder needs {wanted:.0f} mm between the table and a full "
-                    f"retract over part {job.part.name}",
-                    wanted,
-                    machine.travel_z,
-                    "mm",
-                    "take a shorter tool, or a larger machine",
-                )
-            )
-    if 0 < machine.pockets < len(job.tools):
-        found.append(
-            Finding(
-                "cam.pockets",
-                Severity.WARNING,
-                "cam.machine.pockets",
-                f"part {job.part.name} takes {len(job.tools)} tools, the changer holds {machine.pockets}",
-                len(job.tools),
-                machine.pockets,
-                "",
-                "list fewer cutters in cam.tools, or change some by hand",
-            )
+    wanted = 0.0 if longest is None else height_of(longest, job.settings, job.thickness)
+    if longest is not None and wanted > machine.travel_z:
+        message = (
+            f"{longest.name} with its holder needs {wanted:.0f} mm between the table and a full "
+            f"retract over part {part}"
         )
-    return found
+        where, remedy = "cam.machine.travel_z", "take a shorter tool, or a larger machine"
+        yield Finding.error("cam.tool-too-long", where, message, wanted, machine.travel_z, "mm", remedy)
+    count, pockets = len(job.tools), machine.pockets
+    if 0 < pockets < count:
+        message = f"part {part} takes {count} tools, the changer holds {pockets}"
+        where, remedy = "cam.machine.pockets", "list fewer cutters in cam.tools, or change some by hand"
+        yield Finding.warning("cam.pockets", where, message, count, pockets, "", remedy)

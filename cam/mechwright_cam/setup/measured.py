@@ -1,21 +1,20 @@
 """Whether one measured work offset can be that of several programs, which all write it (``post.offsets``)."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.finding import Finding
 from mechwright_cam.setup.job import Job
 
 INDICATED = 0.01
 """Places and thicknesses that differ by less are the same, mm: what a plate is indicated to."""
 
 
-def check_measured(jobs: Sequence[Job]) -> list[Finding]:
+def check_measured(jobs: Sequence[Job]) -> Iterator[Finding]:
     """Programs that write one measured place, though their zeros lie at different heights or places.
 
     Z0 is the top of the plate, so plates of different thickness on one table differ in Z. X0 Y0 may be as far
     from the edges as it likes where parts are held by a bore, on one arbor; against stops it may not.
     """
-    found: list[Finding] = []
     first: dict[tuple[object, ...], Job] = {}
     for job in jobs:
         cam = job.settings
@@ -24,36 +23,21 @@ def check_measured(jobs: Sequence[Job]) -> list[Finding]:
         place = (cam.work_offset, cam.measured.x, cam.measured.y, cam.measured.z)
         other = first.setdefault(place, job)
         where = f"{other.part.name} and {job.part.name} both set {cam.work_offset}"
+        own = f"measure {job.part.name} for itself in [cam.part.{job.part.name}.measured]"
         remedy = (
-            f"measure {job.part.name} for itself in [cam.part.{job.part.name}.measured]"
-            if job.side == "top"
-            else "leave x, y and z out of cam.second_side, and set it at the machine"
+            own if job.side == "top" else "leave x, y and z out of cam.second_side, and set it at the machine"
         )
+        (x, y), (u, v) = other.datum, job.datum
         if abs(job.thickness - other.thickness) > INDICATED:
-            found.append(
-                Finding(
-                    "cam.measured",
-                    Severity.ERROR,
-                    "cam.measured.z",
-                    f"{where} Z to the same, and their plates are {other.thickness:g} and "
-                    f"{job.thickness:g} mm thick",
-                    cam.measured.z,
-                    unit="mm",
-                    remedy=remedy,
-                )
+            thick = f"{other.thickness:g} and {job.thickness:g} mm thick"
+            message = f"{where} Z to the same, and their plates are {thick}"
+            yield Finding.error(
+                "cam.measured", "cam.measured.z", message, cam.measured.z, unit="mm", remedy=remedy
             )
-        elif job.clamp is None and any(
-            abs(a - b) > INDICATED for a, b in zip(job.datum, other.datum, strict=True)
-        ):
-            found.append(
-                Finding(
-                    "cam.measured",
-                    Severity.WARNING,
-                    "cam.measured",
-                    f"{where} X and Y to the same, and X0 Y0 is elsewhere on their plates: the probed edges "
-                    f"are at X{other.datum[0]:.2f} Y{other.datum[1]:.2f} and at X{job.datum[0]:.2f} "
-                    f"Y{job.datum[1]:.2f}",
-                    remedy=f'{remedy}, or use origin = "corner"' if job.side == "top" else remedy,
-                )
+        elif job.clamp is None and max(abs(x - u), abs(y - v)) > INDICATED:
+            message = (
+                f"{where} X and Y to the same, and X0 Y0 is elsewhere on their plates: the probed edges "
+                f"are at X{x:.2f} Y{y:.2f} and at X{u:.2f} Y{v:.2f}"
             )
-    return found
+            remedy += ', or use origin = "corner"' if job.side == "top" else ""
+            yield Finding.warning("cam.measured", "cam.measured", message, remedy=remedy)

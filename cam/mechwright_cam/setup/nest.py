@@ -38,10 +38,7 @@ class Placed:
     def back(self, shape: shapely.Geometry) -> shapely.Geometry:
         """A shape of the nest in the part's own coordinates."""
         c, s = math.cos(self.angle), math.sin(self.angle)
-        return shapely.transform(
-            shape,
-            lambda p: (p - (self.x, self.y)) @ [[c, -s], [s, c]],
-        )
+        return shapely.transform(shape, lambda p: (p - (self.x, self.y)) @ [[c, -s], [s, c]])
 
 
 @dataclass(frozen=True)
@@ -84,9 +81,8 @@ def moved_feature(feature: Feature, x: float, y: float, angle: float = 0.0) -> F
 
 def make_nest(name: str, placed: tuple[Placed, ...], gap: float) -> Nest:
     """The nest of parts that are alike in material and thickness."""
-    boxes = [one.outline.bounds for one in placed]
-    x0, y0 = min(box[0] for box in boxes), min(box[1] for box in boxes)
-    x1, y1 = max(box[2] for box in boxes), max(box[3] for box in boxes)
+    lefts, lows, rights, highs = zip(*(one.outline.bounds for one in placed), strict=True)
+    x0, y0, x1, y1 = min(lefts), min(lows), max(rights), max(highs)
     features = tuple(
         replace(moved_feature(feature, one.x, one.y, one.angle), name=f"{one.label} {feature.name}")
         for one in placed

@@ -14,17 +14,9 @@ Box = tuple[float, float, float, float]
 def plate_box(part: Part, settings: CamSettings, margin: float) -> Box:
     """The stock around a part, in the part's coordinates.
 
-    Parameters
-    ----------
-    margin
-        Stock around the part where the design leaves it open, mm. There is none at a finished edge.
-
-    Raises
-    ------
-    GeometryError
-        The part is no plate.
-    DesignError
-        The part does not fit into the stock, or not between its finished edges.
+    ``margin`` is the stock around it where the design leaves that open, mm; there is none at a finished edge.
+    Raises GeometryError for a part that is no plate, DesignError for one that does not fit into the stock, or
+    not between its finished edges.
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")

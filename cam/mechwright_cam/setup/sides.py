@@ -6,7 +6,7 @@ from typing import Literal
 
 import shapely
 
-from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile, is_outside
 from mechwright.errors import DesignError
 from mechwright.geometry.mirror import turned_over, turned_point, turned_segment
 from mechwright_cam.setup.job import LEVEL
@@ -27,10 +27,7 @@ SIGNS = {"x": (1.0, -1.0), "y": (-1.0, 1.0)}
 def sides(part: Part) -> tuple[tuple[Feature, ...], tuple[Feature, ...]]:
     """The features that are cut from above, and those that only the underside shows.
 
-    Raises
-    ------
-    DesignError
-        A feature is closed on both sides.
+    Raises DesignError for a feature that is closed on both sides.
     """
     above = _open_from_above(part.features)
     rest = [feature for feature in part.features if feature not in above]
@@ -52,16 +49,12 @@ def _open_from_above(features: Sequence[Feature]) -> list[Feature]:
     found: list[Feature] = []
     for feature in sorted(features, key=lambda feature: feature.top):
         if feature.top > LEVEL:
-            deep = [f for f in found if f.top + f.depth >= feature.top - LEVEL and not _is_outside(f)]
+            deep = [f for f in found if f.top + f.depth >= feature.top - LEVEL and not is_outside(f)]
             closed = shapely.difference(inside_of(feature), shapely.union_all([inside_of(f) for f in deep]))
             if closed.area > SPECK:
                 continue
         found.append(feature)
     return found
-
-
-def _is_outside(feature: Feature) -> bool:
-    return isinstance(feature, Profile) and feature.side == "outside"
 
 
 def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Feature:

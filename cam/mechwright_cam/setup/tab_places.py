@@ -35,19 +35,9 @@ def rows(
 ) -> tuple[list[Row], list[Row]]:
     """Rows of places to try: in even steps, moved on together, and in uneven ones clear of what is barred.
 
-    Parameters
-    ----------
-    feature, ring
-        The outside, and its polygon.
-    count, width, slopes
-        How many tabs, how wide on top, and the extent of both slopes of a ramped one, mm.
-    barred
-        Features at which no tab may stand.
-
-    Raises
-    ------
-    DesignError
-        The outside says where tabs may stand, and there is too little room.
+    Of an outside and its polygon, for ``count`` tabs that are ``width`` mm wide on top and have both their
+    ``slopes``, mm, beside that. Raises DesignError where the outside says where tabs may stand, and there is
+    too little room.
     """
     places = _places(feature, ring, count, width, slopes)
     if feature.tab_sites or not (slopes or barred):

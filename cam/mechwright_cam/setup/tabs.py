@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import shapely
 
-from mechwright.contracts.part import Feature, Profile
+from mechwright.contracts.part import Feature, Profile, is_outside
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
@@ -24,7 +24,7 @@ from mechwright_cam.plane.offsets import filled, opened
 from mechwright_cam.setup.holding import Tab, _corners, _piece_at, _rectangle
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.tab_places import rows, tab_width
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.tool import MILLS, widest_mill
 
 if TYPE_CHECKING:
     from mechwright_cam.setup.job import Job
@@ -37,19 +37,10 @@ DEEPER = 1.25
 
 
 def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[Tab, ...]:
-    """Place the tabs of a job along its outsides.
+    """Place the tabs of a job along its outsides; raises DesignError where there is no room for them.
 
-    Parameters
-    ----------
-    reach
-        How far they reach outwards, mm; in a nest it is to the middle between two parts.
-    below
-        Features that are cut from the underside later, and dowels, work coordinates: no tab stands there.
-
-    Raises
-    ------
-    DesignError
-        There is no room for them.
+    They reach ``reach`` mm outwards, in a nest to the middle between two parts, and stand at nothing of
+    ``below``: features that are cut from the underside later, and dowels, work coordinates.
     """
     hold = job.settings.hold
     if hold.tab_height >= job.thickness:
@@ -57,11 +48,8 @@ def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[T
             f"cam.hold.tab_height: {hold.tab_height:g} mm is not below the thickness of {job.thickness:g} mm"
         )
     slope = math.inf if hold.tab_shape == "rectangular" else _slope(job)
-    tabs: list[Tab] = []
-    for feature in job.features:
-        if isinstance(feature, Profile) and feature.side == "outside":
-            tabs += _tabs_of(job, feature, slope, reach, below)
-    return tuple(tabs)
+    outsides = filter(is_outside, job.features)
+    return tuple(tab for feature in outsides for tab in _tabs_of(job, feature, slope, reach, below))
 
 
 def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Sequence[Feature]) -> list[Tab]:
@@ -118,8 +106,7 @@ def _slope(job: "Job") -> float:
 
 def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
     """A ramped tab with its inner end so far inside the part that no path along the wall runs around it."""
-    part = shapely.Polygon(feature.loop.flatten())
-    part = prepared(part)
+    part = prepared(shapely.Polygon(feature.loop.flatten()))
     # Where its inner end is in the part, no cutter that keeps off the part gets around it. Through cuts go on
     # down below the underside.
     half = (tab.width + slopes) / 2 + job.settings.breakthrough / tab.slope
@@ -144,12 +131,11 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
 
 def _outer_end(job: "Job", part: shapely.Polygon, tab: Tab, base: float) -> float:
     """Where a ramped tab ends: in the frame, beyond all that a cutter opens around the part."""
-    widest = max((tool.diameter for tool in job.tools if tool.kind in MILLS), default=0.0)
-    plate = shapely.box(*job.stock)
+    away, plate = 2 * widest_mill(job.tools), shapely.box(*job.stock)
     place, end = (*tab.at, tab.along), tab.ends[1]
     while not isinstance(job.part, Nest):
         outer = shapely.LineString(_corners(place, base, (0.0, end))[2:])
-        if shapely.distance(outer, part) >= 2 * widest or not shapely.intersects(outer, plate):
+        if shapely.distance(outer, part) >= away or not shapely.intersects(outer, plate):
             break
         end *= DEEPER
     return end
@@ -171,9 +157,8 @@ def _lower_floors(job: "Job") -> list[Feature]:
     height = job.settings.hold.tab_height
     return [
         feature
-        for feature in job.features
-        if not (isinstance(feature, Profile) and feature.side == "outside")
-        and TOLERANCES.noise < job.thickness - feature.top - feature.depth < height - TOLERANCES.noise
+        for feature in job.inner
+        if TOLERANCES.noise < job.thickness - feature.top - feature.depth < height - TOLERANCES.noise
     ]
 
 

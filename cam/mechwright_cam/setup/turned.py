@@ -12,18 +12,12 @@ from mechwright.contracts.part import Part
 
 @dataclass(frozen=True)
 class Frame:
-    """What tells the part from its frame, plan views, mm.
-
-    Parameters
-    ----------
-    body
-        The part without its openings: what is cut lies in it.
-    holds
-        Tabs, and the stock around dowels: they stay, whatever is drawn. Nothing of them lies in ``body``.
-    """
+    """What tells the part from its frame, plan views, mm."""
 
     body: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """The part without its openings: what is cut lies in it."""
     holds: shapely.Geometry = field(default_factory=shapely.Polygon)
+    """Tabs, and the stock around dowels: they stay, whatever is drawn. Nothing of them lies in the body."""
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,8 @@ LEAST_GRIP = 1 / 3
 
 PAIRS: dict[tuple[str, str], Literal["x", "y"]] = {("front", "rear"): "x", ("left", "right"): "y"}
 """Edges that a vice grips, and the axis along which its jaws lie."""
+INWARD = {"front": (0.0, SKIN), "rear": (0.0, -SKIN), "left": (SKIN, 0.0), "right": (-SKIN, 0.0)}
+"""A way from each edge that just enters the part, mm."""
 
 
 def can_be_clamped(part: Part) -> bool:
@@ -56,15 +58,8 @@ def gripping_height(job: "Job") -> float:
 def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
     """Place the jaws of a vice on two opposite finished edges, where no cutter goes as deep as they are.
 
-    Parameters
-    ----------
-    widest
-        Diameter of the widest end mill, mm.
-
-    Raises
-    ------
-    DesignError
-        There are no such edges, or they are too short for what is milled beside them.
+    ``widest`` is the diameter of the widest end mill, mm. Raises DesignError where there are no such edges,
+    or they are too short for what is milled beside them.
     """
     height = gripping_height(job)
     if height > job.thickness:
@@ -83,8 +78,8 @@ def lay_jaws(job: "Job", widest: float) -> tuple[Jaw, Jaw]:
             "right, in cam.stock.finished, and let the part have a straight wall at both"
         )
     length, low, axis, edges = max(found, key=lambda one: one[0])
-    x0, y0, x1, y1 = job.stock
-    least = max(LEAST_JAW, LEAST_GRIP * (x1 - x0 if axis == "x" else y1 - y0))
+    near, far = _span(job.stock, axis)
+    least = max(LEAST_JAW, LEAST_GRIP * (far - near))
     wanted = job.settings.hold.jaw_width
     limit = length if wanted is None else min(wanted, length)
     if limit < least:
@@ -129,40 +124,31 @@ def _free(
     job: "Job", edges: tuple[str, str], axis: Literal["x", "y"], height: float, widest: float
 ) -> list[tuple[float, float]]:
     """Stretches along two edges that the part touches with both, and that no cutter comes near to."""
-    x0, y0, x1, y1 = job.stock
-    lower, upper = (x0, x1) if axis == "x" else (y0, y1)
+    lower, upper = _span(job.stock, axis)
     barred = shapely.union_all(_barred(job, height, widest))
     free = shapely.LineString([(lower, 0.0), (upper, 0.0)])
     for edge in edges:
+        jaw, inward = _jaw(job, edge, lower, upper, 0.0), INWARD[edge]
+        line = shapely.transform(jaw.face, lambda points, by=inward: points + by)
         # The whole part touches the jaw, not the stock beside it: all layers that are as low as the jaw.
         for layer in sections(job.part):
             if layer.bottom > job.thickness - height:
                 shape = shapely.transform(layer.shape, lambda points: points - job.origin)
-                inside = _jaw(job, edge, lower, upper, 0.0).face
-                inward = {"front": (0, SKIN), "rear": (0, -SKIN), "left": (SKIN, 0), "right": (-SKIN, 0)}[
-                    edge
-                ]
-                line = shapely.transform(inside, lambda points, by=inward: points + by)
                 free = shapely.intersection(free, _level(shapely.intersection(line, shape), axis))
-        jaw = _jaw(job, edge, lower, upper, 0.0).shape
-        inside = shapely.intersection(jaw, barred)
-        for part in shapely.get_parts(inside):
-            a, b, c, d = part.bounds
-            low, high = (a, c) if axis == "x" else (b, d)
-            free = shapely.difference(free, shapely.LineString([(low, 0.0), (high, 0.0)]))
+        free = shapely.difference(free, _level(shapely.intersection(jaw.shape, barred), axis))
     lines = [line for line in shapely.get_parts(free) if line.geom_type == "LineString" and line.length > 0]
     return [(float(line.bounds[0]), float(line.bounds[2])) for line in lines]
 
 
-def _level(lines: shapely.Geometry, axis: Literal["x", "y"]) -> shapely.Geometry:
-    """Lines along an axis, laid on the axis X."""
-    pieces = []
-    for line in shapely.get_parts(lines):
-        a, b, c, d = line.bounds
-        low, high = (a, c) if axis == "x" else (b, d)
-        if high > low:
-            pieces.append(shapely.LineString([(low, 0.0), (high, 0.0)]))
-    return shapely.union_all(pieces)
+def _span(box: tuple[float, float, float, float], axis: Literal["x", "y"]) -> tuple[float, float]:
+    """From where to where a box reaches along an axis."""
+    return (box[0], box[2]) if axis == "x" else (box[1], box[3])
+
+
+def _level(shape: shapely.Geometry, axis: Literal["x", "y"]) -> shapely.Geometry:
+    """How far the pieces of a shape reach along an axis, laid on the axis X."""
+    spans = (_span(piece.bounds, axis) for piece in shapely.get_parts(shape))
+    return shapely.union_all([shapely.LineString([(a, 0.0), (b, 0.0)]) for a, b in spans if b > a])
 
 
 def beside(plate: shapely.Geometry, target: shapely.Geometry) -> shapely.Geometry:
@@ -178,9 +164,8 @@ def _barred(job: "Job", height: float, widest: float) -> list[shapely.Geometry]:
     # on a quarter circle: one radius along the wall, and one is the cutter's own.
     reach = widest + math.sqrt(RUN_OUT * (widest + RUN_OUT)) + CLAMP_GAP
     shapes = [away]
-    for feature in job.features:
-        outside = isinstance(feature, Profile) and feature.side == "outside"
-        if not outside and feature.top + feature.depth > job.thickness - height:
+    for feature in job.inner:
+        if feature.top + feature.depth > job.thickness - height:
             view = plan_view(feature)
             if not shapely.contains_properly(plate, view):  # it is open there, and the cutter runs out
                 shapes.append(view)

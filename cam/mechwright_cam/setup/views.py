@@ -31,6 +31,5 @@ def inside_of(feature: Feature) -> Shape:
     """The plan view of an opening, or of what an outside profile surrounds."""
     if isinstance(feature, Bore):
         radius = feature.diameter / 2
-        round_hole: Shape = shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
-        return round_hole
+        return shapely.Point(feature.centre).buffer(radius, quad_segs=quarter(radius))
     return plan_view(feature)

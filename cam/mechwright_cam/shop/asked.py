@@ -22,21 +22,8 @@ def asked(
 ) -> tuple[Part, ...]:
     """The parts as the design file asks for them; parts that are no plates as they are.
 
-    Parameters
-    ----------
-    cam
-        The table ``[cam]``.
-    own
-        Part name to the table ``[cam.part.NAME]``.
-    parts
-        As the family gives them.
-    path
-        The design file.
-
-    Raises
-    ------
-    DesignError
-        Something cannot be done; it names the key.
+    Of the table ``[cam]``, and part name to the table ``[cam.part.NAME]``. Raises DesignError that begins
+    with ``path`` and the key of what cannot be done.
     """
     plates = [part.name for part in parts if part.outline is not None]
     for name, table in own.items():

@@ -40,18 +40,7 @@ TINY = 1e-9
 
 @dataclass(frozen=True)
 class Cutter:
-    """The outline of one cutter, or with arrays (n,) of many.
-
-    Parameters
-    ----------
-    radius
-        Largest radius, mm.
-    nose
-        Radius of the corner, mm.
-    tip
-        Radius of the flat at a pointed end, mm.
-    slope
-        Growth of the radius with height on a cone; inf for a mill.
+    """The outline of one cutter, or with arrays (n,) of many; lengths in mm.
 
     Examples
     --------
@@ -68,9 +57,11 @@ class Cutter:
     """
 
     radius: Any
+    """The largest."""
     nose: Any = 0.0
     tip: Any = 0.0
     slope: Any = math.inf
+    """Growth of the radius with height on a cone; inf for a mill."""
 
     def radius_at(self, height: Any) -> Array:
         """Radius at a height above the tip, mm; that of the tip below it.
@@ -82,8 +73,7 @@ class Cutter:
         rounded = self.radius - self.nose + np.sqrt(np.maximum(self.nose**2 - short**2, 0.0))
         cone = np.isfinite(self.slope)
         pointed = self.tip + np.where(cone, self.slope, 0.0) * above
-        out: Array = np.where(cone, np.minimum(self.radius, pointed), rounded)
-        return out
+        return np.asarray(np.where(cone, np.minimum(self.radius, pointed), rounded))
 
     def height_at(self, away: Any) -> Array:
         """Height of the cutter's end above its tip at a distance from the axis, mm; inf beyond its radius."""
@@ -91,8 +81,7 @@ class Cutter:
         rounded = self.nose - np.sqrt(self.nose**2 - out_of_flat**2)
         cone = np.isfinite(self.slope)
         pointed = np.maximum(away - self.tip, 0.0) / np.where(cone, self.slope, 1.0)
-        out: Array = np.where(away <= self.radius, np.where(cone, pointed, rounded), np.inf)
-        return out
+        return np.asarray(np.where(away <= self.radius, np.where(cone, pointed, rounded), np.inf))
 
 
 def cutter(tool: Tool) -> Cutter:
@@ -123,5 +112,4 @@ def approach(tool: Tool, depth: Any) -> Array:
     deeper than the cut a, and 1 otherwise (round inserts are reckoned this way).
     """
     share = np.clip(np.asarray(depth, dtype=np.float64) / max(tool.nose, TINY), 0.0, 1.0)
-    out: Array = np.sqrt(1 - (1 - share) ** 2)
-    return out
+    return np.asarray(np.sqrt(1 - (1 - share) ** 2))

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, Millimetres
-from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.machine import Place
 from mechwright_cam.shop.posting import WorkOffset
 
 
@@ -90,15 +90,9 @@ class SecondSide(Parameters):
     dowel_diameter: Millimetres = Field(
         6.0, ge=2, le=20, description="Diameter of the dowel holes, bored beside the part on the flip axis."
     )
-    x: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine X of its work offset, if it is measured."
-    )
-    y: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Y of its work offset, if it is measured."
-    )
-    z: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Z of its work offset, if it is measured."
-    )
+    x: Place = Field(None, description="Machine X of its work offset, if it is measured.")
+    y: Place = Field(None, description="Machine Y of its work offset, if it is measured.")
+    z: Place = Field(None, description="Machine Z of its work offset, if it is measured.")
 
     @model_validator(mode="after")
     def _whole(self) -> Self:

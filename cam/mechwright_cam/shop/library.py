@@ -18,34 +18,14 @@ BUILT_IN = Path(__file__).with_name("tools.toml")
 
 @dataclass(frozen=True)
 class Library:
-    """Cutters by name, each with its own T number.
-
-    Raises
-    ------
-    DesignError
-        Two cutters have one T number; the message names both.
-    """
+    """Cutters by name, each with its own T number; a DesignError names two that share one."""
 
     tools: tuple[Tool, ...]
 
     def __post_init__(self) -> None:
-        by_number: dict[int, Tool] = {}
-        for tool in self.tools:
-            other = by_number.setdefault(tool.number, tool)
-            if other is not tool:
-                raise DesignError(
-                    f"tools {other.name!r} and {tool.name!r} both have number {tool.number}; "
-                    "give one of them another T number"
-                )
-        by_offset: dict[int, Tool] = {}
-        for tool in self.tools:
-            if tool.kind is ToolKind.END_MILL or tool.diameter_offset is not None:
-                other = by_offset.setdefault(tool.d_number, tool)
-                if other is not tool:
-                    raise DesignError(
-                        f"tools {other.name!r} and {tool.name!r} both have D number {tool.d_number}; "
-                        "give one of them another diameter_offset"
-                    )
+        _check_apart("number", "T number", [(tool.number, tool) for tool in self.tools])
+        compensated = [t for t in self.tools if t.kind is ToolKind.END_MILL or t.diameter_offset is not None]
+        _check_apart("D number", "diameter_offset", [(tool.d_number, tool) for tool in compensated])
 
     def __iter__(self) -> Iterator[Tool]:
         return iter(self.tools)
@@ -71,24 +51,25 @@ class Library:
         """The library with cutting data of a design over its own, by the name of the tool.
 
         They hold for every material that the tool cuts. With a speed and a chip load they also stand for a
-        material that the library has no data for.
-
-        Raises
-        ------
-        ToolError
-            There is no such tool.
+        material that the library has no data for. Raises ToolError where there is no such tool.
         """
         return self.extended(tuple(_changed(self.get(name), change) for name, change in changes.items()))
 
     def measured(self, lengths: Mapping[str, float]) -> "Library":
         """The library with lengths as measured, mm, by the name of the tool."""
-        known = ((tool, lengths.get(tool.name, tool.length)) for tool in self.tools)
-        return Library(
-            tuple(
-                tool if length == tool.length else tool.model_copy(update={"length": length})
-                for tool, length in known
+        known = [tool for tool in self.tools if lengths.get(tool.name, tool.length) != tool.length]
+        return self.extended(tuple(t.model_copy(update={"length": lengths[t.name]}) for t in known))
+
+
+def _check_apart(what: str, key: str, numbers: list[tuple[int, Tool]]) -> None:
+    known: dict[int, Tool] = {}
+    for number, tool in numbers:
+        other = known.setdefault(number, tool)
+        if other is not tool:
+            raise DesignError(
+                f"tools {other.name!r} and {tool.name!r} both have {what} {number}; give one of them "
+                f"another {key}"
             )
-        )
 
 
 def _changed(tool: Tool, change: CuttingChange) -> Tool:
@@ -108,12 +89,8 @@ def built_in() -> Library:
 def load_library(path: Path | None = None) -> Library:
     """Give the built-in library, extended and overridden by the cutters in ``path``.
 
-    Raises
-    ------
-    OutputError
-        The file cannot be read.
-    DesignError
-        A tool in it is wrong: file, tool, key, value and limit are named, one line for each wrong key.
+    Raises OutputError where that cannot be read; DesignError that names file, tool, key, value and limit, a
+    line for each wrong key.
     """
     if path is None:
         return built_in()

@@ -14,6 +14,9 @@ from mechwright.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
 MACHINES = Path(__file__).with_name("machines.toml")
 """The machines that come with the program, by name."""
 
+Place = Annotated[Millimetres | None, Field(ge=-10000, le=10000)]
+"""A machine coordinate of one axis; None where it is not known."""
+
 
 class Machine(Parameters):
     """A three-axis mill."""
@@ -44,30 +47,16 @@ class Machine(Parameters):
         0.0, description="Wait in s for the spindle to come up to speed; 0 if the control waits by itself."
     )
     pockets: int = Field(0, ge=0, le=1000, description="Places of the tool changer; 0: no limit is known.")
-    low_x: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine X at the lower end of its travel, if it is known."
-    )
-    low_y: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Y at the lower end of its travel, if it is known."
-    )
-    low_z: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Z at the lower end of its travel, if it is known."
-    )
+    low_x: Place = Field(None, description="Machine X at the lower end of its travel, if it is known.")
+    low_y: Place = Field(None, description="Machine Y at the lower end of its travel, if it is known.")
+    low_z: Place = Field(None, description="Machine Z at the lower end of its travel, if it is known.")
     retract_z: Millimetres = Field(
         0.0, ge=-10000, le=10000, description="Machine Z of a full retract, the upper end of travel."
     )
-    change_x: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine X where tools are changed; by default it stays."
-    )
-    change_y: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Y where tools are changed; by default it stays."
-    )
-    home_x: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine X at the program's end; by default it stays."
-    )
-    home_y: Millimetres | None = Field(
-        None, ge=-10000, le=10000, description="Machine Y at the program's end; by default it stays."
-    )
+    change_x: Place = Field(None, description="Machine X where tools are changed; by default it stays.")
+    change_y: Place = Field(None, description="Machine Y where tools are changed; by default it stays.")
+    home_x: Place = Field(None, description="Machine X at the program's end; by default it stays.")
+    home_y: Place = Field(None, description="Machine Y at the program's end; by default it stays.")
 
     @model_validator(mode="after")
     def _spindle(self) -> Self:

@@ -19,17 +19,8 @@ _EXCLUSIVE = ({"margin"}, {"length", "width"})
 def split(table: Mapping[str, Any], path: Path) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
     """Part the table ``[cam]`` of a file from its tables ``[cam.part.NAME]``.
 
-    Returns
-    -------
-    base
-        The table without those.
-    parts
-        Part name to what holds for that part: its table laid over ``[cam]``.
-
-    Raises
-    ------
-    DesignError
-        ``cam.part`` or a table of it is none, or a key of it holds for the whole job.
+    Gives the table without those, and part name to its table laid over ``[cam]``. Raises DesignError where
+    ``cam.part`` or a table of it is none, or a key of it holds for the whole job.
     """
     tables = table.get("part", {})
     if not isinstance(tables, Mapping):

@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Millimetres
-from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.machine import Place
 
 LEAST_CLEARANCE = 0.5
 """Rapids run at least so high over stock and clamp, mm: burrs and the setting of tools take tenths."""
@@ -58,9 +58,9 @@ the radius), or in the path with the wear at the control (D holds the difference
 class Measured(Parameters):
     """What was read at the machine; the setup sheet says how."""
 
-    x: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine X of the work offset.")
-    y: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Y of the work offset.")
-    z: Millimetres | None = Field(None, ge=-10000, le=10000, description="Machine Z of the work offset.")
+    x: Place = Field(None, description="Machine X of the work offset.")
+    y: Place = Field(None, description="Machine Y of the work offset.")
+    z: Place = Field(None, description="Machine Z of the work offset.")
     lengths: dict[str, Annotated[Millimetres, Field(ge=-1000, le=1000)]] = Field(
         default_factory=dict, description="Tool name to its length offset H."
     )

@@ -10,7 +10,7 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
-from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
+from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.posting import LEAST_CLEARANCE, Compensation, Measured, Posting, WorkOffset
 from mechwright_cam.shop.tool import CuttingChange
 

@@ -28,25 +28,16 @@ S = TypeVar("S", bound=CamSettings)
 
 @dataclass(frozen=True)
 class JobSettings:
-    """What a design file says of machining.
-
-    Parameters
-    ----------
-    cam
-        The table ``[cam]``.
-    parts
-        Part name to the settings of that part, for each table ``[cam.part.NAME]`` that says how it is cut.
-    tool_library
-        The design's own tool library; it lies in or below the folder of the file.
-    tables
-        Part name to the settings of that part, for every such table: those that ask for nothing but edges,
-        marks and holes are no reason to cut a part by itself.
-    """
+    """What a design file says of machining."""
 
     cam: CamSettings = field(default_factory=CamSettings)
+    """The table ``[cam]``."""
     parts: Mapping[str, PartSettings] = field(default_factory=dict)
+    """Part name to the settings of that part, for each table ``[cam.part.NAME]`` that says how it is cut."""
     tool_library: Path | None = None
+    """The design's own tool library; it lies in or below the folder of the file."""
     tables: Mapping[str, PartSettings] = field(default_factory=dict)
+    """The same for every such table: edges, marks and holes alone are no reason to cut a part by itself."""
 
     def of(self, part: str) -> CamSettings:
         """The settings that a part is made with: its own, or those of the whole job."""

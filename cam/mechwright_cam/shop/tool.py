@@ -1,5 +1,6 @@
 """Cutters, and how they cut a material."""
 
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import Annotated, Literal, Self
 
@@ -7,7 +8,6 @@ from pydantic import Field, model_validator
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio
-from mechwright_cam.shop.machine import Machine as Machine  # families and CAM know it from here
 
 
 class ToolKind(StrEnum):
@@ -118,3 +118,8 @@ class Tool(Parameters):
     def nose(self) -> float:
         """Radius of the rounded corner between end and side, mm: 0 for a flat end, the radius for a ball."""
         return self.radius if self.kind is ToolKind.BALL else self.corner_radius
+
+
+def widest_mill(tools: Iterable[Tool]) -> float:
+    """Diameter of the widest mill among some tools, mm; 0 without any."""
+    return max((tool.diameter for tool in tools if tool.kind in MILLS), default=0.0)

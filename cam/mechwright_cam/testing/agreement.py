@@ -78,7 +78,7 @@ def _cuts(program: Program) -> Iterator[tuple[ToolSection, tuple[float, float, f
 def assert_one_d(control: Control, job: Job, program: Program) -> None:
     """The text, the file of offsets and the setup sheet have the same quantity and value for every D."""
     text = control.write(program).lower()
-    page = setup_html([(job, program, None)], control)
+    page = setup_html(job, program, None, control)
     _, table = control.offset_table(program.tools, job.settings)
     for tool in program.compensated:
         offset = control.offsets.d_offset(tool, program.posting, program.compensation, program.wear_limit)

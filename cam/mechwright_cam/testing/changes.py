@@ -32,16 +32,10 @@ def _changed_move(move: Move) -> Iterator[tuple[str, Move]]:
         yield "the direction", replace(move, ccw=not move.ccw)
     # The rest of an arc hangs together: one number alone would leave no circle.
     free = {"z", "feed"} if isinstance(move, FeedArc) else {item.name for item in fields(move)}
-    if isinstance(move, Drill):
-        free -= {"breaking"}
-        if move.peck is not None and move.dwell == 0:  # a hole in one go breaks no chips
-            yield "the breaking of chips", replace(move, breaking=not move.breaking)
-    for name in sorted(free):
+    if isinstance(move, Drill) and move.peck is not None and move.dwell == 0:  # one go breaks no chips
+        yield "the breaking of chips", replace(move, breaking=not move.breaking)
+    for name in sorted(free - {"breaking"}):
         value = getattr(move, name)
         # A dwell of nothing is no dwell, and not every control can dwell in every cycle.
-        if name == "breaking" and isinstance(move, Drill):
-            # How a peck ends matters only where there are pecks.
-            if move.peck is not None:
-                yield name, replace(move, breaking=not move.breaking)
-        elif value is not None and not (name == "dwell" and value == 0):
+        if value is not None and not (name == "dwell" and value == 0):
             yield name, replace(move, **{name: value + _STEP})

@@ -188,7 +188,7 @@ class ControlContract:
     def test_the_sheet_says_whether_lengths_are_kept(self) -> None:
         """The setup sheet asks for H where the control keeps lengths, and there alone."""
         job, program = plate_job(), self.program()
-        page = setup_html([(job, program, None)], self.control())
+        page = setup_html(job, program, None, self.control())
         kept = self.control.offsets.lengths
         assert ("Offsets to type in" in page) == kept
         assert ("The control keeps no lengths" in page) != kept

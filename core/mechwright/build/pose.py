@@ -13,12 +13,8 @@ SAMPLES = 3601
 def sample_at(motion: Motion, text: str) -> int:
     """The sample whose input is nearest to ``text``, such as ``"40 deg"``.
 
-    A number alone is in degrees, or in the input's own unit where that is no angle.
-
-    Raises
-    ------
-    DesignError
-        The text is no such quantity, or the motion does not reach it.
+    A number alone is in degrees, or in the input's own unit where that is no angle. Raises DesignError for a
+    text that is no such quantity, and for one that the motion does not reach.
     """
     channel = motion.channels[motion.input_name]
     turns = channel.unit == "rad"

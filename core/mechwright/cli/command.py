@@ -20,7 +20,7 @@ OutputFolder = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Samples = Annotated[int, typer.Option(min=2, max=1_000_000, help="Samples of the motion over one period.")]
 Also = Annotated[
-    str, typer.Option(metavar="FORMATS", help="More formats for the solids, such as stl,3mf,glb.")
+    str, typer.Option(metavar="FORMATS", help="More formats for the solids, such as stl,3mf,glb,mjcf.")
 ]
 Curves = Annotated[
     str,

@@ -64,14 +64,21 @@ class Check(Command):
     name = "check"
     order = 30
 
-    def run(self, design: DesignFile, as_json: AsJson = False) -> None:
+    def run(
+        self,
+        design: DesignFile,
+        as_json: AsJson = False,
+        tolerances: Annotated[
+            bool, typer.Option("--tolerances", help="What tolerances do: sensitivities, worst case, yield.")
+        ] = False,
+    ) -> None:
         """Say what an engineer would object to.
 
         The exit code is 1 if something forbids building.
         """
         from mechwright.cli import check
 
-        check.check(design, as_json)
+        check.check(design, as_json, tolerances)
 
 
 class Solve(Command):

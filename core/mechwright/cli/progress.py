@@ -3,18 +3,14 @@
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.progress import Progress
 
 
-class Step(Protocol):
-    """Called when a piece of work begins; says what it is."""
-
-    def __call__(self, what: str) -> None:
-        """Begin the next piece of work."""
-        ...
+Step = Callable[[str], None]
+"""Called when a piece of work begins; says what it is."""
 
 
 @contextmanager

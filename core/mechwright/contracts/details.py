@@ -107,19 +107,11 @@ def moved(detail: Detail, x: float, y: float, angle: float = 0.0) -> Detail:
 
 
 def band_of(chamfer: Chamfer, depth: float, tolerance: float) -> "shapely.Geometry":
-    """What a chamfer takes at a depth, seen from above, mm: a band along its edge, with mitred corners.
+    """What a chamfer takes ``depth`` mm below the top face, seen from above: a band with mitred corners, mm.
 
-    Parameters
-    ----------
-    chamfer
-        The edge; its neighbours are not asked.
-    depth
-        Below the top face, 0 to the chamfer's width, mm.
-    tolerance
-        Chord error of the loop, mm.
+    The depth is 0 to the chamfer's width, ``tolerance`` the chord error of the loop, mm; neighbours of the
+    edge are not asked.
 
-    Examples
-    --------
     >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
     >>> band_of(Chamfer("rim", square, "outside", 1.0), 0.0, 0.001).area  # 100 - 8 x 8
     36.0

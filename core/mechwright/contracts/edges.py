@@ -19,15 +19,8 @@ def deburred(part: Part, width: float) -> Part:
     """The plate with all edges of its top face broken at 45 degrees, ``width`` mm wide.
 
     Edges that have a chamfer keep it. What starts below the top face, or in the middle of a recess, has no
-    edge there.
+    edge there. Raises GeometryError where a recess, or the plate, is no deeper than the chamfer.
 
-    Raises
-    ------
-    GeometryError
-        A recess, or the plate, is no deeper than the chamfer.
-
-    Examples
-    --------
     >>> from mechwright.geometry import Outline
     >>> square = Loop.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
     >>> [edge.name for edge in deburred(Part("plate", Outline(square), 5.0, "steel"), 0.3).details]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Exporter(Plugin):
-    """Writes parts in one file format. The same parts give the same bytes."""
+    """Writes parts, or the mechanism of them, in one file format. The same parts give the same bytes."""
 
     kind = "exporter"
     plural = "formats"
@@ -27,8 +27,8 @@ class Exporter(Plugin):
     has to write the same bytes."""
 
     @abstractmethod
-    def part(self, part: "Part") -> bytes:
-        """One part by itself, in its own coordinates."""
+    def part(self, part: "Part") -> bytes | None:
+        """One part by itself, in its own coordinates; None if the format holds whole mechanisms alone."""
 
     def assembly(
         self,

@@ -11,9 +11,13 @@ from mechwright.contracts.plugin import Plugin
 if TYPE_CHECKING:
     import shapely
 
+    from mechwright.contracts.as_made import AsMade
+    from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
+    from mechwright.contracts.tolerance_settings import Tolerances
+    from mechwright.contracts.tolerances import ToleranceModel
 
 P = TypeVar("P", bound=Parameters)
 
@@ -88,6 +92,53 @@ class Family(Plugin, Generic[P]):
             finds nothing: the remainder is reported by the proof all the same.
         """
         return ()
+
+    def as_made(
+        self,
+        params: P,  # noqa: ARG002 - used by families whose parts mate
+        made: "Mapping[str, Sequence[MadePart]]",  # noqa: ARG002
+    ) -> "AsMade":
+        """Say how the mechanism runs with parts as their programs leave them.
+
+        Parameters
+        ----------
+        params
+            The design.
+        made
+            Part name to its copies as they come off the machine; one where every copy is cut by the same
+            program.
+
+        Returns
+        -------
+        as_made
+            Figures and curves over the corridor of the path and the tolerances of what is not made here;
+            an error where it cannot be put together or does not turn, whose remedy has been tried. The
+            default says nothing.
+        """
+        from mechwright.contracts.as_made import AsMade
+
+        return AsMade()
+
+    def tolerances(
+        self,
+        params: P,  # noqa: ARG002 - used by families that have an analysis
+        tolerances: "Tolerances",  # noqa: ARG002
+    ) -> "ToleranceModel | None":
+        """How deviations of dimensions and joints change what the mechanism does.
+
+        Parameters
+        ----------
+        params
+            A design whose ``check`` finds no error of the motion.
+        tolerances
+            What the design file allows; it makes the contributors.
+
+        Returns
+        -------
+        model
+            None, the default, if the family has no tolerance analysis.
+        """
+        return None
 
     def synthesise(
         self,

@@ -67,6 +67,41 @@ class Finding:
     remedy: str = ""
     stage: Stage = Stage.MOTION
 
+    @classmethod
+    def error(
+        cls,
+        code: str,
+        parameter: str,
+        message: str,
+        value: float | None = None,
+        limit: float | None = None,
+        unit: str = "",
+        remedy: str = "",
+        stage: Stage = Stage.MOTION,
+    ) -> "Finding":
+        """An error; the arguments are those of the class."""
+        return cls(code, Severity.ERROR, parameter, message, value, limit, unit, remedy, stage)
+
+    @classmethod
+    def warning(
+        cls,
+        code: str,
+        parameter: str,
+        message: str,
+        value: float | None = None,
+        limit: float | None = None,
+        unit: str = "",
+        remedy: str = "",
+        stage: Stage = Stage.MOTION,
+    ) -> "Finding":
+        """A warning; the arguments are those of the class."""
+        return cls(code, Severity.WARNING, parameter, message, value, limit, unit, remedy, stage)
+
+    @classmethod
+    def note(cls, code: str, message: str, value: float | None = None, unit: str = "") -> "Finding":
+        """A figure worth knowing: about no parameter, compared with nothing, nothing to do."""
+        return cls(code, Severity.NOTE, "", message, value, unit=unit)
+
     def __str__(self) -> str:
         where = f"{self.parameter}: " if self.parameter else ""
         cure = f"; {self.remedy}" if self.remedy else ""

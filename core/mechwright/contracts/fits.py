@@ -5,14 +5,12 @@ middle, so that cutter and machine may err to both sides.
 """
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from mechwright.errors import GeometryError
 
 HoleClass = Literal["F7", "H7", "N7", "P7"]
 """F7 runs on an h6 pin, H7 locates, N7 holds with light blows, P7 is pressed."""
-
-CLASSES: tuple[HoleClass, ...] = get_args(HoleClass)
 
 _STEPS = (3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0)
 """Ranges of basic sizes, over the one and up to and including the next, mm (ISO 286-1)."""
@@ -31,19 +29,8 @@ _LOWER: dict[HoleClass, tuple[int, ...]] = {
 
 @dataclass(frozen=True)
 class Fit:
-    """Limits of a hole.
+    """Limits of a hole: basic size, tolerance class, and limit deviations; mm.
 
-    Parameters
-    ----------
-    size
-        Basic size, mm.
-    name
-        Tolerance class.
-    lower, upper
-        Limit deviations, mm.
-
-    Examples
-    --------
     >>> fit = hole_fit(6, "H7")
     >>> fit.text, fit.middle
     ('6 H7 (0/+0.012)', 6.006)

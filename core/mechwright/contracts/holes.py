@@ -1,21 +1,48 @@
 """Holes of a plate made to a fit, or threaded: the same hole in the outline, the features and the details."""
 
 import math
+import re
 from dataclasses import replace
 
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import HoleClass, hole_fit
-from mechwright.contracts.part import Bore, Part, Profile
+from mechwright.contracts.part import Bore, Part, is_outside
 from mechwright.contracts.sections import plan_view
-from mechwright.contracts.threads import COARSE, metric
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.tolerances import TOLERANCES
 
+COARSE = {
+    1.6: 0.35, 2: 0.4, 2.5: 0.45, 3: 0.5, 3.5: 0.6, 4: 0.7, 5: 0.8, 6: 1, 7: 1, 8: 1.25, 10: 1.5, 12: 1.75,
+    14: 2, 16: 2, 18: 2.5, 20: 2.5, 22: 2.5, 24: 3, 27: 3, 30: 3.5, 33: 3.5, 36: 4, 39: 4, 42: 4.5, 45: 4.5,
+    48: 5, 52: 5, 56: 5.5, 60: 5.5, 64: 6,
+}  # fmt: skip
+"""Nominal diameter to coarse pitch, mm (ISO 261)."""
+
+_THREAD = re.compile(r"M(\d+(?:\.\d+)?)(?:\s*[x×]\s*(\d+(?:\.\d+)?))?")
 CLEARANCE = 1.2
 """A clearance hole is at most so many times as wide as its screw (ISO 273, medium: 2.4 mm for M2)."""
 PLAY = 0.25
 """A hole may be drawn narrower than the core of its thread by so many pitches: as a tapping drill is."""
+
+
+def metric(designation: str) -> tuple[float, float]:
+    """Nominal diameter and pitch of a thread, mm; the coarse pitch if none is said.
+
+    Raises GeometryError for what is no such designation, has no coarse pitch, or too coarse a one.
+
+    >>> metric("M6"), metric("M8x1")
+    ((6.0, 1.0), (8.0, 1.0))
+    """
+    found = _THREAD.fullmatch(designation.strip())
+    if found is None:
+        raise GeometryError(f"{designation!r} is no metric thread; write M6, or M6x0.75 for a fine pitch")
+    diameter = float(found[1])
+    if found[2] is None and diameter not in COARSE:
+        raise GeometryError(f"{designation} has no coarse pitch in ISO 261; say which, as M{diameter:g}x1")
+    pitch = float(found[2] or COARSE[diameter])
+    Thread("thread", (0.0, 0.0), diameter, pitch, 1.0)  # says what is wrong with the pitch
+    return diameter, float(pitch)
 
 
 def hole(part: Part, name: str) -> Bore:
@@ -31,10 +58,7 @@ def hole(part: Part, name: str) -> Bore:
 def fitted(part: Part, name: str, fit: HoleClass) -> Part:
     """The part with a hole made to the middle of a tolerance class of its own size.
 
-    Raises
-    ------
-    GeometryError
-        There is no such hole, or it is larger than the tables of fits.
+    Raises GeometryError where there is no such hole, or it is larger than the tables of fits.
     """
     bore = hole(part, name)
     limits = hole_fit(bore.diameter if bore.fit is None else bore.fit.size, fit)
@@ -44,20 +68,10 @@ def fitted(part: Part, name: str, fit: HoleClass) -> Part:
 def threaded(part: Part, name: str, designation: str, depth: float | None = None) -> Part:
     """The part with a hole threaded from the top face on; the hole gets the core diameter.
 
-    Parameters
-    ----------
-    part, name
-        The plate, and the name of a hole that starts at its top face.
-    designation
-        Such as ``"M6"`` or ``"M6x0.75"``.
-    depth
-        Of the last full turn, mm; left out, all through, or one pitch less than a blind hole.
-
-    Raises
-    ------
-    GeometryError
-        There is no such hole; it is much wider than the thread, or narrower; it is less deep; or less than
-        one pitch of the plate would stay round the thread.
+    The ``designation`` is such as ``"M6"`` or ``"M6x0.75"``, the ``depth`` that of the last full turn, mm;
+    left out it is all through, or one pitch less than a blind hole. Raises GeometryError where there is no
+    hole of this name at the top face; it is much wider than the thread, or narrower; it is less deep; or less
+    than one pitch of the plate would stay round the thread.
     """
     bore = hole(part, name)
     nominal, pitch = metric(designation)
@@ -144,8 +158,7 @@ def _wall(part: Part, bore: Bore) -> float:
     axis = shapely.Point(bore.centre)
     walls = [shapely.boundary(shapely.Polygon(part.outline.outer.flatten()))]
     for feature in part.features:
-        outside = isinstance(feature, Profile) and feature.side == "outside"
         coaxial = isinstance(feature, Bore) and math.dist(feature.centre, bore.centre) < TOLERANCES.closure
-        if not outside and not coaxial:
+        if not is_outside(feature) and not coaxial:
             walls.append(shapely.boundary(plan_view(feature)))
     return float(min(shapely.distance(axis, wall) for wall in walls))

@@ -6,7 +6,21 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.errors import KinematicsError
+from mechwright.contracts.joint import Joint, check_bodies
+from mechwright.errors import DesignError, KinematicsError
+
+
+def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
+    """Input angles (samples,), rad, from ``start`` over ``travel``, both ends included.
+
+    Raises
+    ------
+    DesignError
+        Fewer than two samples.
+    """
+    if samples < 2:
+        raise DesignError(f"samples: {samples} are too few for a motion; take at least 2")
+    return np.linspace(start, start + travel, samples)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +97,14 @@ class Motion:
         Figures of the whole motion (maxima, ratios), name to value and unit.
     traces
         Points whose paths are drawn, by name: the coupler point of a linkage.
+    joints
+        How the bodies hold each other, by name; empty where the family does not say.
 
     Raises
     ------
     KinematicsError
         The input is no channel, a channel or body has another number of samples than the input, or a trace
-        is that of no body.
+        or joint is that of no body.
     """
 
     input_name: str
@@ -96,6 +112,7 @@ class Motion:
     poses: Mapping[str, Poses] = field(default_factory=dict)
     scalars: Mapping[str, Scalar] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
+    joints: Mapping[str, Joint] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.input_name not in self.channels:
@@ -115,6 +132,7 @@ class Motion:
                 raise KinematicsError(
                     f"the trace {name!r} is a point of body {trace.body!r}, which has no poses"
                 )
+        check_bodies(self.joints, self.poses.keys())
 
     def path(self, name: str) -> Array:
         """Path (n, 3), mm, of the trace ``name``."""

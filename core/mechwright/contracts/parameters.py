@@ -1,8 +1,23 @@
-"""Base of all tables of a design file."""
+"""Base of all tables of a design file, and what is kept of the designs that were asked for last."""
 
-from typing import Any, get_args
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
+
+if TYPE_CHECKING:
+    from functools import _lru_cache_wrapper
+
+T = TypeVar("T")
+
+KEPT = 32
+"""Designs of which a function's result is kept: checks, motion and parts ask for the same one."""
+
+
+def kept(function: Callable[..., T]) -> "_lru_cache_wrapper[T]":
+    """Compute what a function says of a design once."""
+    return lru_cache(KEPT)(function)
 
 
 class Parameters(BaseModel):

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeGuard
 
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
@@ -52,6 +52,11 @@ class Profile:
     top: float
     depth: float
     tab_sites: tuple[tuple[Point, float], ...] = ()
+
+
+def is_outside(feature: object) -> TypeGuard[Profile]:
+    """Whether a feature is the rim of a part, around which everything else lies."""
+    return isinstance(feature, Profile) and feature.side == "outside"
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """What stands of a plate at each height: the outline, less the recesses that reach that height.
 
 A recess that reaches beyond the outline is open there, and nothing of it stands in the opening. Solids, mass,
-pictures and interference ask here, so that a part is the same in all of them. Chamfers
-count in the volume; layers do not show them.
+pictures and interference ask here, so that a part is the same in all of them. Layers do not show chamfers;
+``mechwright.contracts.moments`` counts them.
 """
 
 import math
@@ -11,22 +11,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mechwright.contracts.details import Chamfer, band_of
-from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.geometry import circle
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
     import shapely
 
-FINE = 1e-5
-"""Chord error of the polygons that a volume is made of, mm: a millionth of the volume of any part in use."""
 STEPS = 8
 """Layers of a fillet: in between a wall of 3 mm fillet is 0.6 mm off at most, and never too small."""
-NODES = 16
-"""Places at which a fillet is measured for its volume: exact to far below FINE where its shape is regular."""
 ROUND = 64
 """Chords per quarter circle around the ends of walls."""
 
@@ -107,10 +100,10 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten, steps: int = STE
     if part.outline is None:
         return ()
     round_floors = [f for f in blind(part) if isinstance(f, Pocket) and f.floor_radius > 0] if steps else []
-    plain = _layers(part, tolerance, [z for feature in round_floors for z in _heights(feature, steps)])
+    plain = plain_layers(part, tolerance, [z for feature in round_floors for z in _heights(feature, steps)])
     if not round_floors:
         return plain
-    feet = [(feature, *_foot(part, feature, plain, tolerance)) for feature in round_floors]
+    feet = [(feature, *foot(part, feature, plain, tolerance)) for feature in round_floors]
     layers = []
     for layer in plain:
         strips = [
@@ -123,7 +116,7 @@ def sections(part: Part, tolerance: float = TOLERANCES.flatten, steps: int = STE
     return tuple(layers)
 
 
-def _layers(part: Part, tolerance: float, extra: Sequence[float] = ()) -> tuple[Section, ...]:
+def plain_layers(part: Part, tolerance: float, extra: Sequence[float] = ()) -> tuple[Section, ...]:
     """The layers without fillets; ``extra`` are more depths to divide at."""
     assert part.outline is not None  # noqa: S101 - asked of plates only
     return cut_layers(part.outline.polygon(tolerance), blind(part), part.thickness, tolerance, extra)
@@ -154,8 +147,8 @@ def cut_layers(
         shape = whole
         for feature, view in zip(features, views, strict=True):
             if feature.top < middle < feature.top + feature.depth:
-                outside = isinstance(feature, Profile) and feature.side == "outside"
-                shape = shapely.intersection(shape, view) if outside else shapely.difference(shape, view)
+                stays = shapely.intersection if is_outside(feature) else shapely.difference
+                shape = stays(shape, view)
         layers.append(Section(top, bottom, shape))
     return tuple(layers)
 
@@ -169,10 +162,10 @@ def _heights(feature: Pocket, steps: int) -> list[float]:
 
 def walls(part: Part, feature: Pocket, tolerance: float = TOLERANCES.flatten) -> "shapely.Geometry":
     """The lines at which walls stand on the floor of a recess, part coordinates, mm."""
-    return _foot(part, feature, _layers(part, tolerance), tolerance)[1]
+    return foot(part, feature, plain_layers(part, tolerance), tolerance)[1]
 
 
-def _foot(
+def foot(
     part: Part, feature: Pocket, layers: Sequence[Section], tolerance: float
 ) -> "tuple[shapely.Geometry, shapely.Geometry]":
     """The floor of a recess, less what goes deeper, and the lines at which walls stand on it."""
@@ -186,66 +179,3 @@ def _foot(
     # A boundary that is the plate's own edge has no wall; both are chords of the same curve.
     lines = shapely.intersection(shapely.boundary(view), shapely.buffer(above.shape, 2 * tolerance))
     return shapely.intersection(view, below.shape), lines
-
-
-def volume(part: Part) -> float:
-    """Volume of a plate part, mm³, recesses and chamfers taken out; 0 for one built as a solid.
-
-    The plate itself is exact, what is taken out of it is right to ``FINE``.
-    """
-    if part.outline is None:
-        return 0.0
-    solid = part.outline.area * part.thickness
-    if not blind(part) and not part.details:
-        return solid
-    whole = part.outline.polygon(FINE).area
-    layers = _layers(part, FINE)
-    taken = sum((whole - layer.shape.area) * (layer.bottom - layer.top) for layer in layers)
-    solid += sum(_fillet_volume(part, f, layers) for f in blind(part)) - float(taken)
-    return solid - _chamfer_volume(part) if part.details else solid
-
-
-def _fillet_volume(part: Part, feature: Feature, layers: Sequence[Section]) -> float:
-    """Volume of a recess's fillet, mm³: Gauss' quadrature of its sections over the angle."""
-    import shapely
-
-    if not (isinstance(feature, Pocket) and feature.floor_radius > 0):
-        return 0.0
-    inside, lines = _foot(part, feature, layers, FINE)
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    angles, radius = (nodes + 1) * math.pi / 4, feature.floor_radius
-    areas = [
-        shapely.intersection(
-            inside, shapely.buffer(lines, feature.inset(radius * (1 - math.cos(angle))), quad_segs=ROUND)
-        ).area
-        for angle in angles.tolist()
-    ]
-    return float(math.pi / 4 * radius * np.sum(weights * np.sin(angles) * areas))
-
-
-DEPTHS = 2
-"""Depths at which chamfers are looked at, between those where one begins or ends: two (of Gauss) are exact,
-for the area of a band along an edge is a polynomial of degree 2."""
-BAND = 10 * FINE
-"""Chord error of the polygons along which details are cut, mm: both sides of a band have it."""
-
-
-def _chamfer_volume(part: Part) -> float:
-    """What chamfers take of the layers of a part, mm³."""
-    import shapely
-
-    layers = sections(part, BAND)
-    nodes, weights = np.polynomial.legendre.leggauss(DEPTHS)
-    chamfers = [detail for detail in part.details if isinstance(detail, Chamfer)]
-    ends = {chamfer.width for chamfer in chamfers}
-    taken = 0.0
-    for layer in layers:
-        inner = {depth for depth in ends if layer.top < depth < layer.bottom}
-        for top, bottom in pairwise(sorted({layer.top, layer.bottom} | inner)):
-            for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
-                depth = top + (bottom - top) * (1 + node) / 2
-                cut = [band_of(one, depth, BAND) for one in chamfers if depth < one.width]
-                if cut:
-                    area = shapely.intersection(layer.shape, shapely.union_all(cut)).area
-                    taken += float(area) * weight * (bottom - top) / 2
-    return taken

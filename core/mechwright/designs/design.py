@@ -38,20 +38,14 @@ HEAD = ("format", "family", "name")
 
 @dataclass(frozen=True)
 class Design:
-    """A design file that has been read and found well-formed.
+    """A design file that has been read and found well-formed; its name can be a file name.
 
     Parameters
     ----------
-    name
-        Of the design; also a file name.
-    family
-        The family that it names.
     params
         The table ``[parameters]``.
-    path
-        The file.
     digest
-        SHA-256 of its bytes.
+        SHA-256 of the bytes of the file ``path``.
     tables
         Name to value of every table that is registered; see :meth:`table`.
     readers
@@ -74,12 +68,7 @@ class Design:
     def parts(self) -> Sequence[Part]:
         """The parts as the family gives them, with what the tables ask of them.
 
-        Raises
-        ------
-        GeometryError
-            A part cannot be made.
-        DesignError
-            What a table asks cannot be done.
+        Raises GeometryError for a part that cannot be made, DesignError for what a table cannot have.
         """
         parts: Sequence[Part] = self.family.parts(self.params)
         for reader in self.readers:
@@ -90,14 +79,8 @@ class Design:
 def load(path: Path, host: Host) -> Design:
     """Read a design file.
 
-    Raises
-    ------
-    OutputError
-        The file cannot be read.
-    DesignError
-        Something in it is wrong: one line for each wrong thing.
-    PluginError
-        Its family is not installed.
+    Raises OutputError where it cannot be read; DesignError with one line for each wrong thing in it;
+    PluginError where its family is not installed.
     """
     content, digest = read_toml(path)
     tables = host.of(Table)

@@ -40,8 +40,6 @@ class Requirement:
     ----------
     name
         Stem of the names of the designs.
-    family
-        The family that it names.
     kind
         A key of ``family.requirements``.
     table
@@ -52,10 +50,8 @@ class Requirement:
         Name to the file that goes along with the designs.
     inputs
         The files that the tables name, by the names they give them.
-    path
-        The file.
     digest
-        SHA-256 of its bytes.
+        SHA-256 of the bytes of the file ``path``.
     """
 
     name: str
@@ -70,17 +66,7 @@ class Requirement:
 
 
 def load_requirement(path: Path, host: Host) -> Requirement:
-    """Read a requirement file.
-
-    Raises
-    ------
-    OutputError
-        The file cannot be read.
-    DesignError
-        Something in it is wrong, one line for each wrong thing; or its family has no synthesis.
-    PluginError
-        Its family is not installed.
-    """
+    """Read a requirement file; raises as ``load`` does, and DesignError for a family without synthesis."""
     content, digest = read_toml(path)
     registered = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))

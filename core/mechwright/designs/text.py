@@ -1,7 +1,7 @@
 """Writing design and requirement files: TOML with a comment for every key."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from pydantic import BaseModel
@@ -41,7 +41,7 @@ def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
         f"name = {toml(name)}",
     ]
     for table in tables:
-        lines += ["", *table]
+        lines += ["", *table] if table else []
     return "\n".join(lines) + "\n"
 
 
@@ -78,11 +78,13 @@ def _limits(schema: dict[str, Any]) -> str:
 
 
 def toml(value: Any) -> str:
-    """A value as TOML writes it."""
+    """A value as TOML writes it, tables inline."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml(item) for item in value) + "]"
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(key)} = {toml(item)}" for key, item in value.items()) + "}"
     if isinstance(value, str):
         return json.dumps(str(value), ensure_ascii=False)
     return repr(value)

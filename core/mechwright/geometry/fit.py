@@ -42,18 +42,7 @@ least 98 % of the largest one."""
 def fit_curves(
     curves: Curves, count: int, tolerance: float, tag: str = ""
 ) -> tuple[list[list[BSpline]], float]:
-    """Fit each curve by a chain of Bézier segments.
-
-    Parameters
-    ----------
-    curves
-        The exact curves, smooth on [0, 1].
-    count
-        Number of curves, 1 or more.
-    tolerance
-        Largest normal distance of a segment from its curve, mm, above 0.
-    tag
-        Tag of the segments.
+    """Fit each curve by a chain of Bézier segments of one tag; see :func:`fit_nets`.
 
     Returns
     -------
@@ -61,11 +50,6 @@ def fit_curves(
         One list of segments per curve, in order; consecutive ones share their end points to the last bit.
     deviation
         The largest distance found, mm.
-
-    Raises
-    ------
-    GeometryError
-        As :func:`fit_nets`.
 
     Examples
     --------
@@ -83,7 +67,7 @@ def fit_curves(
 
 
 def fit_nets(curves: Curves, count: int, tolerance: float) -> tuple[list[Array], float]:
-    """Fit each curve by a chain of Bézier nets: the arrays behind :func:`fit_curves`.
+    """Fit each of ``count`` exact curves, smooth on [0, 1], by a chain of Bézier nets within a tolerance, mm.
 
     Interpolation at Lobatto nodes; the degree rises from 3 until every curve is within the tolerance, and
     where degree 9 is not enough all curves are cut in halves. The deviation is measured at points between
@@ -118,7 +102,7 @@ def _fit(
             f"cannot fit {count} curves: they give points of shape {exact.shape} or no numbers"
         )
     for degree in range(LOWEST_DEGREE, HIGHEST_DEGREE + 1):
-        nodes, inverse = _interpolation(degree)
+        nodes, inverse = interpolation(degree)
         points = part(nodes)
         net = inverse @ points
         net[:, 0], net[:, -1] = points[:, 0], points[:, -1]
@@ -150,7 +134,7 @@ def _distance(net: Array, degree: int, t: Array, exact: Array) -> float:
 
 
 @cache
-def _interpolation(degree: int) -> tuple[Array, Array]:
+def interpolation(degree: int) -> tuple[Array, Array]:
     """Lobatto nodes (degree + 1,) and the matrix that turns values there into control points."""
     nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
     inverse: Array = np.linalg.inv(bernstein(degree, nodes)).astype(np.float64)

@@ -61,26 +61,11 @@ Strokes = tuple[tuple[Point, ...], ...]
 
 
 def lettering(text: str, height: float, at: Point = (0.0, 0.0), angle: float = 0.0) -> Strokes:
-    """The strokes of a line of text, mm.
+    """The strokes of a line of text, mm: letters (as capitals), digits, and ``- _ . / + :``.
 
-    Parameters
-    ----------
-    text
-        Letters (written as capitals), digits, and ``- _ . / + :``.
-    height
-        Of capitals, mm.
-    at
-        The middle of the line, at half its height.
-    angle
-        Of the line from the x axis, rad.
+    ``height`` is that of capitals, mm, ``at`` the middle of the line, at half its height, ``angle`` that from
+    the x axis, rad. Raises DesignError that lists the font for a character that is not in it.
 
-    Raises
-    ------
-    DesignError
-        A character is not in the font; the message lists what is.
-
-    Examples
-    --------
     >>> lettering("I", 6.0)
     (((0.0, -3.0), (0.0, 3.0)),)
     >>> len(lettering("M6-1", 3.5, (10.0, 0.0)))

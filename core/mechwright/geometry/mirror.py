@@ -3,7 +3,6 @@
 import math
 from typing import Literal
 
-from mechwright.errors import GeometryError
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment
 
@@ -31,8 +30,6 @@ def turned_segment(segment: Segment, about: Literal["x", "y"]) -> Segment:
         case BSpline():
             net = tuple(turned_point(point, about) for point in segment.points)
             return BSpline(segment.degree, segment.knots, net, segment.tag)
-        case _:
-            raise GeometryError(f"a segment of type {type(segment).__name__} cannot be turned over")
 
 
 def turned_over(loop: Loop, about: Literal["x", "y"]) -> Loop:

@@ -14,7 +14,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
-from mechwright.geometry.segments import Arc, Line, Point, Segment, circle
+from mechwright.geometry.segments import Arc, Line, Point, Segment
 from mechwright.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ class Loop:
 
     Examples
     --------
+    >>> from mechwright.geometry import circle
     >>> round(Loop((circle((0, 0), 1.0),)).area, 9)
     3.141592654
     """
@@ -218,13 +219,7 @@ class Outline:
         )
 
     def polygon(self, tolerance: float = TOLERANCES.flatten) -> "shapely.Polygon":
-        """The outline as a polygon within ``tolerance``, mm.
-
-        Raises
-        ------
-        GeometryError
-            The outline cuts itself.
-        """
+        """The outline as a polygon within ``tolerance``, mm; raises GeometryError where it cuts itself."""
         if tolerance not in self._polygons:
             import shapely
 
@@ -235,6 +230,3 @@ class Outline:
                 raise GeometryError(f"the outline cuts itself: {shapely.is_valid_reason(polygon)}")
             self._polygons[tolerance] = polygon
         return self._polygons[tolerance]
-
-
-__all__ = ["Loop", "Outline", "circle"]

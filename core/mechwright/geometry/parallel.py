@@ -11,21 +11,21 @@ joint
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
 from mechwright.errors import GeometryError
+from mechwright.geometry.fit import HIGHEST_DEGREE, interpolation
 from mechwright.geometry.outline import Loop
 from mechwright.geometry.segments import Arc, BSpline, Line, Point, Segment, bernstein
 from mechwright.tolerances import TOLERANCES
 
 FITTED = TOLERANCES.closure
 """Deviation of a spline's fitted parallel, mm: the CAD kernel sees none; its ends are exact."""
-DEGREE = 9
-"""Degree of fitted parallels: every CAD kernel and DXF reader takes it."""
+DEGREE = HIGHEST_DEGREE
+"""Degree of fitted parallels."""
 MOST_HALVINGS = 6
 """A span that 64 pieces do not fit is not smooth, or the distance is above its radius of curvature."""
 BETWEEN = np.linspace(0.02, 0.98, 2 * DEGREE + 5)
@@ -68,15 +68,8 @@ class Parallel:
     def joints(self, distances: Array) -> tuple[Array, Array]:
         """Parameters of every joint at distances (m,) above 0, rising.
 
-        Returns
-        -------
-        before, after
-            (n, m) on segment i where it ends, and on segment i + 1 where that begins.
-
-        Raises
-        ------
-        GeometryError
-            Two neighbours do not meet any more.
+        Gives those (n, m) on segment i where it ends, and on segment i + 1 where that begins. Raises
+        GeometryError where two neighbours do not meet any more.
         """
         segments = self.loop.segments
         pairs = zip(segments, (*segments[1:], segments[0]), strict=True)
@@ -109,17 +102,8 @@ class Parallel:
     def strip(self, segment: Segment, first: float, last: float, distance: float) -> tuple[Array, Array]:
         """A spline between two parameters, and the same moved, as Bézier pieces of one parameter.
 
-        Returns
-        -------
-        grid
-            (n + 1,) parameters at which pieces end.
-        poles
-            (2, n, DEGREE + 1, 2) control points, mm, of the spline and of its parallel.
-
-        Raises
-        ------
-        GeometryError
-            The parallel is not smooth.
+        Gives the parameters (n + 1,) at which pieces end, and control points (2, n, DEGREE + 1, 2), mm, of
+        the spline and of its parallel. Raises GeometryError for a parallel that is not smooth.
         """
         breaks = segment.breaks()
         grid = np.concatenate(([first], breaks[(breaks > first) & (breaks < last)], [last]))
@@ -141,13 +125,8 @@ class Parallel:
     def at(self, distance: float) -> Loop:
         """The parallel, one segment for each of the loop.
 
-        Raises
-        ------
-        GeometryError
-            A segment vanishes or turns back: the distance is too large for the loop.
+        Raises GeometryError where a segment vanishes or turns back: the distance is too large for the loop.
 
-        Examples
-        --------
         >>> square = Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)])
         >>> round(Parallel(square).at(1.0).area, 6), round(Parallel(square, -1).at(1.0).area, 6)
         (4.0, 36.0)
@@ -211,13 +190,6 @@ class Parallel:
             )
 
 
-@cache
-def nodes() -> tuple[Array, Array]:
-    """Lobatto nodes in [0, 1], and the matrix that makes control points of values there."""
-    at = np.asarray((1 - np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)) / 2, dtype=np.float64)
-    return at, np.asarray(np.linalg.inv(bernstein(DEGREE, at)), dtype=np.float64)
-
-
 def _spread(grid: Array, share: Array) -> Array:
     spread: Array = (grid[:-1, None] + np.diff(grid)[:, None] * share).ravel()
     return spread
@@ -225,7 +197,7 @@ def _spread(grid: Array, share: Array) -> Array:
 
 def interpolated(curve: Callable[[Array], Array], grid: Array) -> Array:
     """Control points (pieces, DEGREE + 1, d) of a curve between the places of a grid."""
-    at, inverse = nodes()
+    at, inverse = interpolation(DEGREE)
     values = curve(_spread(grid, at)).reshape(len(grid) - 1, DEGREE + 1, -1)
     poles: Array = np.einsum("ij,kjd->kid", inverse, values)
     # Ends exactly: neighbours share them.

@@ -13,7 +13,6 @@ span
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,49 +27,6 @@ _FULL_TURN_SLACK = 1e-12
 
 _MAX_DEGREE = 25
 """Degree limit of a B-spline: what the CAD kernel takes."""
-
-
-class Segment(Protocol):
-    """What every segment can do; lengths in mm, angles in rad."""
-
-    @property
-    def tag(self) -> str:
-        """What the segment is on the part."""
-        ...
-
-    @property
-    def start(self) -> Point:
-        """First point."""
-        ...
-
-    @property
-    def end(self) -> Point:
-        """Last point."""
-        ...
-
-    def at(self, t: ArrayLike) -> Array:
-        """Points (n, 2) at parameters t (n,) in [0, 1]."""
-        ...
-
-    def derivative(self, t: ArrayLike) -> Array:
-        """First derivative (n, 2) with respect to t."""
-        ...
-
-    def flatten(self, tolerance: float) -> Array:
-        """Points (n, 2) from start to end whose chords stay within ``tolerance`` of the curve."""
-        ...
-
-    def moved(self, x: float, y: float, angle: float = 0.0) -> "Segment":
-        """The segment turned by ``angle`` about the origin, then shifted."""
-        ...
-
-    def reversed(self) -> "Segment":
-        """The same curve run the other way."""
-        ...
-
-    def breaks(self) -> Array:
-        """Parameters between which the curve is smooth, 0 and 1 included."""
-        ...
 
 
 def _turned(points: Array, x: float, y: float, angle: float) -> Array:
@@ -342,6 +298,10 @@ class BSpline:
     def breaks(self) -> Array:
         """The distinct knots."""
         return np.unique(np.asarray(self.knots))
+
+
+Segment = Line | Arc | BSpline
+"""Every kind there is; whoever takes a segment takes all three."""
 
 
 def bernstein(degree: int, t: Array) -> Array:

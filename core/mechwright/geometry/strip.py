@@ -141,8 +141,6 @@ def _moved(segment: Segment, distance: float) -> list[Segment]:
 
             (chain,), _ = fit_curves(curves, 1, TOLERANCES.flatten, segment.tag)
             return list(chain)
-        case _:
-            raise GeometryError(f"a segment of type {type(segment).__name__} has no strip beside it")
 
 
 def _too_sharp(place: Point, radius: float, distance: float) -> str:

@@ -46,8 +46,6 @@ def trimmed(segment: Segment, first: float, last: float) -> Segment:
             )
         case BSpline():
             return _part_of_spline(segment, first, last)
-        case _:
-            raise GeometryError(f"a segment of type {type(segment).__name__} cannot be trimmed")
 
 
 def _part_of_spline(spline: BSpline, first: float, last: float) -> BSpline:

@@ -23,10 +23,3 @@ def compiled(function: F) -> F:
         kernel = njit(error_model="numpy")(function)
     found: F = kernel
     return found
-
-
-def inlined(function: F) -> F:
-    """Compile a function into each kernel that calls it."""
-    kernel: Any = njit(inline="always")(function)
-    found: F = kernel
-    return found

@@ -1,1 +1,1 @@
-"""Output folders and the files of a motion."""
+"""Output folders."""

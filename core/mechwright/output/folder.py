@@ -35,26 +35,11 @@ class Output:
 
 
 def write_folder(target: Path, output: Output, command: str, facts: Mapping[str, Any]) -> None:
-    """Put the files of a run into ``target`` in one step, with a manifest beside them.
+    """Put the files of a run into ``target`` in one step, with a manifest of its command and facts.
 
     The folder is new, empty, or one that an earlier run has written: its other files stay, but for those that
-    the same command wrote before and no longer writes.
-
-    Parameters
-    ----------
-    target
-        The folder; its parent exists or is made.
-    output
-        The files.
-    command
-        The command that wrote them, for the manifest.
-    facts
-        What else the manifest says: inputs and versions.
-
-    Raises
-    ------
-    OutputError
-        The folder holds files of somebody else, or cannot be written. Nothing has changed then.
+    the same command wrote before and no longer writes; its parent is made where it is not there. Raises
+    OutputError where it holds files of somebody else, or cannot be written: nothing has changed then.
     """
     target, old = _examined(target)
     try:

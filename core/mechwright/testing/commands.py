@@ -1,4 +1,4 @@
-"""The command line as a user would call it, in a process of its own."""
+"""What a fresh interpreter sees: the command line as a user would call it, and what an import brings in."""
 
 import json
 import os
@@ -8,31 +8,19 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mechwright.testing.rules import toml
+from mechwright.designs.text import toml
 
 _COLLISION = "interference.collision"
 """Code of the finding that two bodies collide."""
+HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
+"""Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
 
 
 def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]]:
-    """Run ``mechwright cam`` on a design.
+    """Run ``mechwright cam`` on the content of a design file, in an empty folder to work in.
 
-    Parameters
-    ----------
-    design
-        The content of the design file.
-    folder
-        An empty folder to work in.
-
-    Returns
-    -------
-    proofs
-        Part name to its proof, as ``proof.json`` holds it.
-
-    Raises
-    ------
-    AssertionError
-        The command failed; the message is what it printed. Or a program is missing.
+    Gives part name to its proof, as ``proof.json`` holds it. Raises AssertionError with what the command
+    printed where it failed, or where a program is missing.
     """
     output = folder / "out"
     done = _run(design, folder, "cam", "-o", output)
@@ -46,26 +34,10 @@ def machine(design: Mapping[str, Any], folder: Path) -> dict[str, dict[str, Any]
 
 
 def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list[str]:
-    """What stands in what while the mechanism of a design moves.
+    """What stands in what while the mechanism of a design moves: a message for each pair of bodies.
 
-    Parameters
-    ----------
-    design
-        The content of the design file.
-    folder
-        An empty folder to work in.
-    solids
-        Whether the mechanism has parts that are no plates: they are compared where solids are made.
-
-    Returns
-    -------
-    messages
-        One for each pair of bodies; none if the mechanism is clear.
-
-    Raises
-    ------
-    AssertionError
-        The command failed otherwise; the message is what it printed.
+    ``folder`` is an empty one to work in; with ``solids`` parts that are no plates are compared, where solids
+    are made. Raises AssertionError with what the command printed where it failed otherwise.
     """
     if solids:
         done = _run(design, folder, "model", "-o", folder / "out")
@@ -85,9 +57,26 @@ def _run(
     design: Mapping[str, Any], folder: Path, command: str, *options: str | Path
 ) -> subprocess.CompletedProcess[str]:
     file = folder / "design.toml"
-    file.write_text(toml(design), encoding="utf-8")
+    file.write_text("".join(f"{key} = {toml(value)}\n" for key, value in design.items()), encoding="utf-8")
+    return _python("-m", "mechwright", command, file, *options)
+
+
+def heavy_imports(module: str) -> list[str]:
+    """Give the heavy libraries that importing ``module`` loads; AssertionError if it cannot be imported.
+
+    >>> heavy_imports("mechwright.geometry")
+    []
+    """
+    words = f"import sys, importlib; importlib.import_module({module!r}); print(*sorted(sys.modules))"
+    done = _python("-c", words)
+    if done.returncode:
+        raise AssertionError(f"import {module} fails:\n{done.stderr}")
+    return sorted(set(done.stdout.split()) & set(HEAVY))
+
+
+def _python(*words: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(  # noqa: S603 - our own interpreter and our own words
-        [sys.executable, "-m", "mechwright", command, file, *options],
+        [sys.executable, *words],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,

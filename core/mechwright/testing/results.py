@@ -45,7 +45,7 @@ def _motion(family: Family[Any], params: Parameters) -> object:
         body: np.concatenate((item.position[:, :, None], item.rotation), axis=2).tolist()
         for body, item in motion.poses.items()
     }
-    return motion.input_name, channels, scalars, poses
+    return motion.input_name, channels, scalars, poses, dict(motion.joints)
 
 
 def _parts(family: Family[Any], params: Parameters) -> object:

@@ -11,7 +11,7 @@ import numpy as np
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.contracts.part import Bore, Part, Pocket, Profile, is_outside
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import kind
@@ -140,10 +140,7 @@ def motion_faults(motion: Motion) -> list[str]:
 def outline_faults(part: Part) -> list[str]:
     """An outline that holds no material or is further from the exact curve than it may be.
 
-    Raises
-    ------
-    GeometryError
-        The outline cuts itself.
+    Raises GeometryError for one that cuts itself.
     """
     if part.outline is None:
         return []
@@ -179,11 +176,7 @@ def _left_over(part: Part, outline: Outline) -> list[str]:
     import shapely
 
     left = shapely.union_all(
-        [
-            shapely.Polygon(feature.loop.flatten())
-            for feature in part.features
-            if isinstance(feature, Profile) and feature.side == "outside"
-        ]
+        [shapely.Polygon(feature.loop.flatten()) for feature in part.features if is_outside(feature)]
     )
     for feature in part.features:
         if feature.top + feature.depth < part.thickness - TOLERANCES.closure:
@@ -209,32 +202,3 @@ def _left_over(part: Part, outline: Outline) -> list[str]:
             f"part {part.name}: features and outline differ by {wrong:.4g} mm², {allowed:.4g} mm² is rounding"
         ]
     return []
-
-
-def toml(table: Mapping[str, Any]) -> str:
-    """Write plain data as TOML, tables inside tables inline.
-
-    >>> print(toml({"teeth": 25, "hold": {"tabs": [1.5, 2]}}), end="")
-    teeth = 25
-    hold = {"tabs" = [1.5, 2]}
-
-    Raises
-    ------
-    TypeError
-        TOML has no way to say a value.
-    """
-    return "".join(f"{key} = {_toml(value)}\n" for key, value in table.items())
-
-
-def _toml(value: Any) -> str:
-    match value:
-        case bool() | str():
-            return json.dumps(value)
-        case int() | float():
-            return repr(value)
-        case list():
-            return f"[{', '.join(map(_toml, value))}]"
-        case dict():
-            pairs = ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items())
-            return f"{{{pairs}}}"
-    raise TypeError(f"TOML cannot say {value!r}")

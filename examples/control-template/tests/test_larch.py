@@ -58,7 +58,7 @@ def test_the_setup_sheet_asks_for_what_d_holds():
     one = made()
     assert "(D24 HOLDS THE RADIUS OF T24: 3 AS PLANNED, AT MOST 0.1 MORE OR LESS)" in one.text
     name, table = LARCH.offset_table(one.program.tools, one.job.settings)
-    page = setup_html([(one.job, one.program, one.proof.as_dict())], LARCH, tool_table=name)
+    page = setup_html(one.job, one.program, one.proof.as_dict(), LARCH, tool_table=name)
     assert "<b>D24</b> = 3.000, the radius" in page
     assert "D24: enter the radius of T24 as measured (6 mm in diameter as planned)" in page
     assert "From 2.900 to 3.100 is proven" in page

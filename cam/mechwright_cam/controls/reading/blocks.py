@@ -44,16 +44,7 @@ def fail(line: int, reason: str) -> ProgramError:
 
 
 def read_block(line: int, text: str, dialect: Dialect) -> Block:
-    """Split a line into words.
-
-    Parameters
-    ----------
-    line
-        Its number, from 1.
-    text
-        The line without its end.
-    dialect
-        The control that would read it.
+    """Split a line, by its number from 1 and its text without the end, into words.
 
     Raises
     ------
@@ -137,15 +128,13 @@ def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
 
 def _explain(rest: str) -> str:
     letter = rest[0]
-    if letter in "#[O=<":
+    if letter in "#[O=<" or (letter in _LETTERS | _OTHER_AXES and rest[1:2] in {"#", "["}):
         return "parameters, expressions and O-words are not read; post the program without them"
     if letter == "%":
         return "a % stands in a line of its own"
     if letter == "/":
         return "a / stands at the start of its line"
     if letter in _LETTERS | _OTHER_AXES:
-        if rest[1:2] in {"#", "["}:
-            return "parameters, expressions and O-words are not read; post the program without them"
         return f"{letter} is followed by no number: {rest[:12]!r}"
     return f"{letter!r} starts no word: {rest[:12]!r}"
 
@@ -164,11 +153,9 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
             raise fail(block.line, "a line number stands at the start of its line")
     elif letter == "O":
         raise fail(block.line, _explain("O"))
-    elif letter in POLAR and not dialect.macros:
-        raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in _OTHER_AXES:
         raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")
-    elif letter not in _LETTERS | POLAR:
+    elif letter not in (_LETTERS | POLAR if dialect.macros else _LETTERS):
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in block.words:
         raise fail(block.line, f"two {letter} words")

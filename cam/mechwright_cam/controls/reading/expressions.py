@@ -50,12 +50,7 @@ _BINARY: tuple[dict[str, Callable[[float, float], float]], ...] = (
 class Reader:
     """Reads values out of a line without blanks, in small letters.
 
-    Parameters
-    ----------
-    text
-        The line.
-    value
-        Gives the value of a parameter, by number or name; raises ValueError if it has none.
+    ``value`` gives the value of a parameter, by number or name; it raises ValueError if it has none.
     """
 
     def __init__(self, text: str, value: Callable[[float | str], float]) -> None:

@@ -18,17 +18,7 @@ HIGHEST_PARAMETER = 5000
 
 
 class Machine(Moving):
-    """The machine while a program runs; lengths in mm.
-
-    Parameters
-    ----------
-    dialect
-        The control.
-    upper_end
-        Machine Z of a full retract, mm.
-    diameters
-        D number to diameter, mm.
-    """
+    """The machine while a program runs; lengths in mm."""
 
     def __init__(self, dialect: Dialect, upper_end: float, diameters: Mapping[int, float]) -> None:
         super().__init__(dialect)
@@ -77,7 +67,8 @@ class Machine(Moving):
         if block.m:
             self._spindle_and_coolant(block)
         if 40 in block.g:
-            seconds = self._waiting(block, words)
+            bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
+            seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")
             if seconds < 0:
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
@@ -92,14 +83,6 @@ class Machine(Moving):
         if words:
             raise fail(block.line, f"{next(iter(words))} means nothing in this line")
         self._stop(block)
-
-    def _waiting(self, block: Block, words: dict[str, float]) -> float:
-        """The time of G4, s."""
-        bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
-        if bare is not None and "X" in words:
-            return words.pop("X") * (bare if "X" in block.bare else unit)
-        seconds = self._take(block, "P", "G4 needs a time, P")
-        return seconds * (bare if bare is not None and "P" in block.bare else unit)
 
     def _check_codes(self, block: Block) -> None:
         for code in block.g:

@@ -1,6 +1,7 @@
-"""Programming in programs: parameters, expressions, and O-words (loops, branches, subroutines) of LinuxCNC.
+"""The lines of a program in the order of running: as they stand, or as the program works them out.
 
-What comes out is plain lines, one at a time, so that each value is worked out when the machine gets there.
+LinuxCNC has parameters, expressions and O-words (loops, branches, subroutines) in programs. What comes out of
+them is plain lines, one at a time, so that each value is worked out when the machine gets there.
 
 Glossary
 --------
@@ -17,8 +18,35 @@ from dataclasses import dataclass, field
 
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.expressions import Reader
-from mechwright_cam.controls.reading.lines import Lines
 from mechwright_cam.controls.reading.parameters import check_writable
+
+_USES = re.compile(
+    r"^(?:[^(;\n]|\([^)\n]*\))*?[#\[]|^\s*(?:n\d+\s*)?/?o\s*[\d<\[]", re.IGNORECASE | re.MULTILINE
+)
+
+
+def uses_macros(text: str) -> bool:
+    """Whether a program has anything that is not plain words.
+
+    >>> uses_macros("G0 X1 (#5)"), uses_macros("G0 X#5"), uses_macros("O100 sub")
+    (False, True, True)
+    """
+    return _USES.search(text) is not None
+
+
+class Lines:
+    """The lines of a program, one after the other; whoever has run some more of them moves ``at`` on."""
+
+    def __init__(self, lines: list[str]) -> None:
+        self.lines = lines
+        self.at = 0
+
+    def run(self) -> Iterator[tuple[int, str]]:
+        """Index and text of each line that the machine has to obey, in the order of running."""
+        while self.at < len(self.lines):
+            self.at += 1
+            yield self.at - 1, self.lines[self.at - 1]
+
 
 MOST_LINES = 1_000_000
 """A program that runs more lines than this is taken for an endless loop."""
@@ -46,14 +74,8 @@ class _Frame:
 class Macros(Lines):
     """The same, of a program that works out its values and its way.
 
-    Parameters
-    ----------
-    lines
-        All its lines.
-    system
-        Gives the value of a parameter that the machine keeps; raises ValueError if it keeps none such.
-    returned
-        Called when a subroutine ends: the machine looks anew where it stands.
+    ``system`` gives the value of a parameter that the machine keeps, and raises ValueError if it keeps none
+    such; ``returned`` is called when a subroutine ends: the machine looks anew where it stands.
     """
 
     def __init__(

@@ -52,6 +52,12 @@ class Modal(Compensation):
         except KeyError:
             raise fail(block.line, missing) from None
 
+    def _waiting(self, block: Block, letter: str, missing: str) -> float:
+        """A time, s: without a point it may be in another unit."""
+        bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
+        value = self._take(block, letter, missing)
+        return value * (bare if bare is not None and letter in block.bare else unit)
+
     def _whole(self, block: Block, letter: str, value: float) -> int:
         if value < 0 or value != int(value):
             raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")

@@ -1,6 +1,7 @@
 """Moves that need more than a plain line says: polar places, arcs of every form, machine places, cycles."""
 
 import math
+from collections.abc import Collection
 
 from mechwright_cam.controls.reading.arcs import centre_of, sweep_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
@@ -68,23 +69,21 @@ class Moving(Modal):
         if not named and not self.dialect.bare_home:
             raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
         axes = named or list(AXES)
-        aside = "X" in axes or "Y" in axes
         if words.keys() & set(AXES):
             via = self._target(block, words)
             here = (self.x, self.y, self.z)
             if any(a != b and not (math.isnan(a) and math.isnan(b)) for a, b in zip(via, here, strict=True)):
-                self._mark(aside)
+                self._mark("X" in axes or "Y" in axes)
                 self._row(Kind.RAPID, block.line, *via)
-        self._mark(aside)
-        self._row(
-            Kind.HOME,
-            block.line,
-            math.nan if "X" in axes else self.x,
-            math.nan if "Y" in axes else self.y,
-            math.inf if "Z" in axes else self.z,
-        )
+        self._home_axes(block.line, axes, math.inf)
         if "Z" in axes and self.dialect.home_cancels_length:
             self._set(length_offset=None, length=None)
+
+    def _home_axes(self, line: int, axes: Collection[str], z: float) -> None:
+        """Take some axes to places that the work does not know; of Z it may."""
+        self._mark("X" in axes or "Y" in axes)
+        x, y = (math.nan if axis in axes else here for axis, here in (("X", self.x), ("Y", self.y)))
+        self._row(Kind.HOME, line, x, y, z if "Z" in axes else self.z)
 
     def _mark(self, machine_xy: bool) -> None:
         """Tell of the next step whether it takes X or Y to a place that the work does not know."""
@@ -104,13 +103,8 @@ class Moving(Modal):
         axes = {axis: words.pop(axis) for axis in AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
-        x = math.nan if "X" in axes else self.x
-        y = math.nan if "Y" in axes else self.y
-        z = self.z
-        if "Z" in axes:
-            z = math.inf if axes["Z"] * self.scale >= self.upper_end else math.nan
-        self._mark("X" in axes or "Y" in axes)
-        self._row(Kind.HOME, block.line, x, y, z)
+        high = axes.get("Z", math.nan) * self.scale >= self.upper_end
+        self._home_axes(block.line, axes, math.inf if high else math.nan)
 
     def _target(self, block: Block, words: dict[str, float]) -> tuple[float, float, float]:
         here = {"X": self.x, "Y": self.y, "Z": self.z}
@@ -198,7 +192,7 @@ class Moving(Modal):
         start, end = (here[a], here[b]), (target[a], target[b])
         if not all(map(math.isfinite, (*here.values(), *target.values()))):
             raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
-        radius = self._check_arc(line, start, end, centre)
+        radius, _ = self._check_arc(line, start, end, centre)
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
@@ -218,9 +212,8 @@ class Moving(Modal):
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
         for letter in "ZRQP":
             if letter in words:
-                bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
-                time = bare if bare is not None and letter in block.bare else unit
-                self.sticky[letter] = words.pop(letter) * (time if letter == "P" else self.scale)
+                time = self._waiting(block, "P", "") if letter == "P" else words.pop(letter) * self.scale
+                self.sticky[letter] = time
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
         if words.keys() & POLAR:
             here["X"], here["Y"] = self._polar(block, words, self.x, self.y)

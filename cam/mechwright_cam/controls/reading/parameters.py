@@ -16,17 +16,10 @@ _KEPT = (
 _NAMES = frozenset(
     (
         *("_abs_x", "_abs_y", "_abs_z", "_abs_a", "_abs_b", "_abs_c", "_absolute", "_adaptive_feed"),
-        *(
-            "_call_level",
-            "_ccomp",
-            "_coord_system",
-            "_current_pocket",
-            "_current_tool",
-            "_feed",
-            "_feed_hold",
-        ),
-        *("_feed_override", "_flood", "_ijk_absolute_mode", "_imperial", "_incremental", "_inverse_time"),
+        *("_call_level", "_ccomp", "_coord_system", "_current_pocket", "_current_tool", "_feed"),
+        *("_feed_hold", "_feed_override", "_flood", "_ijk_absolute_mode", "_imperial", "_incremental"),
         *("_lathe_diameter_mode", "_lathe_radius_mode", "_line", "_metric", "_mist", "_motion_mode"),
+        "_inverse_time",
         *("_plane", "_remap_level", "_retract_old_z", "_retract_r_plane", "_rpm", "_selected_pocket"),
         *("_selected_tool", "_speed_override", "_spindle_css_mode", "_spindle_cw", "_spindle_on"),
         *("_spindle_rpm_mode", "_task", "_tool_offset", "_units_per_minute", "_units_per_rev", "_vmajor"),

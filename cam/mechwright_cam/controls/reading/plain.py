@@ -68,14 +68,7 @@ _DROPPED = bytes(set(range(256)) - set(_NAMES + _NAMES.lower() + b".\n"))
 
 
 class PlainLines:
-    r"""The plain lines of a text.
-
-    Parameters
-    ----------
-    text
-        The whole program, its lines ended by ``\n``.
-    dialect
-        The control that would read it.
+    r"""The plain lines of a program, its lines ended by ``\n``, that a control would read.
 
     Attributes
     ----------
@@ -131,8 +124,7 @@ class PlainLines:
     @cached_property
     def said(self) -> Bools:
         """(8, n) whether each line has the word."""
-        said: Bools = ~np.isnan(self.words)
-        return said
+        return ~np.isnan(self.words)
 
     @cached_property
     def _ends(self) -> tuple[Ints, Ints]:
@@ -167,11 +159,9 @@ def _wrong_places(data: bytes, kind: NDArray[np.uint8]) -> Ints:
     twice: list[int] = []
     if b".." in data.translate(None, b"+- 0123456789"):
         twice = [match.start() for match in _TWO_POINTS.finditer(data)]
-    found: Ints = np.concatenate((wrong, bare, np.array(twice, dtype=np.int64)))
-    return found
+    return np.concatenate((wrong, bare, np.array(twice, dtype=np.int64)))
 
 
 def _next(place: Ints) -> Ints:
     """(n,) the least of all from each on."""
-    least: Ints = np.minimum.accumulate(place[::-1])[::-1]
-    return least
+    return np.minimum.accumulate(place[::-1])[::-1]

@@ -9,8 +9,8 @@ from typing import Any
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import read_block
-from mechwright_cam.controls.reading.lines import Lines, uses_macros
 from mechwright_cam.controls.reading.machine import Machine
+from mechwright_cam.controls.reading.macros import Lines, uses_macros
 from mechwright_cam.controls.reading.plain import PlainLines
 from mechwright_cam.controls.reading.run import Run, joined
 from mechwright_cam.controls.reading.stretch import run_stretch
@@ -28,33 +28,10 @@ def interpret(
     diameters: Mapping[int, float] | None = None,
     start: tuple[float, float, float] | None = None,
 ) -> Run:
-    r"""Run a program.
+    r"""Run a program; see :meth:`mechwright_cam.controls.contract.Control.read`.
 
-    Parameters
-    ----------
-    text
-        The whole program.
-    dialect
-        The control that would read it.
-    block_delete
-        Whether lines that start with ``/`` are skipped.
-    upper_end
-        Machine Z of a full retract, mm: G53 to there or higher is at the machine's upper end.
-    diameters
-        D number to diameter, mm, for G41 and G42.
-    start
-        Where the tool stands at first, mm, if that is known; then all work offsets and lengths are taken
-        for 0, as another simulator may do.
-
-    Returns
-    -------
-    run
-        All steps, in work coordinates.
-
-    Raises
-    ------
-    ProgramError
-        The control would stop, or this interpreter would have to guess. The message names the line.
+    With ``start``, where the tool stands at first, mm, all work offsets and lengths are taken for 0, as
+    another simulator may do.
 
     Examples
     --------

@@ -1,7 +1,6 @@
 """The record that a run leaves: positions, and one row for each step."""
 
 import math
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,15 +10,10 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.groups import spell
-from mechwright_cam.controls.reading.run import Kind, Remark, Run, State, TableWrite
+from mechwright_cam.controls.reading.run import COLUMNS, WIDTH, Kind, Remark, Run, State, TableWrite
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
-COLUMNS = (
-    *("kind", "line", "x0", "y0", "z0", "x", "y", "z"),
-    *("centre x", "centre y", "sweep", "arc error", "feed", "seconds", "state"),
-)
-"""What a step is recorded by; lengths in mm."""
 LARGEST = 1e5
 """Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 
@@ -65,7 +59,7 @@ class Recorder:
         return self.before + len(self.rows)
 
     def append(self, table: Array) -> None:
-        """Record steps (k, 15), in the order of COLUMNS; the tool is where the last of them ends."""
+        """Record steps (k, 15), as COLUMNS has them; the tool is where the last of them ends."""
         self._close()
         self.tables.append(table)
         self.before += len(table)
@@ -95,28 +89,29 @@ class Recorder:
         if not (math.isfinite(self.x + self.y + self.z) and math.isfinite(x + y + z)):
             raise fail(line, "an arc from an unknown position; move to X, Y and Z first")
         here = (self.x, self.y)
-        first = self._check_arc(line, here, (x, y), centre)
-        error = abs(first - math.dist((x, y), centre))
+        _, error = self._check_arc(line, here, (x, y), centre)
         sweep = sweep_of(here, (x, y), centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         self._row(Kind.ARC, line, x, y, z, feed=self.feed, arc=(*centre, sweep, error))
 
     def _check_arc(
         self, line: int, start: tuple[float, float], end: tuple[float, float], centre: tuple[float, float]
-    ) -> float:
-        """Give the radius of an arc at its start, mm; raises ProgramError if its end has another."""
+    ) -> tuple[float, float]:
+        """Give an arc's radius at its start, and by how much it differs at its end, mm.
+
+        Raises ProgramError if the control refuses the arc.
+        """
         first = math.dist(start, centre)
         error = abs(first - math.dist(end, centre))
         if first == 0:
             raise fail(line, "an arc of radius 0")
-        limits = self.dialect
-        if error > limits.arc_most or (error > limits.arc_absolute and error > limits.arc_relative * first):
+        if self.dialect.refuses(error, first):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
                 f"(radius {first:.4f} mm); {self.dialect.name} refuses it",
             )
-        return first
+        return first, error
 
     def _drill(self, line: int, code: int, bottom: float, plane: float, step: float) -> None:
         """Feed to the bottom, in steps where the cycle pecks (G83) or breaks the chip (G73)."""
@@ -135,7 +130,7 @@ class Recorder:
     def result(self, lines: int) -> Run:
         """The record of the whole run."""
         self._close()
-        table = np.concatenate((np.empty((0, len(COLUMNS))), *self.tables))
+        table = np.concatenate((np.empty((0, WIDTH)), *self.tables))
         places = np.abs(table[:, 2:10])
         beyond = np.flatnonzero(((places > LARGEST) & np.isfinite(places)).any(axis=1))
         if beyond.size:
@@ -143,17 +138,11 @@ class Recorder:
             raise fail(
                 line, f"a coordinate or an arc's centre is beyond {LARGEST / 1000:g} m; that is no move"
             )
+        columns: dict[str, Any] = {name: table[:, at].copy() for name, at in COLUMNS.items()}
+        for name in ("kind", "line", "state"):
+            columns[name] = columns[name].astype(np.int64)
         return Run(
-            kind=_whole(table[:, 0]),
-            line=_whole(table[:, 1]),
-            start=table[:, 2:5].copy(),
-            end=table[:, 5:8].copy(),
-            centre=table[:, 8:10].copy(),
-            sweep=table[:, 10].copy(),
-            arc_error=table[:, 11].copy(),
-            feed=table[:, 12].copy(),
-            seconds=table[:, 13].copy(),
-            state=_whole(table[:, 14]),
+            **columns,
             states=tuple(self.states),
             remarks=tuple(self.remarks),
             ended=self.ended,
@@ -162,7 +151,3 @@ class Recorder:
             machine_xy=np.isin(np.arange(len(table)), self.machine_xy),
             writes=tuple(self.writes),
         )
-
-
-def _whole(column: Iterable[float]) -> Any:
-    return np.asarray(column).astype(np.int64)

@@ -40,52 +40,53 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Everything modal that the proof asks about.
-
-    Parameters
-    ----------
-    tool
-        T number in the spindle, 0 for none.
-    length_offset
-        Active H number; 0 after G49, -1 after G43.1, None if the program never said.
-    length
-        The length that G43.1 gave, mm; None without one.
-    work_offset
-        ``"G54"`` to ``"G59.3"``, ``"G54.1 P7"``, ``"G154 P7"``; None if the program never said.
-    spindle
-        1 clockwise, -1 counter-clockwise, 0 stopped.
-    rpm
-        Programmed speed, rev/min.
-    coolant
-        What runs.
-    side
-        1 with cutter compensation on the left of the contour (G41), -1 on the right, 0 without.
-    diameter_offset
-        D number of that; None without compensation, or if the program gives the diameter itself.
-    stated
-        The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
-        that the program has set itself.
-    off_path
-        How far the control may leave the programmed path between two moves, mm; inf without a bound.
-    path_mode
-        G code in tenths of how corners are taken: 610, 611 or 640; 0 if the program never said.
-    blend
-        What of ``off_path`` is for rounding corners, mm; 0 in an exact mode.
-    """
+    """Everything modal that the proof asks about."""
 
     tool: int = 0
+    """T number in the spindle, 0 for none."""
     length_offset: int | None = None
+    """Active H number; 0 after G49, -1 after G43.1, None if the program never said."""
     length: float | None = None
+    """The length that G43.1 gave, mm; None without one."""
     work_offset: str | None = None
+    """``"G54"`` to ``"G59.3"``, ``"G54.1 P7"``, ``"G154 P7"``; None if the program never said."""
     spindle: int = 0
+    """1 clockwise, -1 counter-clockwise, 0 stopped."""
     rpm: float = 0.0
+    """Programmed speed, rev/min."""
     coolant: Coolant = "off"
+    """What runs."""
     side: int = 0
+    """1 with cutter compensation on the left of the contour (G41), -1 on the right, 0 without."""
     diameter_offset: int | None = None
+    """D number of that; None without compensation, or if the program gives the diameter itself."""
     stated: frozenset[str] = frozenset()
+    """The groups of the safe start (``"units"``, ``"distance"``, ``"plane"``, ``"cutter compensation"``)
+    that the program has set itself.
+    """
     off_path: float = 0.0
+    """How far the control may leave the programmed path between two moves, mm; inf without a bound."""
     path_mode: int = 0
+    """G code in tenths of how corners are taken: 610, 611 or 640; 0 if the program never said."""
     blend: float = 0.0
+    """What of ``off_path`` is for rounding corners, mm; 0 in an exact mode."""
+
+
+COLUMNS: dict[str, int | slice] = {
+    "kind": 0,
+    "line": 1,
+    "start": slice(2, 5),
+    "end": slice(5, 8),
+    "centre": slice(8, 10),
+    "sweep": 10,
+    "arc_error": 11,
+    "feed": 12,
+    "seconds": 13,
+    "state": 14,
+}
+"""What a step of a run is recorded by: where it stands in a row."""
+WIDTH = 15
+"""Numbers in such a row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,70 +115,48 @@ class Run:
 
     Coordinates are those of the active work offset, mm. A coordinate is NaN where the text does not say it
     (before the first move, after a change of offsets), and z is +inf at the machine's upper end.
-
-    Parameters
-    ----------
-    kind
-        (n,) int, see :class:`Kind`.
-    line
-        (n,) int, line of the text, from 1.
-    start, end
-        (n, 3) float, mm.
-    centre
-        (n, 2) float, mm; NaN unless an arc.
-    sweep
-        (n,) float, rad, positive counter-clockwise; 0 unless an arc.
-    feed
-        (n,) float, mm/min; 0 unless a feed move.
-    seconds
-        (n,) float; time of a dwell.
-    arc_error
-        (n,) float, mm: difference of an arc's radii at its start and its end.
-    state
-        (n,) int, index into ``states``.
-    states
-        The machine states.
-    remarks
-        Comments in order.
-    ended
-        Whether the program says that it ends.
-    lines
-        Number of lines read.
-    beyond
-        Number of the first line of a program that stands behind its end, and is not run; 0 if none does.
-    piece
-        (n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one.
-    machine_xy
-        (n,) bool, whether the step belongs to a move of X or Y to a place in machine coordinates (G53) or to
-        a reference point (G28, G30): the way there by a point in the work, and the way from it.
-    writes
-        What the program writes into tables of the control (G10), in order.
-    files
-        Names of the files that were run one after the other; empty if it was one text.
-    file
-        (n,) int, index into ``files``.
     """
 
     kind: Ints
+    """(n,) int, see :class:`Kind`."""
     line: Ints
+    """(n,) int, line of the text, from 1."""
     start: Array
     end: Array
+    """Both (n, 3) float, mm."""
     centre: Array
+    """(n, 2) float, mm; NaN unless an arc."""
     sweep: Array
+    """(n,) float, rad, positive counter-clockwise; 0 unless an arc."""
     feed: Array
+    """(n,) float, mm/min; 0 unless a feed move."""
     seconds: Array
+    """(n,) float; time of a dwell."""
     arc_error: Array
+    """(n,) float, mm: difference of an arc's radii at its start and its end."""
     state: Ints
+    """(n,) int, index into ``states``."""
     states: tuple[State, ...]
+    """The machine states."""
     remarks: tuple[Remark, ...] = field(default=())
+    """Comments in order."""
     ended: bool = False
+    """Whether the program says that it ends."""
     lines: int = 0
+    """Number of lines read."""
     beyond: int = 0
+    """Number of the first line of a program that stands behind its end, and is not run; 0 if none does."""
     piece: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    """(n,) bool, whether the step is a piece of an arc in another plane than XY, and not its last one."""
     machine_xy: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    """(n,) bool, whether the step belongs to a move of X or Y to a place in machine coordinates (G53) or to
+    a reference point (G28, G30): the way there by a point in the work, and the way from it."""
     writes: tuple[TableWrite, ...] = ()
+    """What the program writes into tables of the control (G10), in order."""
     files: tuple[str, ...] = ()
+    """Names of the files that were run one after the other; empty if it was one text."""
     file: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """(n,) int, index into ``files``."""
 
     def __len__(self) -> int:
         return int(self.kind.size)
@@ -190,8 +169,7 @@ class Run:
     @cached_property
     def radius(self) -> Array:
         """(n,) radius of arcs at their start, mm; NaN elsewhere."""
-        radius: Array = np.hypot(self.start[:, 0] - self.centre[:, 0], self.start[:, 1] - self.centre[:, 1])
-        return radius
+        return np.hypot(self.start[:, 0] - self.centre[:, 0], self.start[:, 1] - self.centre[:, 1])
 
     @cached_property
     def cutting(self) -> NDArray[np.bool_]:
@@ -216,8 +194,7 @@ class Run:
         with np.errstate(invalid="ignore"):
             move = self.end - self.start
         flat = np.where(self.kind == Kind.ARC, np.abs(self.sweep) * self.radius, np.hypot(*move[:, :2].T))
-        length: Array = np.hypot(flat, move[:, 2])
-        return length
+        return np.hypot(flat, move[:, 2])
 
 
 def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
@@ -234,11 +211,11 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         writes += [replace(write, step=write.step + step) for write in run.writes]
         step += len(run)
 
-    def column(name: str) -> Any:
-        return np.concatenate([getattr(run, name) for run in runs])
-
     return Run(
-        **{name: column(name) for name in _COLUMNS},
+        **{
+            name: np.concatenate([getattr(run, name) for run in runs])
+            for name in (COLUMNS.keys() - {"state"}) | {"piece", "machine_xy"}
+        },
         state=np.concatenate([run.state + at for run, at in zip(runs, first, strict=True)]),
         states=tuple(states),
         remarks=tuple(remarks),
@@ -249,9 +226,3 @@ def joined(names: tuple[str, ...], runs: "Sequence[Run]") -> Run:
         files=names,
         file=np.repeat(np.arange(len(runs)), [len(run) for run in runs]),
     )
-
-
-_COLUMNS = (
-    *("kind", "line", "start", "end", "centre", "sweep"),
-    *("feed", "seconds", "arc_error", "piece", "machine_xy"),
-)

@@ -7,8 +7,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.modes import Modal
 from mechwright_cam.controls.reading.plain import Bools, F, G, I, J, PlainLines, X, Z
-from mechwright_cam.controls.reading.recorder import COLUMNS
-from mechwright_cam.controls.reading.run import Kind
+from mechwright_cam.controls.reading.run import WIDTH, Kind
 
 FEWEST_LINES = 8
 """A stretch of fewer lines is not worth it: so many run as quickly one by one."""
@@ -41,7 +40,7 @@ def run_stretch(machine: Modal, lines: PlainLines, at: int) -> int:
     g, feed, place = words[G], words[F], words[X : Z + 1].T
     start = np.concatenate(([[machine.x, machine.y, machine.z]], place[:-1]))
     arc = g >= 2
-    table = np.zeros((number.size, len(COLUMNS)))
+    table = np.zeros((number.size, WIDTH))
     table[:, 0] = np.where(arc, Kind.ARC, np.where(g == 1, Kind.FEED, Kind.RAPID))
     table[:, 1] = number + 1
     table[:, 2:5], table[:, 5:8] = start, place
@@ -85,7 +84,5 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
     if machine.absolute_centres:
         known &= ~missing.any(axis=1)
-    limits = machine.dialect
-    beyond = (error > limits.arc_absolute) & (error > limits.arc_relative * first)
-    refused: Bools = ~known | (first == 0) | (error > limits.arc_most) | beyond
+    refused: Bools = ~known | (first == 0) | machine.dialect.refuses(error, first)
     return refused

@@ -37,25 +37,24 @@ class Sections(Drilling):
 
     def section(self, out: Writer, section: ToolSection) -> None:
         """Write everything from one tool change to the next."""
-        named = False
+        machine, named = out.program.machine, False
         last = [move for operation in section.operations for move in operation.moves][-1]
         for operation in section.operations:
             self.comment(out, OPERATION_COMMENT + operation.name)
-            moves = operation.moves
-            if moves and not named:
+            moves, begins = operation.moves, bool(operation.moves) and not named
+            if begins:
                 self._take_corners(out, operation)
-                self._to_place_of_change(out)
+                self._machine_place(out, machine.change_x, machine.change_y)
                 self.tool_change(out, section)
-                out.lost_place()
-                self._begin(out, section, moves[0])
-                moves = moves[1:]
                 named = True
             elif out.program.posting.restart and self._can_restart(out, operation):
                 self.comment(out, f"restart point: T{section.tool.number} in the spindle")
                 self.restate(out)
                 self._take_corners(out, operation)
-                out.lost_place()
                 out.lost_height()
+                begins = True
+            if begins:
+                out.lost_place()
                 self._begin(out, section, moves[0])
                 moves = moves[1:]
             else:
@@ -66,22 +65,19 @@ class Sections(Drilling):
                     self._stop(out, move)
                     return
                 self._move(out, section, move)
-        self.end_drilling(out)
-        out.line(self.m(9))
-        out.line(self.m(5))
-        self.retract(out)
+        self._halt(out)
+
+    def safe_start(self, out: Writer) -> None:
+        """Set every mode that the program relies on; an operation may ask for other corners."""
+        out.line(*self.modes)
+        out.corners = self.blending(out.program.posting.exact_stop)
+        out.line(*out.corners)
 
     def restate(self, out: Writer) -> None:
         """State the modes once more, at a restart point."""
         self.end_drilling(out)
-        out.line(*self.modes)
-        self.usual_corners(out)
+        self.safe_start(out)
         self.retract(out)
-
-    def usual_corners(self, out: Writer) -> None:
-        """State how corners are taken where an operation does not ask for more, or for less."""
-        out.corners = self.blending(out.program.posting.exact_stop)
-        out.line(*out.corners)
 
     def _take_corners(self, out: Writer, operation: Operation) -> None:
         """State how an operation takes its corners, where that is otherwise than before it."""
@@ -111,10 +107,6 @@ class Sections(Drilling):
         out.line(out.motion_word("G0"), *out.axis_words(first.x, first.y, None))
         self.length_offset(out, section, out.program.clearance if first.z is None else first.z)
         out.line(self._coolant(section))
-
-    def _to_place_of_change(self, out: Writer) -> None:
-        machine = out.program.machine
-        self._machine_place(out, machine.change_x, machine.change_y)
 
     def go_home(self, out: Writer) -> None:
         """Bring the table where the machine file wants it at the end."""
@@ -159,11 +151,15 @@ class Sections(Drilling):
         axes = out.axis_words(move.x, move.y, None)
         out.line(out.motion_word("G1"), word, number, *axes, out.feed_word(move.feed))
 
-    def _stop(self, out: Writer, move: Pause) -> None:
+    def _halt(self, out: Writer) -> None:
+        """Coolant and spindle off, and up."""
         self.end_drilling(out)
         out.line(self.m(9))
         out.line(self.m(5))
         self.retract(out)
+
+    def _stop(self, out: Writer, move: Pause) -> None:
+        self._halt(out)
         self.message(out, move.message)
         out.line(self.m(0))
 

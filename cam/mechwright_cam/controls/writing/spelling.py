@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from mechwright_cam.controls.contract import Control
-from mechwright_cam.controls.corners import Corners
-from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer

@@ -36,11 +36,6 @@ def number(value: float, decimals: int = DECIMALS, point: bool = False) -> str:
     return text + "." if point and "." not in text else text
 
 
-def rounded(value: float, decimals: int = DECIMALS) -> float:
-    """The value that the control will read."""
-    return round(value, decimals)
-
-
 def floored(value: float, decimals: int) -> float:
     """The next value at or below, of so many decimals: what is to be cut through is cut through.
 
@@ -54,19 +49,11 @@ def floored(value: float, decimals: int) -> float:
 def comment_lines(
     text: str, active: tuple[str, ...] = (), forbidden: str = "", upper: bool = False
 ) -> list[str]:
-    r"""Make text safe inside parentheses: ASCII, no parentheses of its own, short lines.
+    r"""Make any text safe inside parentheses: ASCII, no parentheses of its own, short lines.
 
-    Parameters
-    ----------
-    text
-        Anything, from anywhere.
-    active
-        Words that the control obeys at the start of a comment (LinuxCNC's ``LOGOPEN`` opens a file). A
-        line that starts with one is quoted.
-    forbidden
-        Characters that the control would obey or choke on even in a comment; each becomes a space.
-    upper
-        Whether the control shows capitals only.
+    A line is quoted that starts with an ``active`` word, one that the control obeys at the start of a comment
+    (LinuxCNC's ``LOGOPEN`` opens a file). Characters that the control would obey or choke on even in a
+    comment, ``forbidden``, become spaces. With ``upper`` the control shows capitals only.
 
     Examples
     --------

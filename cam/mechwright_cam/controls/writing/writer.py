@@ -3,7 +3,7 @@
 import math
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.writing.text import NOISE, floored, number, rounded
+from mechwright_cam.controls.writing.text import NOISE, floored, number
 from mechwright_cam.program.moves import Feed, FeedArc, Program, ToolSection
 
 HIGHEST_NUMBER = 99999
@@ -15,17 +15,9 @@ AGREEING = TOLERANCES.arc_fit / 4
 class Writer:
     """Program text under way, with what the control remembers.
 
-    Positions are exact as planned (``x``, ``y``, ``z``) and, in the text, rounded; a centre is written from
-    the rounded start, so that rounding never adds up. NaN stands for a position the text has not stated.
-
-    Parameters
-    ----------
-    program
-        What is written.
-    decimals
-        Of coordinates, mm.
-    point
-        Whether every length and feed has a decimal point.
+    Positions are exact as planned (``x``, ``y``, ``z``) and, in the text, rounded to so many ``decimals`` of
+    a mm; a centre is written from the rounded start, so that rounding never adds up. NaN stands for a
+    position the text has not stated. With ``point`` every length and feed has a decimal point.
     """
 
     def __init__(self, program: Program, decimals: int, point: bool) -> None:
@@ -64,7 +56,7 @@ class Writer:
 
     def rounded(self, value: float) -> float:
         """A coordinate as the control will read it."""
-        return rounded(value, self.decimals)
+        return round(value, self.decimals)
 
     def motion_word(self, word: str) -> str:
         """The motion code if it is not in force already."""
@@ -147,12 +139,8 @@ class Writer:
         i, j = self.centre(
             self.x + move.i - start[0], self.y + move.j - start[1], (end[0] - start[0], end[1] - start[1])
         )
-        # An arc states its end in full: some controls want both axes.
-        return (
-            f"X{self.length(end[0])} Y{self.length(end[1])}",
-            f"I{self.length(i)} J{self.length(j)}",
-            whole,
-        )
+        place = f"X{self.length(end[0])} Y{self.length(end[1])}"  # in full: some controls want both axes
+        return place, f"I{self.length(i)} J{self.length(j)}", whole
 
     def centre(self, i: float, j: float, end: tuple[float, float]) -> tuple[float, float]:
         """The centre from the rounded start, (i, j), rounded so that both ends of an arc agree best.

@@ -102,11 +102,8 @@ def _drawn(one: _Dimension, size: float) -> str:
         turn = f"rotate(-90 {svg.number(spot[0])} {svg.number(-spot[1])})"
         label = svg.text(*spot, one.words, size, transform=turn, **look)
     heads = _heads(place(a, at), place(b, at), colour, size, inwards=out > 0)
-    return _dimension_lines(lines, main, colour, size) + heads + label
-
-
-def _dimension_lines(thin: str, main: str, colour: str, size: float) -> str:
-    return svg.element("path", d=thin + main, fill="none", stroke=colour, stroke_width=0.05 * size)
+    line = svg.element("path", d=lines + main, fill="none", stroke=colour, stroke_width=0.05 * size)
+    return line + heads + label
 
 
 def _heads(a: Point, b: Point, colour: str, size: float, *, inwards: bool = False) -> str:

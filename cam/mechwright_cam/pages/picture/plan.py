@@ -12,7 +12,7 @@ from mechwright_cam.pages import svg
 from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, origin_mark
 from mechwright_cam.pages.picture.frame import DETAIL, Frame, outline_data
 from mechwright_cam.pages.picture.paths import path_layers
-from mechwright_cam.pages.trace import Traced, trace
+from mechwright_cam.pages.trace import Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
@@ -28,32 +28,18 @@ JAW = 1.2
 def plan_view(
     job: Job,
     program: Program | None = None,
+    traced: Sequence[Traced] = (),
     spots: Sequence[Point] = (),
-    traced: Sequence[Traced] | None = None,
 ) -> str:
-    """A job seen from above.
+    """A job seen from above, as an ``<svg>`` element that scales to its container.
 
-    Parameters
-    ----------
-    job
-        Part, stock, holding.
-    program
-        The paths to draw; None for a picture of the job alone.
-    spots
-        Places to mark, work coordinates, mm.
-    traced
-        The program's strokes, if they are known already.
-
-    Returns
-    -------
-    svg
-        An ``<svg>`` element that scales to its container.
+    With a program its strokes are drawn; ``spots`` are places to mark, work coordinates, mm.
     """
     x0, y0, x1, y1 = job.stock
     frame = Frame(x0, y0, x1, y1)
     layers = [_stock(job), _part(job, frame)]
     if program is not None:
-        layers += path_layers(program, trace(program) if traced is None else traced, frame)
+        layers += path_layers(program, traced, frame)
     layers += [_holding(job, frame), dimensions(job, frame), origin_mark(frame), _spots(spots, frame)]
     layers.append(_names(job, frame))
     margin = 4.6 * frame.letters
@@ -102,8 +88,7 @@ def _names(job: Job, frame: Frame) -> str:
 
 def _gone(job: Job, frame: Frame) -> str:
     """What an earlier setup has cut through."""
-    rings = shapely.get_rings(shapely.get_parts(shapely.simplify(job.air_below(0.0), DETAIL)))
-    data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
+    data = _data(shapely.simplify(job.air_below(0.0), DETAIL))
     look = {"fill": "#ffffff", "fill_rule": "evenodd", "stroke": "#1b2733"}
     return svg.element("path", d=data, **look, stroke_width=0.05 * frame.letters) if data else ""
 
@@ -114,12 +99,16 @@ def _recesses(job: Job, frame: Frame) -> str:
     layers = []
     for layer in sections(job.part, DETAIL, steps=0)[:-1]:
         taken = shapely.difference(whole, shapely.transform(layer.shape, lambda p: p - job.origin))
-        rings = [ring for part in shapely.get_parts(taken) for ring in shapely.get_rings(part)]
-        data = "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
-        if data:
+        if data := _data(taken):
             look = {"fill": "#5f7688", "fill_opacity": 0.4, "fill_rule": "evenodd", "stroke": "#1b2733"}
             layers.append(svg.element("path", d=data, **look, stroke_width=0.04 * frame.letters))
     return "".join(layers)
+
+
+def _data(shape: shapely.Geometry) -> str:
+    """Path data of all rings of a shape."""
+    rings = shapely.get_rings(shapely.get_parts(shape))
+    return "".join(svg.path(shapely.get_coordinates(ring)[:-1], close=True) for ring in rings)
 
 
 def _details(job: Job, frame: Frame) -> str:

@@ -58,7 +58,7 @@ def tool_rows(
     """One row per tool in the order of first use."""
     colours = tool_colours(program)
     clamped = _after_stop(traced)
-    seconds = _tool_seconds(proof)
+    seconds: Mapping[str, float] = proof.get("tool_times_s") or {}
     rows = []
     for tool in program.tools:
         mine = [item for item in traced if item.section.tool.number == tool.number]
@@ -78,7 +78,7 @@ def tool_rows(
                 _range([item.section.spindle for item in mine]),
                 _range(feeds),
                 ", ".join(dict.fromkeys(item.section.coolant for item in mine)),
-                seconds.get(tool.number),
+                seconds.get(str(tool.number)),
                 _in_cut(tool, proof),
             )
         )
@@ -103,8 +103,8 @@ def operation_rows(
                 number,
                 colours[number],
                 item.bottom,
-                _figure(known, "time_s"),
-                _figure(known, "cutting_mm"),
+                known.get("time_s"),
+                known.get("cutting_mm"),
                 item.stops,
             )
         )
@@ -141,21 +141,6 @@ def duration(seconds: float | None) -> str:
     return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
 
 
-def spot_rows(proof: Mapping[str, Any]) -> list[dict[str, float | None]]:
-    """Places that no cutter reaches: x, y, depth, area, mm; what the proof does not say is None."""
-    rows = proof.get("unreachable") or ()
-    return [
-        {
-            "x": _figure(row, "x"),
-            "y": _figure(row, "y"),
-            "depth": _figure(row, "depth_mm", "depth"),
-            "area": _figure(row, "area_mm2", "area"),
-        }
-        for row in rows
-        if _figure(row, "x") is not None and _figure(row, "y") is not None
-    ]
-
-
 def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
     """Least x, least y, greatest x and greatest y that cutters reach at a feed, mm; None without any."""
     boxes = []
@@ -188,11 +173,6 @@ def _turning_points(stroke: Stroke) -> list[Point]:
     return [(x + r * math.cos(angle), y + r * math.sin(angle)) for angle in passed]
 
 
-def load_rows(proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """What the simulation says of each tool."""
-    return list((proof.get("simulation") or {}).get("tools") or ())
-
-
 KINDS = {"left": "stock left", "cut": "cut into the part", "corners": "corner"}
 """What the worst places on walls are, in words."""
 
@@ -217,9 +197,9 @@ def check_rows(proof: Mapping[str, Any]) -> list[tuple[str, bool, str]]:
 
 def verdict(proof: Mapping[str, Any]) -> bool | None:
     """Whether the program is proven; None if nobody tried."""
-    checks = check_rows(proof)
     if "ok" in proof:
         return bool(proof["ok"])
+    checks = check_rows(proof)
     return all(passed for _, passed, _ in checks) if checks else None
 
 
@@ -242,38 +222,18 @@ def _after_stop(traced: Sequence[Traced]) -> list[Traced]:
     return list(traced)
 
 
-def _figure(row: Mapping[str, Any] | None, *names: str) -> float | None:
-    for name in names:
-        if row and isinstance(row.get(name), int | float):
-            return float(row[name])
-    return None
-
-
-def _tool_seconds(proof: Mapping[str, Any]) -> dict[int, float]:
-    seconds: dict[int, float] = {}
-    for row in proof.get("operations") or ():
-        time, tool = _figure(row, "time_s"), _figure(row, "tool")
-        if time is not None and tool is not None:
-            seconds[int(tool)] = seconds.get(int(tool), 0.0) + time
-    return seconds
-
-
-def _by_operation(program: Program, proof: Mapping[str, Any]) -> list[Mapping[str, Any] | None]:
+def _by_operation(program: Program, proof: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     """The proof's rows, one per operation of the program: matched by tool and name, in order."""
-    left = list(proof.get("operations") or ())
-    found: list[Mapping[str, Any] | None] = []
+    left: list[Mapping[str, Any]] = list(proof.get("operations") or ())
+    found: list[Mapping[str, Any]] = []
     for section in program.sections:
         for operation in section.operations:
             wanted = (section.tool.number, operation.name.casefold())
-            match = next((row for row in left if _label(row) == wanted), None)
-            if match is not None:
+            match = next((row for row in left if (row["tool"], row["name"].casefold()) == wanted), {})
+            if match:
                 left.remove(match)
             found.append(match)
     return found
-
-
-def _label(row: Mapping[str, Any]) -> tuple[object, str]:
-    return row.get("tool"), str(row.get("name", "")).casefold()
 
 
 def _range(values: Sequence[float]) -> str:

@@ -45,10 +45,6 @@ def steps(
 
     Parameters
     ----------
-    job
-        What is set up.
-    control
-        The control that reads the program.
     tools
         T numbers in the order of use.
     file_names

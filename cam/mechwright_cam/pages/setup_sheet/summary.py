@@ -1,6 +1,7 @@
 """The page of a whole job: its programs, the tools of all of them, times and proofs. Imports jinja2."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from mechwright_cam.controls.contract import Control
@@ -26,14 +27,15 @@ def summary_html(
     name: str,
     tool_table: str = "",
     design: str = "",
-    files: Mapping[str, Sequence[str]] | None = None,
+    files: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> str:
     """The page of a whole job; it leads to the sheet of each program.
 
-    Parameters are those of :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``name`` is that of the job.
+    For each program there are its job, itself and its proof, as for
+    :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``files`` has the names of its files by its own name.
     """
     rows = [
-        _row(job, program, proof or {}, file_names(program, control.suffix, files))
+        _row(job, program, proof or {}, file_names(program, control.suffix, files.get(program.name, ())))
         for job, program, proof in programs
     ]
     verdicts = [row["verdict"] for row in rows]

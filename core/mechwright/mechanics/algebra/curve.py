@@ -1,7 +1,7 @@
 """A plane curve in sparse form: F = Σ k_ij ρ^i l^j = 0, ρ = x² + y², l the coordinate along its axis."""
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -9,7 +9,7 @@ from math import lcm
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx, fmpq, fmpz
+from flint import arb, fmpq, fmpz
 from numpy.typing import ArrayLike
 
 from mechwright.arrays import Array
@@ -47,12 +47,8 @@ class PlaneCurve:
     def of(cls, terms: Mapping[tuple[int, int], Fraction | int], axis: str) -> "PlaneCurve":
         """Sort the terms, drop zeros, and make the coefficient of the highest power of ρ one.
 
-        Where no pure power of ρ is highest, the coefficient of the last term is made one.
-
-        Raises
-        ------
-        GeometryError
-            No term is left, or there is no such axis.
+        Where no pure power of ρ is highest, the coefficient of the last term is made one. Raises
+        GeometryError where no term is left, or there is no such axis.
         """
         kept = {key: Fraction(value) for key, value in sorted(terms.items()) if value != 0}
         if not kept:
@@ -79,11 +75,6 @@ class PlaneCurve:
         the same order are independent. So the multiplicity is the degree less the largest i + j.
         """
         return self.degree - max(i + j for i, j in self.terms)
-
-    @property
-    def is_symmetric_twice(self) -> bool:
-        """Whether the curve is its own mirror image about both axes: only even powers of l."""
-        return all(j % 2 == 0 for _, j in self.terms)
 
     def at(self, x: float | str | Fraction, y: float | str | Fraction) -> Fraction:
         """The exact value at an exact point; a float stands for the decimal it is written as."""
@@ -116,11 +107,6 @@ class PlaneCurve:
             value += term
             size += abs(term)
         return float((abs(value) / size).abs_upper())
-
-    def worst_ratio(self, points: Iterable[tuple[arb, arb]], digits: int) -> float:
-        """The largest :meth:`ratio` of points, with that many digits."""
-        with ctx.workdps(digits):
-            return max(self.ratio(x, y) for x, y in points)
 
     def _sparse(self, x: Any, y: Any) -> tuple[Any, Any]:
         return x * x + y * y, (x, y)[_AXES[self.axis]]

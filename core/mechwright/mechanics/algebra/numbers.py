@@ -10,13 +10,8 @@ from mechwright.errors import DesignError
 def exact(number: float | int | str | Fraction) -> Fraction:
     """The number as it is written: 0.1 is one tenth, not the nearest binary fraction.
 
-    Raises
-    ------
-    DesignError
-        It is no finite number.
+    Raises DesignError for what is no finite number.
 
-    Examples
-    --------
     >>> exact(0.1), exact("5/2"), exact(3)
     (Fraction(1, 10), Fraction(5, 2), Fraction(3, 1))
     """

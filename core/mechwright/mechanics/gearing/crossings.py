@@ -43,21 +43,11 @@ class Free:
 def turns_to_edges(
     queries: Array, query_group: Ints, starts: Array, ends: Array, edge_group: Ints, ring: float, sight: float
 ) -> Free:
-    """Measure every query against every edge of its group that its circle cuts.
+    """Measure every query (n, 2), mm from the axis, against every edge of its group that its circle cuts.
 
-    Parameters
-    ----------
-    queries
-        (n, 2), mm, from the axis.
-    query_group, edge_group
-        Groups (n,) and (m,), 0 and up.
-    starts, ends
-        End points (m, 2), mm, of the edges.
-    ring
-        Height, mm, of the rings in which edges are looked up: about one edge.
-    sight
-        Edges nearer than this, mm along the circle, are surely found; some up to twice as far. Edges are
-        shorter than that.
+    Groups (n,) and (m,) count from 0. ``ring`` is the height, mm, of the rings in which edges are looked up:
+    about one edge. Edges nearer than ``sight``, mm along the circle, are surely found, some up to twice as
+    far; edges are shorter than that.
     """
     starts, ends, edge_group = _monotone(starts, ends, edge_group)
     inner, outer, radius = (np.hypot(*points.T) for points in (starts, ends, queries))

@@ -87,15 +87,10 @@ class Teeth:
 
     @cached_property
     def tip_trim(self) -> tuple[Array, Array]:
-        """Where flank and tip meet: two arrays (z, 2) of parameters, rad.
+        """Where flank and tip meet: two arrays (z, 2) of parameters, rad; GeometryError where they do not.
 
         The first belongs to the frame that makes the flank's point, the second to the one below the tip's
         point. Newton's method in both at once.
-
-        Raises
-        ------
-        GeometryError
-            They do not meet.
         """
         curve, rack, crossing = self.curve, self.rack, self.flank_arcs
         sin, cos = math.sin(rack.pressure_angle), math.cos(rack.pressure_angle)

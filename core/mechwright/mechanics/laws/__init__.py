@@ -22,17 +22,4 @@ LAWS: dict[str, Callable[[], Law]] = {
 }
 """The named laws, as design files say them."""
 
-__all__ = [
-    "LAWS",
-    "HarmonicPieces",
-    "Law",
-    "Peaks",
-    "Polynomial",
-    "Rates",
-    "cycloidal",
-    "modified_sine",
-    "modified_trapezoid",
-    "poly345",
-    "poly4567",
-    "simple_harmonic",
-]
+__all__ = ["LAWS", "HarmonicPieces", "Law", "Peaks", "Polynomial", "Rates"]

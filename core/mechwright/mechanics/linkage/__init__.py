@@ -13,7 +13,7 @@ layer
 """
 
 from mechwright.mechanics.linkage.closeness import Plate, Spindle
-from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, plate_mass, together
+from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, moving_figures, plate_mass, together
 from mechwright.mechanics.linkage.outlines import Boss, bent_link, disc, hull_link, rectangle, web_link
 from mechwright.mechanics.linkage.stacking import Layer, Stack, stack
 from mechwright.mechanics.linkage.turned import BUSHING_MATERIAL, PIN_MATERIAL, bushing_part, pin_part
@@ -32,6 +32,7 @@ __all__ = [
     "cylinder_mass",
     "disc",
     "hull_link",
+    "moving_figures",
     "pin_part",
     "plate_mass",
     "rectangle",

@@ -28,20 +28,9 @@ _BEND = 1.1
 
 @dataclass(frozen=True)
 class Plate:
-    """A plate to be dealt to a layer.
+    """A plate to be dealt to a layer: in a body of the motion and its coordinates, so many mm thick.
 
-    Parameters
-    ----------
-    name
-        Its own.
-    body
-        The body of the motion that it belongs to.
-    outline
-        In the body's coordinates, mm.
-    thickness
-        mm.
-    layers
-        The layers it may stand in; empty for any but 0, which is the ground plate's.
+    ``layers`` are those that it may stand in; empty for any but 0, which is the ground plate's.
     """
 
     name: str
@@ -57,8 +46,6 @@ class Spindle:
 
     Parameters
     ----------
-    name
-        Its own.
     body
         The body that it is fixed in.
     centre

@@ -1,10 +1,11 @@
 """Mass, centre and moment of inertia of plates and turned parts, from their own geometry."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from mechwright.contracts.materials import material
+from mechwright.contracts.motion import Scalar
 from mechwright.geometry import Outline
 
 
@@ -71,3 +72,12 @@ def together(masses: Iterable[Mass]) -> Mass:
         return Mass(0.0)
     centre = sum((part.mass * part.centre for part in parts), 0j) / total
     return Mass(total, centre, sum(part.about(centre) for part in parts))
+
+
+def moving_figures(masses: Mapping[str, Mass], weights: Mapping[str, complex]) -> dict[str, Scalar]:
+    """Figures of a motion: the masses of bodies, and the counterweights on them, mass times place, kg mm."""
+    found = {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses.items()}
+    for name, weight in weights.items():
+        found[f"balance_{name}_x"] = Scalar(weight.real, "kg*mm")
+        found[f"balance_{name}_y"] = Scalar(weight.imag, "kg*mm")
+    return found

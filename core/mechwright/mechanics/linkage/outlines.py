@@ -51,15 +51,8 @@ def bores(bosses: Sequence[Boss]) -> tuple[Loop, ...]:
 
 
 def hull_link(bosses: Sequence[Boss]) -> Outline:
-    """The shortest outline around all bosses: a straight link for two, a ternary one for three.
+    """The shortest outline around all bosses, one at least: a straight link for two, a ternary one for three.
 
-    Raises
-    ------
-    GeometryError
-        No boss is given.
-
-    Examples
-    --------
     >>> link = hull_link([Boss(0j, 5, 4), Boss(20 + 0j, 5, 4)])
     >>> round(link.area - (20 * 10 + 25 * math.pi - 8 * math.pi), 9)
     0.0
@@ -143,24 +136,11 @@ def _wrapped(bosses: Sequence[Boss], corners: Sequence[tuple[int, float, int]]) 
 
 
 def web_link(one: Boss, two: Boss, width: float, fillet: float) -> Outline:
-    """A straight link whose web is narrower than its bosses.
+    """A straight link whose web, ``width`` mm wide, is narrower than either of its bosses.
 
-    Parameters
-    ----------
-    one, two
-        The bosses.
-    width
-        Of the web, mm, less than the diameter of either boss.
-    fillet
-        Radius between web and boss, mm; a cutter of that radius goes round it.
+    ``fillet`` is the radius between web and boss, mm; a cutter of that radius goes round it. Raises
+    GeometryError with the limit where the web is too wide, or the fillets need more length than there is.
 
-    Raises
-    ------
-    GeometryError
-        The web is too wide, or the fillets need more length than there is; the message gives the limit.
-
-    Examples
-    --------
     >>> link = web_link(Boss(0j, 8), Boss(40 + 0j, 6), 6, 4)
     >>> [segment.tag for segment in link.outer.segments].count("fillet")
     4
@@ -171,13 +151,8 @@ def web_link(one: Boss, two: Boss, width: float, fillet: float) -> Outline:
 def bent_link(one: Boss, two: Boss, elbow: complex, width: float, fillet: float, radius: float) -> Outline:
     """A link whose web goes by way of an elbow, rounded to ``radius``, mm, on the web's middle.
 
-    Raises
-    ------
-    GeometryError
-        As :func:`web_link`; or the bend is tighter than the web is wide, or longer than its legs.
+    Raises as :func:`web_link`, and where the bend is tighter than the web is wide, or longer than its legs.
 
-    Examples
-    --------
     >>> link = bent_link(Boss(0j, 8), Boss(60 + 0j, 8), 30 + 15j, 8, 5, 10)
     >>> 8 < link.bounds[3] < 15 + 4, round(link.bounds[1], 3)
     (True, -8.0)
@@ -275,15 +250,8 @@ def disc(radius: float, holes: Sequence[Boss], centre: complex = 0j) -> Outline:
 
 
 def rectangle(low: complex, high: complex, corner: float, holes: Sequence[Boss] = ()) -> Outline:
-    """A plate from ``low`` to ``high`` with corners rounded to ``corner``, mm.
+    """A plate from ``low`` to ``high``, corners rounded to ``corner``, mm; GeometryError if it is too small.
 
-    Raises
-    ------
-    GeometryError
-        The corners do not fit.
-
-    Examples
-    --------
     >>> round(rectangle(0j, 10 + 6j, 1.0).area - (60 - 4 + math.pi), 9)
     0.0
     """

@@ -1,8 +1,7 @@
 """Channels of a motion: what turns, and points, from pose to jerk."""
 
 from mechwright.contracts.motion import Channel
-from mechwright.mechanics.planar.poles import Pole
-from mechwright.mechanics.planar.rigid import PointMotion, Turning
+from mechwright.mechanics.planar.rigid import PointMotion, Pole, Turning
 
 
 def turning_channels(turning: Turning, angle: str, suffix: str) -> dict[str, Channel]:

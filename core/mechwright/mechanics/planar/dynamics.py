@@ -116,6 +116,12 @@ class Forces:
     drive: Array
     shaking: Plane
 
+    def scaled(self, factor: float) -> "Forces":
+        """The same in another unit: with 1e-3 in N and N mm."""
+        joints = {name: force * factor for name, force in self.joints.items()}
+        moments = {name: moment * factor for name, moment in self.moments.items()}
+        return Forces(joints, moments, self.drive * factor, self.shaking * factor)
+
 
 def forces(
     links: Sequence[Link], joints: Sequence[Pin | Slide], driven: str, loads: Sequence[Load] = ()

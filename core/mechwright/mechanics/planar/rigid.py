@@ -1,4 +1,4 @@
-"""Motion of points and bodies in the plane, from pose to jerk."""
+"""Motion of points and bodies in the plane, from pose to jerk, and the pole of accelerations."""
 
 from dataclasses import dataclass
 
@@ -10,6 +10,10 @@ from mechwright.contracts.motion import Poses
 
 Plane = NDArray[np.complex128]
 """Points or vectors of the plane, x + i y."""
+
+FARTHEST = 1e12
+"""A pole further away than this, mm, is at infinity: its coordinates would round by 0.1 µm and more, and
+nothing that is computed from them could be believed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +36,14 @@ class Turning:
         """
         arrays = (np.asarray(values, dtype=float) for values in (theta, omega, alpha, jerk))
         return cls(*(np.array(values) for values in np.broadcast_arrays(*arrays)))
+
+    def scaled(self, ratio: float) -> "Turning":
+        """The turning of a shaft that is geared to this one."""
+        return Turning(ratio * self.theta, ratio * self.omega, ratio * self.alpha, ratio * self.jerk)
+
+    def part(self, samples: slice) -> "Turning":
+        """Some of the samples."""
+        return Turning(self.theta[samples], self.omega[samples], self.alpha[samples], self.jerk[samples])
 
     @property
     def direction(self) -> Plane:
@@ -119,12 +131,30 @@ class BodyMotion:
             origin.jerk + turning.jerk_factor * lever,
         )
 
-    def to_body(self, position: ArrayLike) -> Plane:
-        """Body coordinates of points (...) of the ground."""
-        seen: Plane = (np.asarray(position) - self.origin.position) / self.turning.direction
-        return seen
-
     def poses(self, z: float = 0.0) -> Poses:
         """Give the poses for a :class:`mechwright.contracts.motion.Motion`, all at the height ``z``, mm."""
         position = self.origin.position
         return Poses.planar(position.real, position.imag, self.turning.theta, z)
+
+
+@dataclass(frozen=True, slots=True)
+class Pole:
+    """Places (...) of a pole on the ground and in the body, mm; NaN where it is no one point."""
+
+    fixed: Plane
+    moving: Plane
+
+
+def acceleration_pole(body: BodyMotion) -> Pole:
+    """The point without acceleration, G = A - a_A / (i α - ω²); none where all points share one acceleration.
+
+    Examples
+    --------
+    >>> crank = BodyMotion.about(1 + 0j, Turning.of([0.0], 3.0))
+    >>> acceleration_pole(crank).fixed.tolist()
+    [(1+0j)]
+    """
+    value, factor = np.broadcast_arrays(body.origin.acceleration, body.turning.acceleration_factor)
+    finite = np.abs(value) < FARTHEST * np.abs(factor)
+    lever = np.where(finite, -value / np.where(finite, factor, 1.0), np.nan + 0j)
+    return Pole(body.origin.position + lever, lever / body.turning.direction)

@@ -63,7 +63,7 @@ class Bill(Page):
 def item_of(part: Part) -> Item:
     """The line of a part; one that stands nowhere in the assembly is made once all the same."""
     if part.outline is not None:
-        from mechwright.contracts.sections import volume
+        from mechwright.contracts.moments import volume
 
         x0, y0, x1, y1 = part.outline.bounds
         size, cubic = (x1 - x0, y1 - y0, part.thickness), volume(part)

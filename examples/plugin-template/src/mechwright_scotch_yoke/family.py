@@ -5,7 +5,17 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from mechwright import Family, Finding, Motion, Parameters, Part, Progress, Synthesis
+from mechwright import (
+    Family,
+    Finding,
+    Motion,
+    Parameters,
+    Part,
+    Progress,
+    Synthesis,
+    ToleranceModel,
+    Tolerances,
+)
 from mechwright.units import MetresPerMin, Millimetres, Newtons, RevPerMin
 
 Material = Literal["aluminium", "brass", "pom", "steel"]
@@ -62,6 +72,12 @@ class ScotchYoke(Family[ScotchYokeParams]):
         from mechwright_scotch_yoke import plates
 
         return plates.crank(params), plates.yoke(params)
+
+    def tolerances(self, params: ScotchYokeParams, tolerances: Tolerances) -> ToleranceModel:
+        """Errors of the stroke, from crank and slot."""
+        from mechwright_scotch_yoke.tolerances import ScotchYokeTolerances
+
+        return ScotchYokeTolerances(params, tolerances)
 
     def synthesise(
         self,

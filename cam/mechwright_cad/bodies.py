@@ -1,0 +1,57 @@
+"""The bodies of a mechanism: every instance of every part, with its name in the assembly and its poses."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.contracts.motion import Motion, Poses
+from mechwright.contracts.part import Instance, Part
+from mechwright.errors import GeometryError
+
+
+@dataclass(frozen=True)
+class Body:
+    """One copy of a part where it stands."""
+
+    name: str
+    part: Part
+    instance: Instance
+    poses: Poses
+
+    @property
+    def is_plate(self) -> bool:
+        """Whether it is a prism, or several on each other."""
+        return self.part.outline is not None
+
+
+def label_of(body: Body) -> str:
+    """What a picture calls it: the part, and of a part with several copies the body as well.
+
+    Copies in one body share their label.
+    """
+    part = body.part
+    return part.name if len(part.instances) == 1 else f"{part.name} ({body.instance.body})"
+
+
+def bodies_of(parts: Sequence[Part], motion: Motion, sample: int = 0) -> list[Body]:
+    """All instances, named as the assembly names them: by the body, and by the part where a body has several.
+
+    Raises GeometryError for an instance of a body, or a sample, that the motion does not have.
+    """
+    if not 0 <= sample < motion.samples:
+        raise GeometryError(f"the motion has {motion.samples} samples; there is no sample {sample}")
+    names = [instance.body for part in parts for instance in part.instances]
+    taken: dict[str, int] = {}
+    found = []
+    for part in parts:
+        for instance in part.instances:
+            if instance.body not in motion.poses:
+                raise GeometryError(
+                    f"part {part.name} is an instance of body {instance.body!r}, which the motion does not "
+                    f"move; it has {', '.join(sorted(motion.poses)) or 'none'}"
+                )
+            name = instance.body if names.count(instance.body) == 1 else f"{instance.body}-{part.name}"
+            taken[name] = taken.get(name, 0) + 1
+            if taken[name] > 1:  # names of children of an assembly are unique
+                name = f"{name}-{taken[name]}"
+            found.append(Body(name, part, instance, motion.poses[instance.body]))
+    return found

@@ -1,0 +1,140 @@
+"""A whole mechanism as MJCF. Imports the CAD kernel, for looks and for masses of what is no plate."""
+
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Instance, Part
+from mechwright.errors import GeometryError, KinematicsError
+from mechwright_cad.bodies import bodies_of
+from mechwright_cad.exporters.mesh import part_mesh
+from mechwright_cad.exporters.mjcf.constraints import check_gears, write_constraints
+from mechwright_cad.exporters.mjcf.contacts import Placed, write_contacts
+from mechwright_cad.exporters.mjcf.elements import METRES, STEP, corners, element, relative
+from mechwright_cad.exporters.mjcf.tree import Branch, Tree, tree_of
+from mechwright_cad.solids.inertia import Inertia, body_moments
+
+TOUCH = 1e-8
+"""How exactly distances of surfaces that touch are found, m; MuJoCo's own 1e-6 is a small clearance."""
+
+NOTHING = 1e-12
+"""Part of a body's largest inertia below which a product of inertia is rounding."""
+
+
+def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
+    """A mechanism in its pose at one sample of the motion.
+
+    Raises
+    ------
+    KinematicsError
+        The motion does not say how its bodies are joined, or in a way that MJCF has no words for.
+    GeometryError
+        A body that moves has no mass, an instance belongs to no body, or there is no such sample.
+    """
+    if not motion.joints:
+        raise KinematicsError(
+            "it does not say how its bodies are joined (Motion.joints), which a simulation has to know"
+        )
+    tree = tree_of(motion.joints, motion.poses)
+    check_gears(motion.joints, tree)
+    placed: dict[str, list[tuple[Part, Instance]]] = {body: [] for body in (GROUND, *motion.poses)}
+    for one in bodies_of(parts, motion, sample):
+        placed[one.instance.body].append((one.part, one.instance))
+    frames = _frames(motion, sample)
+    touching = [joint for joint in motion.joints.values() if joint.kind == "contact"]
+    root, assets = _head(name, contact=bool(touching))
+    for part in parts:
+        if part.instances:
+            mesh = part_mesh(part)
+            faces = " ".join(map(str, mesh.triangles.ravel().tolist()))
+            element(assets, "mesh", name=part.name, inertia="shell", vertex=corners(mesh.points), face=faces)
+    bodies = _bodies(root, tree, placed, frames)
+    write_contacts(assets, bodies, placed, touching)
+    write_constraints(root, bodies, tree, motion.joints, frames)
+    ET.indent(root)
+    written: bytes = ET.tostring(root, encoding="utf-8")
+    return written + b"\n"
+
+
+def _head(name: str, *, contact: bool) -> tuple[ET.Element, ET.Element]:
+    """The root with its settings, and where meshes go."""
+    root = ET.Element("mujoco", model=name)
+    as_given = dict.fromkeys(("inertiafromgeom", "balanceinertia"), "false")
+    element(root, "compiler", angle="radian", boundmass="0", boundinertia="0", **as_given)
+    option = element(
+        root, "option", gravity="0 0 0", timestep=STEP, integrator="implicitfast", ccd_tolerance=TOUCH
+    )
+    if not contact:
+        element(option, "flag", contact="disable")
+    visual = element(root, "visual")
+    element(visual, "headlight", ambient="0.4 0.4 0.4", diffuse="0.6 0.6 0.6")
+    return root, element(root, "asset")
+
+
+def _frames(motion: Motion, sample: int) -> dict[str, Array]:
+    """Frames (4, 4) of all bodies and of the ground, mm."""
+    found: dict[str, Array] = {GROUND: np.eye(4)}
+    for body, poses in motion.poses.items():
+        found[body] = np.eye(4)
+        found[body][:3, :3], found[body][:3, 3] = poses.rotation[sample], poses.position[sample]
+    return found
+
+
+def _bodies(
+    root: ET.Element, tree: Tree, placed: Placed, frames: Mapping[str, Array]
+) -> dict[str, ET.Element]:
+    """Write all bodies with their masses, joints and looks."""
+    moments = {body: body_moments((part, at.z) for part, at in here) for body, here in placed.items()}
+    _check_masses(tree, {body: float(found[3, 3]) for body, found in moments.items()})
+    bodies = {GROUND: element(root, "worldbody")}
+    for branch in tree.branches:
+        body = branch.body
+        local = np.linalg.inv(frames[branch.parent]) @ frames[body]
+        axes = local[:3, :2].T.ravel()
+        made = element(bodies[branch.parent], "body", name=body, pos=local[:3, 3] * METRES, xyaxes=axes)
+        bodies[body] = made
+        if moments[body][3, 3] > 0:
+            _inertial(made, Inertia.of(moments[body]))
+        if branch.joint.kind != "fixed":
+            _joint(made, branch, frames)
+        for part, at in placed[body]:
+            rgba, place = [*part.colour_of(at), 1.0], [0.0, 0.0, at.z * METRES]
+            looks = {"type": "mesh", "mesh": part.name, "group": "2", "contype": "0", "conaffinity": "0"}
+            element(made, "geom", pos=place, rgba=rgba, **looks)
+    return bodies
+
+
+def _check_masses(tree: Tree, masses: Mapping[str, float]) -> None:
+    """Refuse a body that moves, with all that is fixed to it, and weighs nothing."""
+    total = dict(masses)
+    for branch in reversed(tree.branches):
+        if branch.joint.kind == "fixed":
+            total[branch.parent] += total[branch.body]
+    for branch in tree.branches:
+        if branch.joint.kind != "fixed" and not total[branch.body] > 0:
+            raise GeometryError(
+                f"body {branch.body} moves and has no mass: no part is an instance of it or of what is fixed "
+                "to it; give it a part"
+            )
+
+
+def _inertial(body: ET.Element, inertia: Inertia) -> None:
+    tensor = inertia.tensor * METRES**2
+    tensor[np.abs(tensor) < NOTHING * np.abs(tensor).max()] = 0.0
+    full = [float(tensor[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    values = {"mass": relative([inertia.mass]), "fullinertia": relative(full)}
+    element(body, "inertial", pos=inertia.centre * METRES, **values)
+
+
+def _joint(body: ET.Element, branch: Branch, frames: Mapping[str, Array]) -> None:
+    """Write a hinge or a slide in the coordinates of its body; an axis counts for the joint's body two."""
+    joint = branch.joint
+    place = np.linalg.inv(frames[branch.body]) @ frames[joint.one]
+    axis = place[:3, :3] @ joint.axis * (-1 if branch.turned else 1)
+    at = (place @ [*joint.point, 1.0])[:3] * METRES
+    kind = "hinge" if joint.kind == "revolute" else "slide"
+    element(body, "joint", name=branch.name, type=kind, pos=at, axis=axis)

@@ -1,0 +1,151 @@
+"""Gears as their programs leave them: README's pair turns, one without backlash does not, and all say so."""
+
+import json
+
+import numpy as np
+import pytest
+from as_made_builds import ROOT, built, example, facts, table
+
+from mechwright.contracts.finding import Severity, Stage
+from mechwright.contracts.made_part import MadePart
+from mechwright_elliptic_gears.as_made import AGREEMENT, as_made, pairs_of
+from mechwright_elliptic_gears.assembly import (
+    OFF_CENTRE,
+    jamming_backlash,
+    least_backlash,
+    with_backlash,
+)
+from mechwright_elliptic_gears.family import EllipticGears
+
+FAMILY = EllipticGears()
+PAIR = {"eccentricity": 0.4, "semi_major": 50.0, "teeth": 25, "thickness": 10.0, "bore": 12.0}
+
+
+@pytest.fixture(scope="module")
+def tight(tmp_path_factory):
+    path = tmp_path_factory.mktemp("as-made") / "pair.toml"
+    path.write_text(table("elliptic-gears", **PAIR, backlash=0.0))
+    return path
+
+
+def test_the_pair_of_the_readme_turns_at_every_position_over_its_tolerances():
+    parts, said, params = example("elliptic-pair")
+    assert not said.findings
+    (pair,) = pairs_of(params, {"gear": parts})
+    for off in np.linspace(-OFF_CENTRE, OFF_CENTRE, 7):
+        for sign in (-1, 0, 1):
+            ahead, behind = pair.gaps.play((off, 0.0), sign * pair.corridor)
+            assert (ahead + behind).min() > 2e-4
+    assert pair.spare(OFF_CENTRE).min() > 0
+
+
+def test_both_ways_agree_within_a_hundredth():
+    parts, _, params = example("elliptic-pair")
+    (pair,) = pairs_of(params, {"gear": parts})
+    assert pair.disagreement < AGREEMENT
+    ahead, behind = pair.gaps.play()
+    total, other = ahead + behind, pair.mesh.free_play
+    assert (total.min(), total.max()) == pytest.approx((other.min(), other.max()), rel=0.01)
+
+
+def test_without_backlash_the_play_is_what_was_measured_on_the_real_path(tight):
+    parts, _, params = built(tight)
+    (pair,) = pairs_of(params, {"gear": parts})
+    ahead, behind = pair.gaps.play()
+    expected = {fact["name"]: (fact["expected"], fact["tolerance"]) for fact in facts("asmade.")}
+    (part,) = parts
+    assert np.median(part.off) == pytest.approx(expected["asmade.left_median"][0], abs=2e-4)
+    least, within = expected["asmade.play_total_min"]
+    assert (ahead + behind).min() == pytest.approx(least, abs=within)
+    assert pair.mesh.free_play.min() == pytest.approx(least, abs=within)
+    assert (ahead + behind).max() < 0
+
+
+def test_a_pair_that_jams_is_refused_with_a_backlash_that_works(tight):
+    parts, said, params = built(tight)
+    (finding,) = said.findings
+    assert (finding.code, finding.severity, finding.stage) == (
+        "gear.as-made",
+        Severity.ERROR,
+        Stage.MACHINING,
+    )
+    assert finding.parameter == "backlash"
+    assert finding.value < 0 == finding.limit
+    assert "make backlash 0.067" in finding.remedy
+    better = with_backlash(params, least_backlash(params))
+    # The walls keep what they keep: the same stock on the flanks of the better pair.
+    (pair,) = pairs_of(params, {"gear": parts})
+    more = (least_backlash(params)) * np.cos(np.radians(20)) / 2
+    assert pair.spare(OFF_CENTRE, more).min() > 0
+    assert f"{pair.spare(OFF_CENTRE, more).min() * 1e6:.0f} µrad" in finding.remedy
+    assert not [f for f in FAMILY.check(better) if f.severity is not Severity.NOTE]
+
+
+def test_build_refuses_it_and_check_says_so_before(command_line, tight, tmp_path):
+    code, out, _ = command_line("check", str(tight))
+    assert code == 1
+    assert "error [gear.backlash]" in out
+    assert "at least 0.067" in out
+    code, _, err = command_line("build", str(tight), "-o", str(tmp_path / "out"))
+    assert code == 1
+    assert "0.067" in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_check_cannot_know_build_finds_out(command_line, tmp_path):
+    path = tmp_path / "pair.toml"
+    path.write_text(table("elliptic-gears", **PAIR, backlash=0.012))
+    code, out, _ = command_line("check", str(path))
+    assert (code, "warning [gear.backlash]" in out) == (0, True)
+    code, _, err = command_line("build", str(path), "-o", str(tmp_path / "out"))
+    assert code == 1
+    assert "error [gear.as-made] backlash: as made gear 2 and gear 4 jam" in err
+    assert "make backlash 0.067" in err
+
+
+def test_the_least_backlash_is_the_reference():
+    found = [fact for fact in facts("gear.least_backlash") if fact["inputs"]["centre_and_eccentricities"]]
+    assert len(found) == 3
+    for fact in found:
+        params = FAMILY.Params(eccentricity=fact["inputs"]["e"], teeth=31)
+        assert fact["expected"] <= least_backlash(params) < fact["expected"] + 1e-3
+        assert 0 < jamming_backlash(params) < least_backlash(params) / 4
+
+
+def test_a_train_needs_its_play_on_each_flank():
+    parts, said, params = example("figure-eight-train")
+    made = {part.name: [part] for part in parts}
+    pairs = pairs_of(params, made)
+    assert [pair.names for pair in pairs] == [("gear-2", "gear-3"), ("gear-4", "gear-5")]
+    assert not said.findings
+    for pair in pairs:
+        ahead, behind = pair.gaps.play((0.0, 0.0), -pair.corridor - OFF_CENTRE)
+        assert pair.spare(OFF_CENTRE) == pytest.approx(np.minimum(ahead, behind))
+        assert pair.spare(OFF_CENTRE).min() > 0
+        assert pair.disagreement < AGREEMENT
+    keyed = made["gear"][0].hole_at(0.0, 0.0, params.bore)
+    assert (keyed.x, keyed.y) == pytest.approx((0, 0), abs=1e-3)
+
+
+def test_copies_of_a_nest_are_told_apart():
+    parts, _, params = example("elliptic-pair")
+    (gear,) = parts
+    other = MadePart(gear.name, "gear no 2", gear.corridor, gear.sections)
+    (pair,) = pairs_of(params, {"gear": [gear, other]})
+    assert pair.names == ("gear-2", "gear-4")
+    assert as_made(params, {}).figures == ()
+
+
+def test_every_build_carries_its_page(command_line, tmp_path):
+    path = str(ROOT / "examples" / "elliptic-pair.toml")
+    code, _, err = command_line("build", path, "-o", str(tmp_path / "out"))
+    assert (code, err) == (0, "")
+    said = json.loads((tmp_path / "out" / "as-made.json").read_text())
+    assert said["runs"] is True
+    figures = {figure["name"]: figure for figure in said["figures"]}
+    play = figures["gear-2.gear-4.play.least"]
+    assert 0 == play["asked"] < play["low"] < play["made"] < play["design"]
+    page = (tmp_path / "out" / "as-made.html").read_text()
+    for words in ("RUNS AS MADE", "Asked for", "As drawn", "As made", "gear-as-made.dxf", "<svg"):
+        assert words in page
+    assert (tmp_path / "out" / "gear-as-made.dxf").stat().st_size > 1e5
