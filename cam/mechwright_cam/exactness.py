@@ -16,7 +16,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.program.moves import OPERATION_COMMENT, Feed, FeedArc, Operation, Program
-from mechwright_cam.proof.off_path import too_deep
+from mechwright_cam.proof.off_path import flat, too_deep
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
@@ -54,6 +54,8 @@ def settled(program: Program, job: Job, control: Control) -> Program:
         while (far := too_deep(paths, job, off, BUDGET)).any():
             loose |= set(number[far].tolist())
             paths.steps = paths.steps[~np.isin(number[paths.steps], list(loose))]
+            if flat(paths)[paths.steps].all():
+                break  # all of them have been told at once
         chosen |= dict.fromkeys(clearing - chosen.keys() - loose, level)
     return _with(program, dict.fromkeys(clearing, levels[-1]) | chosen)
 

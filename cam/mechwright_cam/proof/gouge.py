@@ -94,6 +94,11 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
 def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     """Each plan-view piece once, at its lowest: passes repeat at every depth."""
     pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
+    return pieces.only(kinds(paths, pieces)[0])
+
+
+def kinds(paths: Paths, pieces: Pieces) -> tuple[Ints, Ints]:
+    """The first piece (k,) of each kind in plan view, and the kind (n,) of every piece."""
     run, step = paths.run, pieces.step
     table = np.column_stack(
         (
@@ -106,16 +111,16 @@ def distinct(paths: Paths, pieces: Pieces) -> Pieces:
             pieces.last,
         )
     )
-    return pieces.only(_first_of_each(np.round(table / NEAR).astype(np.int64)))
+    return _first_of_each(np.round(table / NEAR).astype(np.int64))
 
 
-def _first_of_each(rows: Ints) -> Ints:
-    """Index of the first of each kind of row (n, k)."""
+def _first_of_each(rows: Ints) -> tuple[Ints, Ints]:
+    """Index (j,) of the first of each kind of row (n, k), and the kind (n,) of every row."""
     keys = rows.astype(np.uint64) @ (GOLDEN * np.arange(1, rows.shape[1] + 1, dtype=np.uint64) | np.uint64(1))
     _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
     if (rows[index][kind] != rows).any():  # different rows with one key
-        _, index = np.unique(rows, axis=0, return_index=True)
-    return index
+        _, index, kind = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return index, kind.reshape(-1)
 
 
 def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:

@@ -19,13 +19,11 @@ from mechwright_cam.controls.reading import Run
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge
+from mechwright_cam.proof.gouge import Gouge, kinds
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
-
-FLAT = ToolKind.END_MILL
 
 
 class WidePaths(Paths):
@@ -78,18 +76,21 @@ def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.boo
     Of round and pointed tools, whose depth is more than a question of distance, the deepest step alone is
     told.
     """
-    flat = (paths.cutter.nose == 0) & np.isin(
-        paths.run.tool, [t.number for t in paths.mills if t.kind is FLAT]
-    )
+    upright = flat(paths)[paths.steps]
     own, other = copy(paths), copy(paths)
-    own.steps = paths.steps[flat[paths.steps]]
-    other.steps = paths.steps[~flat[paths.steps]]
+    own.steps, other.steps = paths.steps[upright], paths.steps[~upright]
     found = reaching(own, job, off - limit, limit)
     if other.steps.size:
         cut = deepest_off_path(other, job, off)
         if cut is not None and cut.depth > limit:
             found[cut.step] = True
     return found
+
+
+def flat(paths: Paths) -> NDArray[np.bool_]:
+    """Steps (n,) with an end mill in the spindle whose corners are sharp."""
+    mills = [tool.number for tool in paths.mills if tool.kind is ToolKind.END_MILL]
+    return np.asarray((paths.cutter.nose == 0) & np.isin(paths.run.tool, mills))
 
 
 def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.bool_]:
@@ -106,9 +107,14 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.boo
         apart = (least > np.array((x1, y1)) + reach[:, None]) | (most < np.array((x0, y0)) - reach[:, None])
         near = np.flatnonzero(~apart.any(axis=1))
         if near.size:
-            pieces, keep = pieces.only(near), prepared(band.keep)
-            within = shapely.dwithin(keep, paths.lines(pieces), reach[near])
-            found[pieces.step[within]] = True
+            pieces, reach, keep = pieces.only(near), reach[near], prepared(band.keep)
+            # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
+            widest = np.argsort(-reach, kind="stable")
+            chosen, kind = kinds(paths, pieces.only(widest))
+            within = shapely.dwithin(keep, paths.lines(pieces.only(widest[chosen])), reach[widest[chosen]])
+            close = widest[within[kind]]
+            close = close[shapely.dwithin(keep, paths.lines(pieces.only(close)), reach[close])]
+            found[pieces.step[close]] = True
     return found
 
 

@@ -38,7 +38,7 @@ def overlaps(
     which: NDArray[np.bool_],
     speed: Array,
     planned: bool = False,
-    late: float = 0.0,
+    late: float | None = None,
 ) -> Overlaps:
     """The overlaps at some of the junctions.
 
@@ -55,7 +55,8 @@ def overlaps(
     planned
         Whether to ask only how the planner rates them: each may use half of its segment.
     late
-        So much longer an overlap may take than it should, s, since it begins with a servo period.
+        So much longer an overlap may take than it should, s, since it begins with a servo period; None if
+        nobody asks how far it is off, which is then 0.
     """
     length = row.length / 2 if planned else row.length
     summit = np.minimum(np.sqrt(rate * length), speed)
@@ -70,7 +71,7 @@ def overlaps(
     performance = np.where(which, np.sqrt(1 - sine**2) * (into + out_of) / 2, 0.0)
     seconds = np.where(which, into / rate[:-1], 0.0)
     off = np.zeros(which.size)
-    if not planned and which.any():
+    if late is not None and which.any():
         at = np.flatnonzero(which)
         off[at] = _off(row, at, rate, seconds[at] + late)
     return Overlaps(seconds, off, performance)
