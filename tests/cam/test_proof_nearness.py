@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from by_control import interpret, prove
+from by_control import interpret, posted, prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
@@ -15,7 +15,7 @@ from test_proof_parts import coordinate, cuts, height, paths_of
 from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning import choose_tools
 from mechwright_cam.proof import gouge, leftover, near, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
 from mechwright_cam.proof.near import Chords
@@ -195,7 +195,7 @@ def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: f
     part = Part("plate", plate, 8.0, "aluminium", machined=(recess,))
     cam = CamSettings.model_validate({"stock": {"margin": 0}, "tools": ["mill-4"]})
     job = make_job(part, cam, choose_tools(part, cam, load_library()))
-    text = LinuxCnc().write(plan(job))
+    text = posted(job)
     proof = prove(text, job)
     assert proof.ok
     # The corners of the wide end keep r (1 - 1/√2) beside their walls, the slot half its width.
