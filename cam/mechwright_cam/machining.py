@@ -28,6 +28,10 @@ from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
+from mechwright_cam.slowed import slowed
+
+SLOWED = 3
+"""Rounds in which feeds are lowered to the power of the spindle: the first does nearly all."""
 
 
 @dataclass(frozen=True)
@@ -160,7 +164,7 @@ def machine(
     assignments: Assignments | None = None,
     rules: Sequence[Rule] = RULES,
 ) -> Machined:
-    """Plan a program, post it, and prove the posted text.
+    """Plan a program, post it, slow what the spindle has no power for, and prove the posted text.
 
     Who cuts what is taken from ``assignments``, if it has been decided. Programs of one design that have
     numbers are told apart by their ``place``.
@@ -183,10 +187,20 @@ def machine(
     posting = cam.post.model_copy(update=stated)
     program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
     program = settled(program, job, control)
-    files = control.files(program)
-    named = {name + control.suffix: text for name, text in files.items()}
-    text = named if len(files) > 1 else next(iter(files.values()))
-    scene = Scene(text, job, control)
+    files, scene = _posted(program, job, control)
+    for _ in range(SLOWED):
+        gentler = slowed(program, scene)
+        if gentler is None:
+            break
+        program = gentler
+        files, scene = _posted(program, job, control)
     proof = judge(scene, rules)
     proof.require()
     return Machined(job, program, files, proof, scene)
+
+
+def _posted(program: Program, job: Job, control: Control) -> tuple[dict[str, str], Scene]:
+    """The files of a program, and what the proof looks at."""
+    files = control.files(program)
+    named = {name + control.suffix: text for name, text in files.items()}
+    return files, Scene(named if len(files) > 1 else next(iter(files.values())), job, control)

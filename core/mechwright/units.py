@@ -144,6 +144,10 @@ MetresPerMin = Annotated[float, Unit("m/min")]
 """A cutting speed."""
 Newtons = Annotated[float, Unit("N")]
 """A force."""
+NewtonMetres = Annotated[float, Unit("N*m")]
+"""A torque."""
+Kilowatts = Annotated[float, Unit("kW")]
+"""A power."""
 Seconds = Annotated[float, Unit("s")]
 """A time."""
 Ratio = Annotated[float, Unit("")]

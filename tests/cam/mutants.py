@@ -402,6 +402,34 @@ def _tab(lines: Lines, rng: Rng) -> tuple[int, str, Lines] | None:
     return span[0], f"no tab at {lines[span[0]]!r}", lines
 
 
+def _inserted(word: str) -> Fault:
+    def made(lines: Lines, rng: Rng) -> tuple[int, str, Lines] | None:
+        """The word in a line of its own, in front of one that holds a code."""
+        index = pick(moves(lines)[1:], rng)
+        lines.insert(index, word)
+        return index, f"{word} before {lines[index + 1]!r}", lines
+
+    return made
+
+
+STATES = (*(f"G{n}" for n in range(100)), *(f"M{n}" for n in range(100)))
+"""Words that change the machine's state on some control or other."""
+STATES += (
+    "G43.1 Z0.",
+    "G54.1 P2",
+    "G59.3",
+    "G61.1",
+    "G90.1",
+    "G91.1",
+    "G92.1",
+    "G5.1 Q1",
+    "G10 L2 P1 X0.",
+    "G4 P1",
+)
+for state in STATES:
+    FAULTS[f"inserted {state}"] = _inserted(state)
+
+
 # What a machine does, without regard to the text that says so.
 
 

@@ -92,7 +92,7 @@ def test_cycles_expand_into_moves() -> None:
 
 
 def test_states_follow_the_words() -> None:
-    run = interpret(START + "T3 M6\nG55 S900 M3\nG0 X1 Y1\nG43 H3 Z5\nM7 M8\nG1 X2 F10\nM5 M9\nG1 X3\nM30")
+    run = interpret(START + "T3 M6\nG55 S900 M3\nG0 X1 Y1\nG43 H3 Z5\nM7\nM8\nG1 X2 F10\nM5 M9\nG1 X3\nM30")
     cut, after = (run.states[i] for i in run.state[run.kind == Kind.FEED])
     assert (cut.tool, cut.length_offset, cut.work_offset) == (3, 3, "G55")
     assert (cut.spindle, cut.rpm, cut.coolant) == (1, 900, "both")
@@ -183,7 +183,7 @@ def test_block_delete() -> None:
         ("G55\nG91 G0 X5", "unknown position"),
         ("G55\nG2 X5 Y5 I5 J0 F1", "unknown position"),
         ("G0 X1 " + "(" + "-" * 300 + ")", "at most 255"),
-        ("G0 é5", "starts no word"),
+        ("G0 é5", r"U\+00E9 .* stands outside of comments"),
     ],
 )
 def test_bad_text_is_refused_with_its_line(text: str, message: str) -> None:

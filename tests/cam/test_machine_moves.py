@@ -1,4 +1,4 @@
-"""Moves in machine coordinates and to reference points: X and Y with the tool up only, Z up only."""
+"""Moves in machine coordinates and to reference points: X and Y at the upper end of Z only, Z up only."""
 
 import math
 
@@ -21,7 +21,7 @@ from machine_programs import (
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.machine_rules import machine_moves, positions
+from mechwright_cam.proof.machine_moves import machine_moves, positions
 
 ASIDE = (
     *("G53 G0 X0. Y0.", "G0 G53 X10.", "G53 G0 Y-5.", "G53 G1 X0. F500.", "G53 G0 X0. Y0. Z-2."),
@@ -35,14 +35,20 @@ ASIDE = (
 def test_in_the_work_x_and_y_stay_in_work_coordinates(control: str, words: str) -> None:
     text, line = in_cut(text_of(control), words)
     found = refused(machine_moves, control, text, line)
-    assert "from Z-4.8, the clearance plane is Z5; before it retract with" in found.message
+    assert "while Z is at Z-4.8, and what stands on the way is not known; before it, in a" in found.message
 
 
 @pytest.mark.parametrize("words", ASIDE)
 @pytest.mark.parametrize("control", CONTROLS)
 def test_with_the_tool_up_they_go_anywhere(control: str, words: str) -> None:
-    for place in (at_the_end, before_the_last_retract):  # at the machine's upper end, at the clearance plane
-        assert judged(machine_moves, control, place(text_of(control), words)[0]).passed
+    assert judged(machine_moves, control, at_the_end(text_of(control), words)[0]).passed
+
+
+@pytest.mark.parametrize("words", ASIDE)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_the_clearance_plane_is_not_above_what_stands_elsewhere(control: str, words: str) -> None:
+    text, line = before_the_last_retract(text_of(control), words)
+    assert "while Z is at Z5" in refused(machine_moves, control, text, line).message
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -72,8 +78,8 @@ def test_a_reference_move_without_an_axis_is_one_of_all(control: str) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("G53 G0 X0. Y0. Z-100.", "Z comes below the clearance plane, Z5, while X or Y go"),
-        ("G28 X0. Y0. Z1.", "Z comes below the clearance plane"),
+        ("G53 G0 X0. Y0. Z-100.", "while Z goes to an unknown height"),
+        ("G28 X0. Y0. Z1.", "while Z is at Z1,"),
         ("G53 G0 Z-100.", "below Z-2, which may be in the work; retract with"),
     ],
 )
@@ -87,12 +93,12 @@ def test_nothing_comes_down_on_the_way(control: str, words: str, said: str) -> N
 def test_a_rapid_from_there_does_not_come_down_blindly(control: str) -> None:
     """X and Y are not known after the move, so that nobody sees what a rapid down meets."""
     text, line = at_the_end(text_of(control), "G53 G0 X0. Y0.")
-    for words in ("G0 Z2.", "G0 X0. Y0. Z2.", "G0 Z-3."):
+    for words in ("G0 Z2.", "G0 X0. Y0. Z2.", "G0 Z-3.", "G0 Z5.", "G0 X0. Y0. Z5.", "G0 X0. Z5."):
         low = text.replace("M30", f"{words}\nM30")
-        assert refused(positions, control, low, line + 1).message.endswith(
-            tuple(f"Z{z:.3f}" for z in (2, -3))
-        )
-    assert judged(positions, control, text.replace("M30", "G0 Z5.\nX0. Y0.\nZ2.\nM30")).passed
+        said = refused(positions, control, low, line + 1).message
+        assert said.endswith(tuple(f"Z{z:.3f}" for z in (2, -3, 5)))
+        assert "then go to X and Y, then to Z" in said
+    assert judged(positions, control, text.replace("M30", "G0 X0. Y0.\nZ5.\nZ2.\nM30")).passed
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -123,5 +129,5 @@ def test_wherever_it_stands_the_height_decides(at: int, axes: dict[str, float]) 
     words = "G53 G0 " + " ".join(f"{axis}{value}" for axis, value in axes.items())
     found = judged(machine_moves, "linuxcnc", "\n".join([*LINES[:at], words, "M30"]))
     goes_up = axes.get("Z", RETRACT) >= RETRACT
-    assert found.passed == (goes_up and (not axes.keys() & {"X", "Y"} or z >= 5))
+    assert found.passed == (goes_up and (not axes.keys() & {"X", "Y"} or z == math.inf))
     assert found.passed or found.line == at + 1

@@ -18,6 +18,7 @@ from mechwright_geneva.mechanism import mechanism_of
 FACTS = json.loads((Path(__file__).parents[2] / "tests/data/simulation.json").read_text())["facts"]
 TABLES = {
     "G1": {
+        "groove_clearance": 0.05,
         "law": "cycloidal",
         "crank_half_angle": 50,
         "offset_angle": 5,
@@ -25,6 +26,7 @@ TABLES = {
         "thickness": 13.5,
     },
     "G2": {
+        "groove_clearance": 0.05,
         "slots": 6,
         "law": "straight",
         "entry_radius": 80,

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 from by_control import BY_NAME, prove, read
 from golden_operations import SHARP
-from mutants import differences, mutant, trace
+from mutants import STATES, differences, mutant, trace
 from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket
 from mechwright.errors import ProgramError
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.reading import Kind
 from mechwright_cam.machining import Machined, machine
 from mechwright_cam.proof import Check
 from mechwright_cam.setup.job import Job
@@ -278,3 +279,29 @@ def test_what_stands_behind_the_end_is_not_taken_for_proven(control: str) -> Non
     line = one.text[: one.text.index("M30\n")].count("\n") + 3
     assert found.line == line
     assert "behind the program's end" in found.message
+
+
+def cuts(rows: np.ndarray) -> np.ndarray:
+    """What a machine does while it cuts, of a trace."""
+    return rows[np.isin(rows[:, 0], (Kind.FEED, Kind.ARC))]
+
+
+@pytest.mark.parametrize("control", golden_operations.CONTROLS)
+def test_state_words_at_any_place_are_refused_or_change_no_cut(control: str) -> None:
+    """By the reader, by a rule, or because the program states it itself before the next cut."""
+    rng = np.random.default_rng(53)
+    one, reader = made("pocket-contour", control), BY_NAME[control]
+    before = cuts(trace(read(one.text, one.job, reader)))
+    refusals = 0
+    for state in STATES:
+        wrong = mutant(one.text, f"inserted {state}", rng)
+        assert wrong is not None
+        is_refused, said = verdict(wrong.text, one, control)
+        if is_refused:
+            assert re.search(r"\bline \d+: ", said), said
+            refusals += 1
+            continue
+        changed = differences(before, cuts(trace(read(wrong.text, one.job, reader))))
+        # A rapid that is fed instead, in air, takes longer and no more.
+        assert not changed or state == "G1", f"line {wrong.line}: {wrong.change}: {changed}"
+    assert refusals > 160

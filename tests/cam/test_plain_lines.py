@@ -165,7 +165,7 @@ def test_an_error_in_a_stretch_names_its_line(line: str, message: str) -> None:
 
 def test_a_number_beyond_all_numbers_is_an_error_and_no_warning() -> None:
     huge = "9" * 200 + "." + "9"
-    with pytest.raises(ProgramError, match="line 44"):
+    with pytest.raises(ProgramError, match="line 43: Y1e\\+200 is a number"):
         interpret(f"G21 G17 G90 G40\nG0 X0 Y0 Z0\nG1 F100\n{STRAIGHT}Y{huge}\nG2 X0 Y0 I{huge} J1\nM2\n")
 
 

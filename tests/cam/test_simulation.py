@@ -48,7 +48,7 @@ def test_a_slot_is_full_engagement_and_half_a_width_is_a_quarter_turn() -> None:
     assert work.feed_per_tooth == pytest.approx(600 / 8000 / 3)
     assert work.chip == pytest.approx(work.feed_per_tooth)
     # Beside a slot, one half of the cutter at a time; the first slot is slow, so that the second is the worst.
-    seen, _ = simulation(*row(-20, 20, 0, -2.0, 60.0), *row(-20, 20, 1.0, -2.0, 2400.0))
+    seen, _ = simulation(*row(-24, 24, 0, -2.0, 60.0), *row(-20, 20, 1.0, -2.0, 2400.0))
     (work,) = seen.works
     assert work.removal == pytest.approx(1 * 2 * 2400 / 1000, rel=0.12)
 
@@ -56,7 +56,7 @@ def test_a_slot_is_full_engagement_and_half_a_width_is_a_quarter_turn() -> None:
 @pytest.mark.parametrize("over", [0.6, 1.5, 3.0])
 def test_the_thickest_chip_follows_the_engagement(over: float) -> None:
     made = plate_job()
-    first = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(row(-20, 20, 0, -2.0))),))
+    first = ToolSection(MILL, 8000, "flood", (Operation("o", tuple(row(-24, 24, 0, -2.0))),))
     other = MILL.model_copy(update={"number": 9, "name": "mill-9"})
     second = ToolSection(other, 8000, "flood", (Operation("p", tuple(row(-20, 20, over, -2.0))),))
     made = replace(made, tools=(*made.tools, other))

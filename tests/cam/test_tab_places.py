@@ -5,10 +5,10 @@ import shapely
 from by_control import posted, prove
 from planning_parts import job, part, rounded_box
 
-from mechwright.contracts.part import Pocket, Profile
+from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError
-from mechwright.geometry import Loop
+from mechwright.geometry import Loop, Outline, circle
 
 RIM = rounded_box(60, 40, 4)
 
@@ -41,3 +41,15 @@ def test_where_all_of_the_rim_is_low_the_height_is_named():
         job(whole, "mill-6", hold={"tab_height": 1.0})
     low = job(whole, "mill-6", hold={"tab_height": 0.8})
     assert prove(posted(low), low).ok
+
+
+@pytest.mark.parametrize("wall", [0.2, 0.6, 2.0])
+def test_behind_a_thin_wall_tabs_end_at_its_opening(wall):
+    """They reach 1 mm under the rim elsewhere; in the opening of a ring the program cuts them off rightly."""
+    rim, hole = circle((0, 0), 20.0), circle((0, 0), 20.0 - wall, clockwise=True)
+    ring = Part("ring", Outline(Loop((rim,)), (Loop((hole,)),)), 4.0, "aluminium")
+    of = job(ring, "mill-6", hold={"tabs": 4})
+    for tab in of.tabs:
+        inner = 20.0 - shapely.distance(tab.shape, shapely.Point(0, 0))
+        assert inner == pytest.approx(min(wall, 1.0), abs=0.03)
+    assert prove(posted(of), of).checks["tabs"].passed

@@ -111,14 +111,20 @@ def drawing(
             _detail(space, detail, plates, curves)
         inner = [loop for outline in outlines for loop in outline.inner]
         _centres(space, inner, [f for f in recesses if isinstance(f, Bore)], axes)
-        x0, y0, x1, y1 = plates.bounds
-        _frame(document, (x0, y0, x1, y1))
-        for row, line in enumerate(text.splitlines()):
-            place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
-            space.add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
-        _order_classes(document)
-        stream = io.StringIO()
-        document.write(stream)
+        return finished(document, plates.bounds, text)
+
+
+def finished(document: "Drawing", box: tuple[float, float, float, float], text: str) -> bytes:
+    """A drawing as a file: a view of the box (x0, y0, x1, y1), mm, with lines of text below it."""
+    x0, y0, _, _ = box
+    _frame(document, box)
+    for row, line in enumerate(text.splitlines()):
+        place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
+        note = document.modelspace().add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"})
+        note.set_placement(place)
+    _order_classes(document)
+    stream = io.StringIO()
+    document.write(stream)
     return stream.getvalue().encode(document.output_encoding)
 
 

@@ -1,6 +1,5 @@
 """DXF drawings of measured outlines: closed polylines on layers of their own. Imports ezdxf."""
 
-import io
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -9,7 +8,7 @@ from ezdxf.filemanagement import new
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cad.exporters.dxf import TEXT_HEIGHT, _fixed_metadata, _frame, _order_classes
+from mechwright_cad.exporters.dxf import TEXT_HEIGHT, _fixed_metadata, finished
 
 MARK = 1.0
 """Radius of the circle about a marked place, mm."""
@@ -48,11 +47,4 @@ def polylines(
             note.set_placement((x + 1.5 * MARK, y))
         every = np.concatenate([ring for rings in layers.values() for ring in rings])
         (x0, y0), (x1, y1) = every.min(axis=0).tolist(), every.max(axis=0).tolist()
-        _frame(document, (x0, y0, x1, y1))
-        for row, line in enumerate(text.splitlines()):
-            place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
-            space.add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"}).set_placement(place)
-        _order_classes(document)
-        stream = io.StringIO()
-        document.write(stream)
-    return stream.getvalue().encode(document.output_encoding)
+        return finished(document, (x0, y0, x1, y1), text)

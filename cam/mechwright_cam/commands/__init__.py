@@ -5,8 +5,9 @@ from typing import Annotated
 
 import typer
 
-from mechwright.cli.command import AsJson, Command, Curves, DesignFile, OutputFolder
+from mechwright.cli.command import AsJson, Command, Curves, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
+from mechwright.errors import DesignError
 from mechwright.plugins.hookspecs import hookimpl
 
 
@@ -43,21 +44,81 @@ class Verify(Command):
                 metavar="PROGRAM", help="A program for the mill; its files in order.", show_default=False
             ),
         ],
-        design: Annotated[Path, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)],
-        part: Annotated[str, typer.Option(metavar="NAME", help="The part it cuts.", show_default=False)],
+        design: Annotated[
+            Path | None, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)
+        ] = None,
+        part: Annotated[str, typer.Option(metavar="NAME", help="The part of the design that it cuts.")] = "",
+        dxf: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="DRAWING", help="A drawing of the part, without a design.", show_default=False
+            ),
+        ] = None,
+        thickness: Annotated[
+            float, typer.Option(metavar="MM", help="With --dxf: thickness of the plate.", show_default=False)
+        ] = 0.0,
+        tools: Annotated[
+            str, typer.Option(metavar="LIST", help="With --dxf: T numbers and cutters, 1=mill-6,2=drill-5.")
+        ] = "",
+        material: Annotated[
+            str, typer.Option(metavar="NAME", help="With --dxf: of the plate.")
+        ] = "aluminium",
+        hold: Annotated[
+            str,
+            typer.Option(metavar="HOW", help="With --dxf: tabs, wherever they are, bore, vacuum or tape."),
+        ] = "tabs",
+        stock: Annotated[
+            str, typer.Option(metavar="SIZE", help="With --dxf: of the plate, 120x80, or its margin, in mm.")
+        ] = "",
+        units: Annotated[
+            str, typer.Option(metavar="UNIT", help="With --dxf: mm, cm or inch, if the drawing says none.")
+        ] = "",
+        layers: Annotated[
+            str, typer.Option(metavar="LIST", help="With --dxf: the layers of the outline and its openings.")
+        ] = "",
+        settings: Annotated[
+            list[str],
+            typer.Option("--set", metavar="KEY=VALUE", help="With --dxf: a setting of [cam], hold.tabs=3."),
+        ] = [],  # noqa: B006 - typer reads it, nobody changes it
         control: Annotated[
             str, typer.Option(metavar="NAME", help="The control it is for; by default the design's.")
         ] = "",
+        page: Annotated[
+            Path | None, typer.Option(metavar="FILE", help="Write the report as a page.", show_default=False)
+        ] = None,
         as_json: AsJson = False,
     ) -> None:
         """Prove that a program from anywhere cuts the part.
 
-        It is simulated as the programs of `cam` are. The exit code is 1 if it does not cut the part. Several
-        files, one for each tool, are one program.
+        The part is that of a design, or of a drawing. The program is simulated as those of `cam` are. The
+        exit code is 1 if it does not cut the part. Several files, one for each tool, are one program.
         """
         from mechwright_cam.commands import verify
 
-        verify.verify(program, design, part, as_json, control)
+        report = verify.Report(as_json, page)
+        if (design is None) == (dxf is None):
+            raise DesignError(
+                "say what the program cuts: --design and --part, or --dxf, --thickness and --tools"
+            )
+        if design is not None:
+            if not part:
+                raise DesignError("--part: name the part of the design that the program cuts")
+            verify.verify(program, design, part, report, control)
+        elif dxf is not None:
+            verify.verify_drawing(
+                program,
+                dxf,
+                report,
+                thickness=thickness,
+                tools=tools,
+                control=control or "linuxcnc",
+                material=material,
+                hold=hold,
+                stock=stock,
+                units=units,
+                layers=names(layers),
+                changes=settings,
+            )
 
 
 @hookimpl

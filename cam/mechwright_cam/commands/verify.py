@@ -2,8 +2,9 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -13,14 +14,17 @@ from mechwright.cli.perform import refuse
 from mechwright.contracts.finding import errors
 from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
+from mechwright.output.folder import write_new
+from mechwright_cam.commands.verify_drawing import drawn_scene, job_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machining, machine, second_setup
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.prepare import cut_plates, library_of
 from mechwright_cam.planning.setups import UNDERSIDE, lay_out_setups
-from mechwright_cam.proof.judge import prove
-from mechwright_cam.proof.report import Proof
+from mechwright_cam.proof.found_tabs import with_found_tabs
+from mechwright_cam.proof.judge import judge
 from mechwright_cam.proof.rules import Rule
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.table import settings_of
@@ -29,37 +33,73 @@ PROGRAM_SIZE_LIMIT = 100 * SIZE_LIMIT
 """Bytes: surfacing programs are long, but not longer than this."""
 
 
-def verify(programs: Sequence[Path], path: Path, part_name: str, as_json: bool, control: str = "") -> None:
+@dataclass(frozen=True)
+class Report:
+    """What is told of a program, and where."""
+
+    as_json: bool = False
+    page: Path | None = None
+    """An HTML page to write."""
+
+
+def verify(programs: Sequence[Path], path: Path, part_name: str, report: Report, control: str = "") -> None:
     """Prove a program in one file, or in several that are run in order; exit code 1 if it is not proven."""
     with Build(path, open_host(), Wanted("verify")) as build:
         _ = build.design
-        # Comments may be of any age.
-        texts = {str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1")[0] for file in programs}
-        if len(texts) < len(programs):
-            raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
-        program, *rest = texts
-        text = texts if rest else texts[program]
-        program += f" to {rest[-1]}" if rest else ""
+        text, program = read_programs(programs)
         if stopping := errors(build.findings):
             refuse(stopping, path)
-        try:
-            proof = proof_of(build, part_name, text, control)
-        except ProgramError as error:  # of several files it names the one
-            raise ProgramError(f"{program}: {error}" if len(texts) == 1 else str(error)) from error
-    if as_json:
+        scene, rules = scene_of(build, part_name, text, control)
+        told(scene, rules, program, report)
+
+
+def verify_drawing(programs: Sequence[Path], dxf: Path, report: Report, **wanted: Any) -> None:
+    """Prove a program against a drawing; ``wanted`` is what :func:`verify_drawing.job_of` takes."""
+    text, program = read_programs(programs)
+    scene, rules = drawn_scene(text, job_of(dxf, **wanted), open_host())
+    told(scene, rules, program, report)
+
+
+def read_programs(programs: Sequence[Path]) -> tuple[str | dict[str, str], str]:
+    """One text, or several by their files' names; and what to call them."""
+    # Comments may be of any age.
+    texts = {
+        str(file): read_text(file, PROGRAM_SIZE_LIMIT, older="latin-1", mark=True)[0] for file in programs
+    }
+    if len(texts) < len(programs):
+        raise DesignError("PROGRAM: a file is named twice; name each once, in the order they are run")
+    program, *rest = texts
+    return (texts, f"{program} to {rest[-1]}") if rest else (texts[program], program)
+
+
+def told(scene: Scene, rules: Sequence[Rule], program: str, report: Report) -> None:
+    """Judge a program, tell what was found, and end with exit code 1 if it is not proven."""
+    try:
+        proof = judge(scene, rules)
+    except ProgramError as error:  # of several files it names the one
+        raise ProgramError(f"{program}: {error}" if isinstance(scene.text, str) else str(error)) from error
+    if report.page is not None:
+        from mechwright_cam.pages.report.report import report_html
+
+        write_new(report.page, report_html(with_found_tabs(scene), proof, program), replace=True)
+    if report.as_json:
         typer.echo(json.dumps(proof.as_dict(), indent=2))
     else:
         for check in proof.checks.values():
             if check.passed:
                 typer.echo(f"pass [{check.name}] {check.message}")
+        for note in proof.notes:
+            typer.echo(f"note {note}")
         for check in proof.failures:
             typer.echo(f"mechwright: {program}: FAIL [{check.name}] {check.message}", err=True)
         typer.echo(f"{program}: " + ("proven" if proof.ok else "does not cut the part"))
     raise typer.Exit(0 if proof.ok else 1)
 
 
-def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], control: str = "") -> Proof:
-    """Prove a program for one part of a design, with every cutter of the library at hand.
+def scene_of(
+    build: Build, part_name: str, text: str | Mapping[str, str], control: str = ""
+) -> tuple[Scene, list[Rule]]:
+    """A program and one part of a design, with every cutter of the library at hand, and the rules.
 
     Parameters
     ----------
@@ -99,7 +139,7 @@ def proof_of(build: Build, part_name: str, text: str | Mapping[str, str], contro
     else:
         job = make_job(part, cam, choose_tools(part, cam, library, assignments))
     job = replace(job, tools=library.measured(cam.measured.lengths).tools)
-    return prove(text, job, reader, rules)
+    return Scene(text, job, reader), rules
 
 
 def _reader(build: Build, name: str) -> Control:

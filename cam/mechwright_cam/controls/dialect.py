@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 
 @dataclass(frozen=True, slots=True)
 class Corners:
@@ -84,8 +86,36 @@ class Dialect:
     arc_absolute: float = 0.0283
     arc_relative: float = 0.001
     """The control refuses an arc whose radii differ by more than both, in mm and as a part of the radius."""
+    arc_inch: float = 1.0
+    """So many times ``arc_absolute`` and ``arc_most`` are in inches (G20)."""
+    arc_of_larger: bool = False
+    """Whether that part is of the larger radius, and not of that at the start."""
+    arc_least: float = 0.0
+    """The control refuses an arc of no larger radius, mm."""
+    arc_chord: float | None = None
+    """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``."""
+    arc_entry: bool = True
+    """Whether cutter compensation may be turned on along an arc."""
     line_length: int = 255
     """Longest line, characters."""
+    ascii_comments: bool = False
+    """Whether comments have to be ASCII as well: some controls obey other bytes, or cannot store them."""
+    active_comments: tuple[str, ...] = ()
+    """Beginnings of comments, in small letters, that the control carries out and this interpreter refuses."""
+    capitals: bool = False
+    """Whether words have to be written in capitals."""
+    largest_n: int = 99_999
+    """Largest line number."""
+    parts_of_n: bool = False
+    """Whether a line number may have decimals."""
+    one_m: bool = False
+    """Whether a line may hold one M code only, as the control would drop the others."""
+    both_coolants: bool = True
+    """Whether M7 and M8 may stand in one line."""
+    one_use_of_axes: bool = False
+    """Whether the control refuses G10, G28, G30 and G43.1 beside a motion, as both take the axes."""
+    tables: frozenset[int] = frozenset({2, 10, 11, 12, 13, 20})
+    """L of the G10 that the control knows."""
     change_stops_spindle: bool = True
     """Whether M6 stops the spindle."""
     percent_ends: bool = True
@@ -122,10 +152,17 @@ class Dialect:
     name: str = "the control"
     """Name for messages; a control gives its own title."""
 
-    def refuses(self, error: Any, radius: Any) -> Any:
-        """Whether arcs are refused whose radii differ so much, by that at the start; (n,) or one, mm."""
-        beyond = (error > self.arc_absolute) & (error > self.arc_relative * radius)
-        return beyond | (error > self.arc_most)
+    def refuses(self, first: Any, last: Any, inches: bool) -> Any:
+        """Whether arcs are refused whose radii at the start and at the end are these; (n,) or one, mm.
+
+        >>> Dialect(frozenset()).refuses(10.0, 10.02, False), Dialect(frozenset()).refuses(10.0, 10.03, False)
+        (np.False_, np.True_)
+        """
+        factor, error = self.arc_inch if inches else 1.0, np.abs(np.subtract(first, last))
+        part = self.arc_relative * (np.maximum(first, last) if self.arc_of_larger else first)
+        beyond = (error > self.arc_absolute * factor) & (error > part)
+        small = np.minimum(first, last) <= self.arc_least
+        return beyond | (error > self.arc_most * factor) | small
 
     def m(self, code: int) -> int:
         """The control's own M code for a usual one.

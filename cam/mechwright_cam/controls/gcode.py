@@ -73,18 +73,16 @@ class GcodeControl(Sections):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
-        lacks, rows = [], self.work_offsets
+        found, rows = [], self.work_offsets
         if not any(row.has(settings.work_offset) for row in rows):
+            lack = f"{self.title} has no work offset {settings.work_offset}"
             remedy = f"use one of: {', '.join(row.name for row in rows)}"
-            lacks.append(("work_offset", f"work offset {settings.work_offset}", remedy))
+            found.append(Finding.error("cam.work-offset", "cam.work_offset", lack, remedy=remedy))
         if settings.compensation != "computer" and self.offsets.d is None:
-            lacks.append(("compensation", "cutter compensation (G41, G42)", 'use compensation = "computer"'))
-        return [
-            Finding.error(
-                f"cam.{key.replace('_', '-')}", f"cam.{key}", f"{self.title} has no {what}", remedy=remedy
-            )
-            for key, what, remedy in lacks
-        ]
+            lack = f"{self.title} has no cutter compensation (G41, G42)"
+            remedy = 'use compensation = "computer"'
+            found.append(Finding.error("cam.compensation", "cam.compensation", lack, remedy=remedy))
+        return found
 
     def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
         """Run a program by the rules of the control's dialect."""

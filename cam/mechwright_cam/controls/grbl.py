@@ -45,8 +45,13 @@ class Grbl(GcodeControl):
         ),
         arc_absolute=0.005,
         arc_most=0.5,
+        arc_chord=0.0,
         line_length=80,
         counts_code=True,
+        ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed and speed
+        largest_n=10_000_000,
+        one_use_of_axes=True,
+        tables=frozenset({2, 20}),
         percent=False,
         decimals=3,
         tool_by_t=True,

@@ -32,6 +32,17 @@ class LinuxCnc(GcodeControl):
         macros=Macros,
         # Without P, or without any word, it keeps up its speed however far it leaves the path.
         corners=Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True),
+        active_comments=("py,", "pyrun,", "pyreload", "abort,", "logopen,", "logappend,", "probeopen"),
+        largest_n=99_999_999,
+        parts_of_n=True,
+        arc_inch=2.54,
+        arc_of_larger=True,
+        arc_most=2.83,
+        arc_least=0.00127,
+        arc_chord=0.00127,
+        both_coolants=False,
+        one_use_of_axes=True,
+        tables=frozenset({1, 2, 10, 11, 20}),
         g_codes=MILLING - {RETURN} | {411, 421, 431, 591, 592, 593, 611, 901, 911},
         unsupported=(
             (RETURN, "retract with G53 G0 Z0 or G28"),
@@ -46,7 +57,7 @@ class LinuxCnc(GcodeControl):
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
     active_comments = (
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
-        *("PROBEOPEN", "PROBECLOSE", "PY"),
+        *("PROBEOPEN", "PROBECLOSE", "PY", "PYRUN", "PYRELOAD", "ABORT"),
     )
 
     @property

@@ -25,6 +25,7 @@ class Mach3(GcodeControl):
         inert_m=frozenset({48, 49}),
         semicolon_comments=False,
         numbers_needed="H",
+        tables=frozenset({1, 2}),
         corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
     )
     forbidden = "%;"

@@ -38,13 +38,15 @@ class Engrave(DetailOperation):
                 )
         for tool in reversed(job.tools_of(ToolKind.CHAMFER)):
             line = 2 * spread(tool, detail.depth)
+            if not tool.centre_cutting:
+                continue
             if NARROWER * detail.width <= line <= detail.width + TOLERANCES.noise and line <= tool.diameter:
                 write = partial(_strokes, detail=detail)
                 return Task(detail, self, (tool,), 0.0, -detail.depth, data=write)
         raise ToolError(
             f"cam.tools: no pointed cutter engraves {detail.name} of part {job.part.name} {detail.depth:g} "
-            f"mm deep with lines {NARROWER * detail.width:g} to {detail.width:g} mm wide; list a finer "
-            "chamfer mill"
+            f"mm deep with lines {NARROWER * detail.width:g} to {detail.width:g} mm wide; list a "
+            "finer chamfer mill that has centre_cutting = true"
         )
 
 

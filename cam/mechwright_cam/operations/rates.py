@@ -10,8 +10,6 @@ from mechwright_cam.shop.tool import CuttingData, Tool
 
 RAMP_SHARE = 0.5
 """Feed on ramps and helices: the cutter works with its end as well as with its side."""
-PLUNGE_SHARE = 0.3
-"""Feed straight down for a centre-cutting end mill: common practice for solid carbide."""
 
 MOST_THINNING = 3.0
 """Feed is raised no further for thin chips: with more, the cusps along the path show."""
@@ -94,7 +92,7 @@ def rates(
         spindle,
         feed,
         max(1.0, round(plain * RAMP_SHARE)),
-        max(1.0, round(plain * PLUNGE_SHARE)),
+        max(1.0, round(plain * data.plunge)),
         machine.max_feed,
         data.chip_load * min(1.0, machine.max_feed / most),
     )

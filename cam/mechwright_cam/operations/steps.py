@@ -10,7 +10,13 @@ from mechwright_cam.operations.rates import rates
 from mechwright_cam.program.moves import Move
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+
+
+def slope(tool: Tool, settings: CamSettings) -> float:
+    """Tangent of the steepest ramp that a tool may go down."""
+    return math.tan(math.radians(min(settings.ramp_angle, tool.ramp_angle or settings.ramp_angle)))
 
 
 class Cut(NamedTuple):
@@ -26,7 +32,6 @@ class Steps:
 
     def __init__(self, job: Job, clearance: float) -> None:
         self.job, self.clearance = job, clearance
-        self.slope = math.tan(math.radians(job.settings.ramp_angle))
         self.copies = Copies()
         self.cuts: list[Cut] = []
 
@@ -49,7 +54,7 @@ class Steps:
         settings = self.job.settings
         depth = depth if settings.chip_thinning else math.inf
         speed = rates(tool, self.job.part.material, settings.machine, engagement, depth)
-        pen = Pen(tool, speed, self.clearance, self.slope, over)
+        pen = Pen(tool, speed, self.clearance, slope(tool, settings), over)
         write(pen)
         return tuple(pen.moves)
 

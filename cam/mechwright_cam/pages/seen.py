@@ -5,7 +5,7 @@ from typing import Any
 
 from mechwright.build import Build
 from mechwright_cam.machining import Machined, Machining
-from mechwright_cam.proof.simulation import Simulation, simulate
+from mechwright_cam.proof.simulation import Simulation
 from mechwright_cam.proof.walls import Walls, wall_deviation
 
 
@@ -19,7 +19,7 @@ class Seen:
     def measured(self) -> list[tuple[Machined, Simulation, Walls]]:
         """Each program with its simulated stock and the deviation along its walls."""
         return [
-            (item, simulate(item.scene.paths, item.job), wall_deviation(item.scene.sweeps, item.job))
+            (item, item.scene.simulation, wall_deviation(item.scene.sweeps, item.job))
             for item in self.machining.made
         ]
 

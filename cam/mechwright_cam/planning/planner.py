@@ -33,7 +33,7 @@ def plan(job: Job, assignments: Assignments | None = None) -> Program:
 
 def clearance_height(job: Job) -> float:
     """Height of rapids over stock and clamp, z in mm."""
-    return job.settings.clearance + (job.clamp.top if job.clamp else 0.0)
+    return job.settings.clearance + job.highest
 
 
 class _Planner:

@@ -91,7 +91,7 @@ def _second(
         raise DesignError(
             f"cam.second_side.work_offset: {side.work_offset} is the first side's; the second needs its own"
         )
-    if first.clamp is not None or first.jaws:
+    if first.settings.hold.method != "tabs":
         raise DesignError(
             f"cam.hold.method: part {part.name} has features on its underside and would be loose by then; "
             'use method = "tabs"'

@@ -57,8 +57,9 @@ def cutting_speed(scene: Scene) -> Check:
 
 
 def chips(scene: Scene) -> Check:
-    """Nothing is fed into material much faster than the tool library says."""
+    """Nothing is fed into material much faster than the tool library says, for as much as it takes there."""
     run, paths = scene.run, scene.paths
+    full = _full_chips(scene)
     rpm = scene.run.of_states(lambda state: state.rpm)
     working = paths.steps[in_work(scene)[paths.steps] & (rpm[paths.steps] > 0)]
     for tool, data in cutting_data(scene):
@@ -68,7 +69,8 @@ def chips(scene: Scene) -> Check:
         if tool.kind in {ToolKind.DRILL, ToolKind.SPOT_DRILL}:
             steps, plunge = steps[plunge], plunge[plunge]
         # Straight down a flat end has no place where chips are thin.
-        share = np.where((plunge & (tool.nose == 0)) | (tool.kind not in MILLS), BEYOND, THIN_CHIPS)
+        thick = (plunge & (tool.nose == 0)) | (tool.kind not in MILLS) | np.isin(steps, full)
+        share = np.where(thick, BEYOND, THIN_CHIPS)
         # Whole feeds are as near as some posts come to a small one.
         fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
         for index in np.flatnonzero(run.feed[steps] > fastest).tolist():
@@ -84,6 +86,20 @@ def chips(scene: Scene) -> Check:
             )
             return scene.bad(step, message, tooth, float(share[index]) * data.chip_load, "mm")
     return Check(True, "nothing is fed into material much faster than the tool library says")
+
+
+def _full_chips(scene: Scene) -> Ints:
+    """The steps in which a mill takes so much that its chips are too thick, as measured on the grid.
+
+    That is so for two windows on end at least: a corner is over sooner.
+    """
+    loads = scene.simulation.loads
+    limits = {tool.number: BEYOND * data.chip_load for tool, data in cutting_data(scene)}
+    limit = np.array([limits.get(number, np.inf) for number in loads.tool.tolist()])
+    thick = ~loads.down & (loads.chip > limit)
+    lasting = thick[1:] & thick[:-1] & (np.diff(loads.step) <= 1)
+    found: Ints = np.unique(loads.step[1:][lasting])
+    return found
 
 
 def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:

@@ -6,6 +6,7 @@ material. Most moves follow a path that a cut before them has gone nearly down t
 of them at once, and only what is left is looked at closely.
 """
 
+import math
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
@@ -96,7 +97,38 @@ def depth_of_cut(scene: Scene) -> Check:
                     f"[cam.cutting.{tool.name}]"
                 )
                 return scene.bad(step, message, low, limit, "mm")
-    return Check(True, "no mill takes much more depth at once than the tool library says")
+    return _sections(scene) or Check(True, "no mill takes much more at once than the tool library says")
+
+
+SECTIONS = 2.0
+"""A mill may take so many times the section of a full slot of one step_down: deep cuts are narrow, shallow
+ones wide."""
+
+
+def _sections(scene: Scene) -> Check | None:
+    """A cut whose depth times width is far beyond that of a planned pass, for a few diameters on end."""
+    cam, every = scene.job.settings, scene.simulation.loads
+    for tool, data in cutting_data(scene):
+        loads = every.only((every.tool == tool.number) & ~every.down)
+        if tool.kind not in MILLS or not loads.step.size:
+            continue
+        asked = 0.0
+        if cam.clearing == "adaptive":
+            asked = BEYOND * cam.adaptive_depth * (1 - math.cos(math.radians(cam.engagement))) / 2
+        limit = max(SECTIONS * data.step_down, asked) * tool.diameter**2
+        large = loads.section > limit
+        following = np.diff(loads.step) <= 1
+        on_end = np.flatnonzero(large[1:] & large[:-1] & following)
+        if on_end.size:
+            worst = int(on_end[0]) + 1
+            found, step = float(loads.section[worst]), int(loads.step[worst])
+            message = (
+                f"T{tool.number} ({tool.name}) takes {loads.depth[worst]:.1f} mm deep and "
+                f"{loads.width[worst]:.1f} mm wide of {scene.job.part.material}, {found:.1f} mm² of at most "
+                f"{limit:.1f}; rough before you finish, or cut in passes"
+            )
+            return scene.bad(step, message, found, limit, "mm²")
+    return None
 
 
 def _lasting(steps: list[int], lengths: list[float], least: float) -> Iterator[tuple[int, float]]:

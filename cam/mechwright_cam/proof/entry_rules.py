@@ -8,31 +8,37 @@ from mechwright.arrays import Array
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import stock_shape
+from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.stock import TOUCH
-from mechwright_cam.shop.tool import MILLS, ToolKind
+from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
+
+STEEPEST = 15.0
+"""Ramp, degrees, that a centre-cutting mill goes down at the feed of its cut if its maker says nothing: data
+sheets have 3 to 15 for full slots. A steeper one is as good as a plunge, and needs its feed."""
 
 
 def entries(scene: Scene) -> Check:
-    """Ramps into material are gentle, and only centre-cutting tools plunge."""
+    """Ramps into material are as gentle as the tools ask for, and only centre-cutting tools plunge."""
     run, paths = scene.run, scene.paths
-    limit = scene.job.settings.ramp_angle
     steps = paths.cuts
     drop = paths.start[steps, 2] - paths.end[steps, 2]
     straight = np.hypot(*(paths.end[steps, :2] - paths.start[steps, :2]).T)
     flat = np.where(run.kind[steps] == Kind.ARC, np.abs(run.sweep[steps]) * run.radius[steps], straight)
     angle = np.degrees(np.arctan2(drop, flat))
-    plunges = {n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS}
-    plunge = flat <= NEAR
-    allowed = plunge & np.isin(run.tool[steps], list(plunges))
+    limit = paths.of_tool(lambda tool: steepest(tool, scene.job.settings.ramp_angle))[steps]
     # Both ends are rounded in the text: a ramp may end a last decimal lower, and be one and a half shorter.
     digit = 10.0**-scene.control.decimals
-    steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(limit)) + digit
-    threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
+    steep = drop > (flat + 1.5 * digit) * np.tan(np.radians(np.minimum(limit, UPRIGHT))) + digit
+    plunges = [n for n, t in scene.tools.items() if t.centre_cutting or t.kind not in MILLS]
+    plunge = flat <= NEAR
+    allowed = (plunge | _slowly(scene, steps) | _down_a_tab(scene, steps, drop, flat)) & np.isin(
+        run.tool[steps], plunges
+    )
     # A thread mill goes down a finished hole, as steeply as its pitch asks.
-    allowed |= _down_a_tab(scene, steps, drop, flat) & np.isin(run.tool[steps], list(plunges))
+    threading = [n for n, t in scene.tools.items() if t.kind is ToolKind.THREAD_MILL]
     suspect = steep & ~np.isin(run.tool[steps], threading) & (paths.end[steps, 2] < -NEAR) & ~allowed
     for index in np.flatnonzero(suspect).tolist():
         step = int(steps[index])
@@ -42,13 +48,34 @@ def entries(scene: Scene) -> Check:
         if plunge[index]:
             message = f"T{tool.number} ({tool.name}) plunges into the stock and does not cut at its centre"
             return scene.bad(step, message)
-        found = float(angle[index])
+        found, most = float(angle[index]), float(limit[index])
         message = (
-            f"T{tool.number} ({tool.name}) ramps into the stock at {found:.1f} degrees, "
-            f"the limit is {limit:g}"
+            f"T{tool.number} ({tool.name}) ramps into the stock at {found:.1f} degrees, the limit is {most:g}"
         )
-        return scene.bad(step, message, found, limit, "deg")
-    return Check(True, "entries are ramps or plunges that the tools can do", limit=limit, unit="deg")
+        return scene.bad(step, message, found, most, "deg")
+    return Check(True, "entries are ramps or plunges that the tools can do")
+
+
+UPRIGHT = 89.9
+"""From this angle on a ramp is a plunge, degrees."""
+
+
+def steepest(tool: Tool, planned: float) -> float:
+    """Steepest ramp of a tool, degrees: as its maker says, or as planned if it is steeper than usual."""
+    if tool.ramp_angle is not None:
+        return tool.ramp_angle
+    return max(planned, STEEPEST) if tool.centre_cutting else planned
+
+
+def _slowly(scene: Scene, steps: Ints) -> NDArray[np.bool_]:
+    """(n,) whether a move is no faster than its tool may plunge."""
+    run, fastest = scene.run, np.zeros(len(scene.run))
+    rpm = run.of_states(lambda state: state.rpm)
+    for tool, data in cutting_data(scene):
+        mine = run.tool == tool.number
+        fastest[mine] = BEYOND * data.plunge * data.chip_load * rpm[mine] * tool.flutes
+    slow: NDArray[np.bool_] = run.feed[steps] <= fastest[steps]
+    return slow
 
 
 TAB_RISE = 0.005
@@ -83,8 +110,7 @@ def rapid_height(scene: Scene) -> Check:
     sideways = np.hypot(*(paths.end - paths.start)[rapid, :2].T) > NEAR
     low = rapid[sideways & (paths.low[rapid] < limit - NEAR)]
     if low.size:
-        lines = paths.lines(paths.whole(low))
-        over = low[shapely.dwithin(lines, stock_shape(scene.job), paths.radius[low])]
+        over = low[shapely.dwithin(paths.room(paths.whole(low)), stock_shape(scene.job), paths.radius[low])]
         if over.size:
             step = int(over[0])
             z = float(paths.low[step])

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright_cam.controls.reading import Kind
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Pieces
 from mechwright_cam.proof.plane import Shape
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
+from mechwright_cam.proof.stops import clamp_set
 from mechwright_cam.shop.tool import Tool
 
 
@@ -65,19 +65,20 @@ class Obstacle:
 
 
 def obstacles(scene: Scene) -> list[Obstacle]:
-    """Clamp and jaws of the job; a clamp is set at the first stop, jaws are there from the start."""
-    job, run = scene.job, scene.run
+    """Clamp and jaws of the job; a clamp is set at a stop, jaws are there from the start."""
+    job = scene.job
     found = [
         Obstacle(f"the {jaw.edge} jaw of the vice (up to Z{jaw.top:g})", jaw.shape, 0.0, jaw.top, -1)
         for jaw in job.jaws
     ]
+    found += [
+        Obstacle(f"toe clamp {toe.number} (up to Z{toe.top:g})", toe.shape, 0.0, toe.top, -1)
+        for toe in job.toes
+    ]
     if job.clamp is not None:
-        # A stop right after a T word is for that tool, where tools are changed by hand.
-        stops = np.flatnonzero((run.kind == Kind.STOP) & (np.roll(run.kind, 1) != Kind.TOOL))
+        since = clamp_set(scene)
         name = f"the clamp (diameter {job.clamp.diameter:g} mm, up to Z{job.clamp.top:g})"
-        # Without a stop it can only have been there from the start.
-        since = int(stops[0]) if stops.size else -1
-        if not stops.size:
+        if since < 0:  # without a stop it can only have been there from the start
             name += f", which no {scene.control.m(0)} sets later"
         found.append(
             Obstacle(name, shapely.Point(job.clamp.centre), job.clamp.diameter / 2, job.clamp.top, since)
@@ -102,7 +103,7 @@ def clamp(scene: Scene) -> Check:
                 return check
     if not every:
         return Check(True, "there is no clamp in the way")
-    held = "jaws of the vice" if scene.job.jaws else "clamp"
+    held = "jaws of the vice" if scene.job.jaws else "toe clamps" if scene.job.toes else "clamp"
     return Check(True, f"the cutter stays clear of the {held}")
 
 
@@ -116,7 +117,7 @@ def _met(scene: Scene, one: Obstacle, what: str, pieces: Pieces, radius: float |
     pieces = pieces.only(near)
     if len(pieces) == 0:
         return None
-    room = shapely.distance(paths.lines(pieces), one.shape) - own[pieces.step] - one.radius
+    room = shapely.distance(paths.room(pieces), one.shape) - own[pieces.step] - one.radius
     worst = int(np.argmin(room))
     if room[worst] >= 0:
         return None

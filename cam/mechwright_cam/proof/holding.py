@@ -1,24 +1,19 @@
-"""What holds the part when everything is cut, and what comes loose in its openings."""
+"""Every piece of the plate is held while it is cut, or out of the way; and what holds it is strong enough."""
 
 import numpy as np
 import shapely
 
-from mechwright.contracts.part import Profile
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.proof.bands import bands, stock_shape
+from mechwright_cam.proof.grips import advice, grips
+from mechwright_cam.proof.loose import Loose, loose_pieces, passed
 from mechwright_cam.proof.paths import NEAR
-from mechwright_cam.proof.plane import Shape, grow, swept
+from mechwright_cam.proof.plane import grow
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.sweep import Sweep, Sweeps
+from mechwright_cam.proof.stops import clamp_set, way_through
+from mechwright_cam.proof.sweep import BRIDGE, Sweep, taken
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.views import inside_of
-
-BRIDGE = 0.02
-"""Accuracy of the areas here, mm: a bridge thinner than that holds nothing."""
-JAMS = 1.0
-"""A loose piece wider than this is worth a remark, mm: it can be caught between cutter and part."""
-
 
 TOUCHES = 0.002
 """The part touches a jaw where it is so near to its face, mm: the chords of its outline, and rounding."""
@@ -29,19 +24,69 @@ BEARS = 0.95
 def holding(scene: Scene) -> Check:
     """The tabs join the part to a frame, or the jaws of the vice grip it."""
     job = scene.job
+    if job.side == "underside":
+        return Check(True, "the part hangs in its frame")
+    if job.tabs:
+        cut = scene.sweeps.through(job.thickness)
+        free = None if _rim_is_whole(cut, job) else _free_tab(cut, job)
+        if free is not None:
+            message = (
+                f"the tab at X{free.x:.1f} Y{free.y:.1f} leads to no frame: the cut around the part "
+                "leaves none; give the stock a larger margin"
+            )
+            return Check(False, message)
+    for piece in loose_pieces(scene, grips(scene)):
+        failed = _judged(scene, piece)
+        if failed is not None:
+            return failed
     if job.jaws:
         return _gripped(job)
-    if not job.tabs:
-        return Check(True, "the part is held by a clamp or from below")
-    cut = scene.sweeps.through(job.thickness)
-    free = None if _rim_is_whole(cut, job) else _free_tab(cut, job)
-    if free is not None:
-        message = (
-            f"the tab at X{free.x:.1f} Y{free.y:.1f} leads to no frame: the cut around the part "
-            "leaves none; give the stock a larger margin"
-        )
-        return Check(False, message)
+    if job.clamp is not None:
+        return Check(True, "the part is held by its clamp before it is cut free")
+    if job.settings.hold.method == "none":
+        return Check(True, "every piece stays where it is held")
     return Check(True, "the tabs join the part to the frame")
+
+
+def _judged(scene: Scene, piece: Loose) -> Check | None:
+    """The failed check of a loose piece; None if it is taken away, or lies where no cutter goes."""
+    run, job, (x, y) = scene.run, scene.job, piece.place
+    line = "from the start" if piece.step < 0 else f"at line {int(run.line[piece.step])}"
+    if piece.is_part:
+        clamp = clamp_words(scene) if job.clamp is not None else ""
+        message = f"the part comes loose: nothing holds it when this is cut{clamp}; {advice(job)}"
+        return scene.bad(max(piece.step, 0), message)
+    step = passed(scene, piece)
+    if step is None:
+        return None
+    message = (
+        f"T{int(run.tool[step])} passes a piece of {piece.area:.0f} mm² {piece.where}, X{x:.1f} Y{y:.1f}, "
+        f"that comes loose {line}; {advice(job)}, or stop with {scene.control.m(0)} and a comment to "
+        "take it out"
+    )
+    return scene.bad(step, message)
+
+
+def clamp_words(scene: Scene) -> str:
+    """When the clamp is set, as far as the program says."""
+    since, halt = clamp_set(scene), scene.control.m(0)
+    if since < 0:
+        return f", and no {halt} sets the clamp"
+    early = ", where there is no way through the plate for it" if way_through(scene) > since else ""
+    return f", and the clamp is set by the {halt} in line {int(scene.run.line[since])}{early}"
+
+
+def remarks(scene: Scene) -> list[str]:
+    """What falls out, and lies still or is taken away."""
+    if scene.job.side == "underside":
+        return []
+    return [
+        f"a piece of {piece.area:.0f} mm² comes loose {piece.where}, at X{piece.place[0]:.1f} "
+        f"Y{piece.place[1]:.1f}; "
+        + ("no cutter comes near it any more" if piece.taken is None else "it is taken out at a stop")
+        for piece in loose_pieces(scene, grips(scene))
+        if not piece.is_part and passed(scene, piece) is None
+    ]
 
 
 def _gripped(job: Job) -> Check:
@@ -72,17 +117,6 @@ def _rim_is_whole(cut: list[Sweep], job: Job) -> bool:
     return True
 
 
-def _swept(cut: list[Sweep], region: Shape) -> list[Shape]:
-    """What is cut away of a region, roughly."""
-    region = prepared(region)
-    shapes: list[Shape] = []
-    for sweep in cut:
-        chains = sweep.beside(region)
-        near = chains[shapely.dwithin(region, chains, sweep.radius)]
-        shapes.append(swept(near, sweep.radius, BRIDGE))
-    return shapes
-
-
 def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     """A tab that ends in nothing, if there is one.
 
@@ -92,7 +126,7 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
     plate = stock_shape(job)
     scrap = max((sweep.radius for sweep in cut), default=0.0)  # the round end of a cut beside a tab
     tabs = [grow(tab.shape, scrap, BRIDGE) for tab in job.tabs]
-    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*_swept(cut, plate), *tabs])))
+    pieces = shapely.get_parts(shapely.difference(plate, shapely.union_all([*taken(cut, plate), *tabs])))
     inside = shapely.point_on_surface(shapely.get_parts(job.target))
     others = pieces[~shapely.intersects(pieces[:, None], inside).any(axis=1)]
     ends = np.array([shapely.dwithin(others, tab, BRIDGE) for tab in tabs]).reshape(len(tabs), len(others))
@@ -101,20 +135,3 @@ def _free_tab(cut: list[Sweep], job: Job) -> shapely.Point | None:
         if not (row & frame).any():
             return tab.shape.centroid
     return None
-
-
-def loose(sweeps: Sweeps, job: Job) -> list[str]:
-    """Remarks on what falls out of openings that are cut along their edge only."""
-    cut, remarks = sweeps.through(job.thickness), []
-    for feature in job.features:
-        through = feature.top + feature.depth >= job.thickness - NEAR
-        if not through or (isinstance(feature, Profile) and feature.side == "outside"):
-            continue
-        opening = inside_of(feature)
-        rest = shapely.get_parts(shapely.difference(opening, shapely.union_all(_swept(cut, opening))))
-        free = rest[shapely.distance(rest, opening.exterior) > BRIDGE]
-        for piece in free[~shapely.is_empty(shapely.buffer(free, -JAMS / 2, quad_segs=4))].tolist():
-            remarks.append(
-                f"a piece of {piece.area:.1f} mm² comes loose in {feature.name}; stop to take it out"
-            )
-    return remarks

@@ -11,7 +11,8 @@ from mechwright.cores import together
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.proof.beyond import SPOTS
-from mechwright_cam.proof.holding import loose
+from mechwright_cam.proof.found_tabs import with_found_tabs
+from mechwright_cam.proof.holding import remarks
 from mechwright_cam.proof.report import Proof, Spot
 from mechwright_cam.proof.rules import BUILT_IN, Rule, ask
 from mechwright_cam.proof.scene import Scene
@@ -63,12 +64,13 @@ def judge(scene: Scene, rules: Sequence[Rule] = RULES) -> Proof:
 
 def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     """What the rules say of one run."""
+    scene = with_found_tabs(scene)
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
-    run, _, _ = scene.run, scene.stock, scene.sweeps
+    run, *_ = scene.run, scene.stock, scene.sweeps, scene.simulation, scene.pieces
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
     seconds, left = step_times(run, scene.job.settings.machine, scene.motion), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
-    notes = loose(scene.sweeps, scene.job)
+    notes = [*remarks(scene), *(check.message for check in checks if check.told)]
     if left.beyond:
         where = f"in {len(left.beyond)} place(s), up to {deepest:.3f} mm, {area:.3f} mm² in all"
         notes.insert(0, f"stock that no cutter of the program reaches: {where}")

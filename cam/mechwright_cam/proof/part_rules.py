@@ -24,17 +24,8 @@ def gouge(scene: Scene) -> Check:
         depth = cut.depth if cut else 0.0
         return Check(True, "the cutter stays out of the finished part", value=depth, limit=limit, unit="mm")
     message = f"cuts {cut.depth:.3f} mm into the finished part, the limit is {limit:g} mm"
-    return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
-
-
-def tabs(scene: Scene) -> Check:
-    """The tabs remain."""
-    cut, limit, count = scene.in_tab, TOLERANCES.gouge, len(scene.job.tabs)
-    if not count:
-        return Check(True, "there are no tabs")
-    if cut is None or cut.depth <= limit:
-        return Check(True, f"all {count} tabs remain")
-    message = f"cuts {cut.depth:.3f} mm into a tab that holds the part, the limit is {limit:g} mm"
+    if scene.misfit:
+        message = f"{scene.misfit}, and {message}"
     return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
 
 
@@ -52,6 +43,8 @@ def leftover(scene: Scene) -> Check:
     if left.bore is not None:
         where = f"on the wall of {left.bore.name}, which is to be cut to {left.bore.diameter:g} mm"
     message = f"{found} {where}, the limit is {limit:g} mm, at X{x:.3f} Y{y:.3f} Z{z:.3f}"
+    if scene.misfit:
+        message = f"{scene.misfit}, and {message}"
     return Check(False, message, None, left.reachable, limit, "mm", left.at)
 
 
@@ -82,16 +75,18 @@ def depth(scene: Scene) -> Check:
         if shape.is_empty or shape.area <= NEAR:
             continue
         shape = prepared(shape)
-        low = _lowest(paths, paths.below(floor + ROUNDING, steps=paths.cuts), shape)
+        low = lowest_cut(paths, paths.below(floor + ROUNDING, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
-            low = _lowest(paths, paths.below(-NEAR, steps=paths.cuts), shape)
+            low = lowest_cut(paths, paths.below(-NEAR, steps=paths.cuts), shape)
         if low > floor + ROUNDING:
             message = f"{feature.name} is cut down to Z{low:.3f}, its floor is at Z{floor:.3f}"
+            if scene.misfit:
+                message = f"{scene.misfit}, and nothing cuts at the wall of {feature.name}"
             return Check(False, message, None, low, floor, "mm")
     return Check(True, "every feature is cut to its full depth")
 
 
-def _lowest(paths: Paths, pieces: Pieces, shape: Shape) -> float:
+def lowest_cut(paths: Paths, pieces: Pieces, shape: Shape) -> float:
     """Lowest z at which any piece cuts into a shape; 0 if none does."""
     order, some, begin = np.argsort(pieces.low, kind="stable"), AT_ONCE, 0
     while begin < order.size:  # the lowest first: one of them nearly always does

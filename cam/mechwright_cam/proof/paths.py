@@ -218,6 +218,23 @@ class Paths:
             return np.empty(0, dtype=object)
         return _lines(*self.points(pieces))
 
+    def room(self, pieces: Pieces) -> Geometries:
+        """Where the tip may be in plan view while it makes each piece: of a feed move that is its line.
+
+        The axes of a rapid may arrive one after the other: whatever the order, X and Y stay in the rectangle
+        between both ends of the whole move, at the height of the lower end.
+        """
+        found = self.lines(pieces)
+        rapid = np.flatnonzero(self.run.kind[pieces.step] == Kind.RAPID)
+        if rapid.size:
+            ends = self.start[pieces.step[rapid], :2], self.end[pieces.step[rapid], :2]
+            low, high = np.minimum(*ends), np.maximum(*ends)
+            wide = (high - low > NEAR).all(axis=1)
+            found[rapid[wide]] = shapely.box(*low[wide].T, *high[wide].T)
+            straight = rapid[~wide]
+            found[straight] = self.lines(self.whole(pieces.step[straight]))
+        return found
+
     def chains(self, pieces: Pieces, chord: float = PATH_CHORD) -> Geometries:
         """The pieces joined into chains, repeated passes once.
 

@@ -23,6 +23,8 @@ class Check:
     unit: str = ""
     at: tuple[float, float, float] | None = None
     """Place in work coordinates, mm."""
+    told: bool = False
+    """Whether a pass is worth a remark: what was found forbids nothing, and is not as usual."""
     name: str = ""
     """That of the rule that asked (``"gouge"``, ``"length-offset"``), which the proof fills in."""
 
@@ -123,13 +125,18 @@ class Proof:
         """Plain data for ``proof.json``; lengths to a tenth of a micrometre."""
         data = asdict(self)
         data["checks"] = {
-            name: {key: value for key, value in check.items() if key != "name" and value not in (None, "")}
+            name: {key: value for key, value in check.items() if _says(key, value)}
             for name, check in data["checks"].items()
         }
         data["tool_times_s"] = self.tool_times_s
         data["tool_cutting_s"] = self.tool_cutting_s
         plain: dict[str, Any] = _plain({"ok": self.ok, **data})
         return plain
+
+
+def _says(key: str, value: Any) -> bool:
+    """Whether a field of a check stands in ``proof.json``: its name is the key, and remarks are notes."""
+    return key not in ("name", "told") and value not in (None, "")
 
 
 def _plain(value: Any) -> Any:

@@ -14,10 +14,14 @@ from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.footprint import Footprint, footprint
 from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
+from mechwright_cam.proof.misfit import misfit
 from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.report import Check
+from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.proof.stock import Stock
 from mechwright_cam.proof.sweep import Sweeps
 from mechwright_cam.setup.job import Job
@@ -77,6 +81,21 @@ class Scene:
         return Stock(self.paths, self.job)
 
     @cached_property
+    def footprint(self) -> Footprint:
+        """By which step the plate is cut through, cell by cell."""
+        return footprint(self.paths, self.job)
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The pieces that it falls into."""
+        return Pieces(self.footprint)
+
+    @cached_property
+    def simulation(self) -> Simulation:
+        """The plate on a grid, and how hard the tools work."""
+        return simulate(self.paths, self.job)
+
+    @cached_property
     def gouge(self) -> Gouge | None:
         """The deepest cut into the finished part."""
         paths, job = self.paths, self.job
@@ -102,6 +121,11 @@ class Scene:
     def remains(self) -> Remains:
         """The stock that stays around the part."""
         return remains(self.sweeps, self.job)
+
+    @cached_property
+    def misfit(self) -> str:
+        """What is wrong where a path is made for another tool; nothing where it is not."""
+        return misfit(self.sweeps, self.job)
 
     def state(self, step: int) -> State:
         """Machine state in a step."""

@@ -1,14 +1,7 @@
-"""The stock while the program runs, on a grid of heights: what each move takes, and the picture at last.
+"""The stock while the program runs, on a grid of heights: what each piece of path takes, and the picture.
 
-The proof itself is exact and has no grid. This is for what the eye and the cutter ask: how much of the feed
-is in air, how hard each tool has to work, and a picture.
-
-Glossary
---------
-window
-    A stretch of path, a cutter radius long at least, over which engagement is measured.
-engagement
-    Angle of the cutter's circumference that is in material; 180 degrees is a full slot.
+What is cut of the part is proven exactly, without a grid. This is for what cutter and spindle ask: how hard
+each tool has to work (:mod:`mechwright_cam.proof.loads`), how much of the feed is in air, and a picture.
 """
 
 import math
@@ -19,40 +12,26 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.fillets import fillets
+from mechwright_cam.proof.loads import Loads, Taken, Work, loads_of, works_of
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.cutter import approach, cutter
+from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
 
 CELLS = 1_000_000
 """Cells of the grid: on a plate of a hand's size they are a tenth of a millimetre wide."""
 FINEST = 0.05
 """Smallest cell, mm: finer shows nothing more."""
-
-
-@dataclass(frozen=True, slots=True)
-class Work:
-    """How hard a tool works."""
-
-    tool: int
-    """T number."""
-    feed_per_tooth: float
-    """Greatest feed per tooth in material, mm."""
-    chip: float
-    """Greatest thickness of a chip, mm: feed per tooth times the sine of the engagement, 90 degrees at most;
-    less where only the rounded corner of a cutter is in the cut."""
-    engagement: float
-    """Greatest engagement in a window, degrees."""
-    removal: float
-    """Greatest rate of removal in a window, cm³/min."""
-    line: int
-    """Line of the program where that is."""
+MOST_PLACES = 40_000
+"""Places along the path at which the cutter is set onto the grid, about 50 µs each: where there would be
+more, the cells are wider, up to a share of the finest cutter's radius."""
+COARSEST = 1 / 3
+"""That share: with wider cells a cutter has no shape."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +42,9 @@ class Simulation:
     feed_mm: float
     """Length of feed moves that took nothing, and of all, mm; moves above the stock count."""
     works: tuple[Work, ...]
-    """One for each tool that cut."""
+    """One for each operation that cut, in the program's order."""
+    loads: Loads
+    """What each short piece of path asks of tool and spindle."""
     heights: NDArray[np.float32]
     """(ny, nx) float32, mm: the stock at last, seen from above; rows from the lower edge."""
     cell: float
@@ -71,15 +52,21 @@ class Simulation:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for ``proof.json``."""
-        works = [{key: round(value, 4) for key, value in asdict(work).items()} for work in self.works]
+        works = [
+            {
+                key: round(value, 4) if isinstance(value, float) else value
+                for key, value in asdict(work).items()
+            }
+            for work in self.works
+        ]
         return {"air_mm": round(self.air_mm, 1), "feed_mm": round(self.feed_mm, 1), "tools": works}
 
 
 def simulate(paths: Paths, job: Job) -> Simulation:
-    """Cut the stock on a grid, move by move, in the order of the program."""
+    """Cut the stock on a grid, place by place along the path, in the order of the program."""
     run, tools, steps = paths.run, paths.tools, paths.cuts
     x0, y0, x1, y1 = job.stock
-    cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS))
+    cell = max(FINEST, math.sqrt((x1 - x0) * (y1 - y0) / CELLS), _cell_for(paths, steps))
     shape = math.ceil((y1 - y0) / cell), math.ceil((x1 - x0) / cell)
     heights = np.zeros(shape, dtype=np.float32)
     floors = np.full(shape, -job.thickness, dtype=np.float32)
@@ -87,16 +74,29 @@ def simulate(paths: Paths, job: Job) -> Simulation:
         floors[_inside(air.shape, job, shape, cell)] = air.top
     through = floors >= -NEAR
     heights[through] = -job.thickness
-    volume, depth = np.zeros(len(run)), np.zeros(len(run))
+    length, idle = np.nan_to_num(run.length), 0.0
+    taken = []
     for number, mine in _runs_of_one_tool(run, steps):
-        _cut(paths, job, tools[number], mine, heights, floors, cell, volume, depth)
+        taken.append(_cut(paths, job, tools[number], mine, heights, floors, cell))
+        idle += float(length[mine[taken[-1].of_steps(mine) <= cell**2 * NEAR]].sum())
     heights[heights <= floors + NEAR] = -job.thickness  # cut into what was open from below
-    length = np.nan_to_num(run.length)
-    idle = steps[volume[steps] <= cell**2 * NEAR]
-    used = dict.fromkeys(run.tool[steps].tolist())
-    works = [_work(run, tools[n], steps[run.tool[steps] == n], volume, depth) for n in used]
-    did = tuple(work for work in works if work is not None)
-    return Simulation(float(length[idle].sum()), float(length[steps].sum()), did, heights, cell)
+    loads = loads_of(taken, paths, job.part.material)
+    works = works_of(loads, run, job.settings.machine)
+    return Simulation(idle, float(length[steps].sum()), works, loads, heights, cell)
+
+
+def _spacing(tool: Tool, cell: float) -> float:
+    """Distance of places along a path, mm, between which a cutter leaves no cusp that a cell would show."""
+    return 2 * math.sqrt(2 * tool.radius * cell)
+
+
+def _cell_for(paths: Paths, steps: Ints) -> float:
+    """Cell, mm, with which a path has so many places as there may be; 0 without a path."""
+    radius, length = paths.radius[steps], np.nan_to_num(paths.run.length[steps])
+    if not steps.size:
+        return 0.0
+    wanted = float((length / np.sqrt(8 * radius)).sum())  # places are this over the root of a cell
+    return min((wanted / MOST_PLACES) ** 2, COARSEST * float(radius.min()))
 
 
 def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
@@ -112,43 +112,40 @@ def _cut(
     heights: NDArray[np.float32],
     floors: NDArray[np.float32],
     cell: float,
-    volume: Array,
-    depth: Array,
-) -> None:
-    """Lower the grid under each sample of the path; what was there before is what the move takes."""
-    places, z, owner = paths.samples(steps, 2 * math.sqrt(2 * tool.radius * cell))
-    low = z < -NEAR
-    places, z, owner = places[low], z[low], owner[low]
+) -> Taken:
+    """Lower the grid at places along the path; what was there before is what they take."""
+    taken = Taken.along(paths, steps, _spacing(tool, cell))
     disc = _disc(tool, cell)
     half = disc.shape[0] // 2
     x0, y0, _, _ = job.stock
-    columns = np.floor((places[:, 0] - x0) / cell).astype(np.int64)
-    rows = np.floor((places[:, 1] - y0) / cell).astype(np.int64)
+    columns = np.floor((taken.places[:, 0] - x0) / cell).astype(np.int64)
+    rows = np.floor((taken.places[:, 1] - y0) / cell).astype(np.int64)
     ny, nx = heights.shape
-    # A loop, sample by sample: each cut depends on what the one before has left.
-    for row, column, height, step in zip(
-        rows.tolist(), columns.tolist(), z.tolist(), owner.tolist(), strict=True
+    low = np.flatnonzero((taken.z < -NEAR) & (rows > -half - 1) & (rows < ny + half + 1))
+    at = (np.arange(-half, half + 1) * cell).astype(np.float32)
+    # A loop, place by place: each cut depends on what the one before has left.
+    for index, row, column, height in zip(
+        low.tolist(), rows[low].tolist(), columns[low].tolist(), taken.z[low].tolist(), strict=True
     ):
-        a, b, c, d = (
-            max(row - half, 0),
-            min(row + half + 1, ny),
-            max(column - half, 0),
-            min(column + half + 1, nx),
-        )
+        a, b = max(row - half, 0), min(row + half + 1, ny)
+        c, d = max(column - half, 0), min(column + half + 1, nx)
         if a >= b or c >= d:
             continue
         stock = heights[a:b, c:d]
-        tip = disc[a - row + half : b - row + half, c - column + half : d - column + half] + np.float32(
-            height
-        )
+        i, j = a - row + half, c - column + half
+        tip = disc[i : i + b - a, j : j + d - c] + np.float32(height)
         np.maximum(tip, floors[a:b, c:d], out=tip)
-        taken = stock - tip
-        np.maximum(taken, 0, out=taken)
-        most = float(taken.max())
+        more = stock - tip
+        most = float(more.max())
         if most > 0:
-            volume[step] += float(taken.sum()) * cell * cell
-            depth[step] = max(depth[step], most)
+            np.maximum(more, 0, out=more)
+            across = more.sum(axis=0)
+            taken.volume[index] = float(across.sum()) * cell * cell
+            taken.depth[index] = most
+            taken.moment[index, 0] = float(across @ at[j : j + d - c]) * cell * cell
+            taken.moment[index, 1] = float(more.sum(axis=1) @ at[i : i + b - a]) * cell * cell
             np.minimum(stock, tip, out=stock)
+    return taken
 
 
 def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
@@ -156,50 +153,6 @@ def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:
     half = math.ceil(tool.radius / cell)
     at = np.arange(-half, half + 1) * cell
     return cutter(tool).height_at(np.hypot(*np.meshgrid(at, at))).astype(np.float32)
-
-
-def _work(run: Run, tool: Tool, steps: Ints, volume: Array, depth: Array) -> Work | None:
-    """The greatest loads of one tool, in windows along its path."""
-    sideways = np.hypot(*(run.end[steps] - run.start[steps])[:, :2].T) > NEAR
-    steps = steps[(sideways | (run.kind[steps] == Kind.ARC)) & (volume[steps] > 0)]
-    if steps.size == 0:
-        return None
-    length = run.length[steps]
-    # A window ends where it is long enough, or where the cutter has left the material or moved on.
-    window = np.zeros(steps.size, dtype=np.int64)
-    place, so_far = 0, 0.0
-    for k, (one, before) in enumerate(
-        zip(length.tolist(), [steps[0] - 1, *steps[:-1].tolist()], strict=True)
-    ):
-        if so_far >= tool.diameter or steps[k] != before + 1:
-            place, so_far = place + 1, 0.0
-        window[k] = place
-        so_far += one
-    path = np.bincount(window, length)
-    long = path >= tool.radius
-    if not long.any():
-        return None
-    taken = np.bincount(window, volume[steps])
-    deep = np.zeros(place + 1)
-    np.maximum.at(deep, window, depth[steps])
-    feed = np.zeros(place + 1)
-    np.maximum.at(feed, window, run.feed[steps])
-    width = np.clip(taken / np.maximum(path * deep, NEAR), 0.0, tool.diameter)
-    angle = np.arccos(np.clip(1 - width / tool.radius, -1.0, 1.0))
-    rpm = run.states[run.state[steps[0]]].rpm
-    tooth = feed / max(rpm * tool.flutes, NEAR)
-    chip = tooth * np.sin(np.minimum(angle, np.pi / 2)) * approach(tool, deep)
-    removal = taken / path * feed / 1000
-    removal[~long], chip[~long], angle[~long] = 0.0, 0.0, 0.0
-    worst = int(np.argmax(removal))
-    return Work(
-        tool.number,
-        float(tooth.max()),
-        float(chip.max()),
-        float(np.degrees(angle.max())),
-        float(removal.max()),
-        int(run.line[steps[np.argmax(window == worst)]]),
-    )
 
 
 def _inside(shape: shapely.Geometry, job: Job, grid: tuple[int, int], cell: float) -> NDArray[np.bool_]:

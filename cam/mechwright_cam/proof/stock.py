@@ -1,6 +1,7 @@
 """Is there material where the tool goes now? Computed only for the few moves that need the answer."""
 
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 import shapely
@@ -15,6 +16,8 @@ from mechwright_cam.setup.job import Job
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
+MOST_TOLD = 100
+"""So many rapids that meet material are enough to know of."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
 ACCURACY = 0.001
@@ -59,14 +62,14 @@ class Stock:
 
     @cached_property
     def rapids(self) -> list[int]:
-        """The rapids that meet material; straight up follows the tool's own hole."""
+        """The first rapids that meet material; straight up follows the tool's own hole."""
         paths, rapid = self.paths, self.paths.rapids
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
-        return [step for step in low.tolist() if self.meets(step)]
+        return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
 
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
-        """Whether the tool, moving straight as this step does, meets material that earlier steps left.
+        """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
         which begins so far above the cutter's tip: shank or holder.
@@ -77,7 +80,7 @@ class Stock:
             return False
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))
         reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
-        shape = grow(paths.lines(pieces)[0], reach, ACCURACY)
+        shape = grow(paths.room(pieces)[0], reach, ACCURACY)
         body = shapely.intersection(shape, self.plate)
         if body.is_empty:
             return False

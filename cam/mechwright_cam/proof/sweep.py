@@ -8,16 +8,21 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.gouge import distinct
 from mechwright_cam.proof.near import Chords
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
+from mechwright_cam.proof.plane import Shape, swept
 
 ROUNDING = 1e-4
 """A path that should reach the underside may be short by the last decimal of the program, mm."""
 SWEEP_CHORD = 0.0005
 """Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
+
+BRIDGE = 0.02
+"""Accuracy of the areas of :func:`taken`, mm: a bridge thinner than that holds nothing."""
 
 PARTS = ("step", "first", "last", "low")
 """The arrays of Pieces."""
@@ -66,6 +71,17 @@ class Sweep:
         reach = self.radius + NEAR
         near = (least <= (x1 + reach, y1 + reach)) & (most >= (x0 - reach, y0 - reach))
         return self.paths.chains(self.pieces.only(np.flatnonzero(near.all(axis=1))), SWEEP_CHORD)
+
+
+def taken(cut: list[Sweep], region: Shape) -> list[Shape]:
+    """What is cut away of a region, roughly."""
+    region = prepared(region)
+    shapes: list[Shape] = []
+    for sweep in cut:
+        chains = sweep.beside(region)
+        near = chains[shapely.dwithin(region, chains, sweep.radius)]
+        shapes.append(swept(near, sweep.radius, BRIDGE))
+    return shapes
 
 
 class Sweeps:

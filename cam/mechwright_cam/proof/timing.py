@@ -31,8 +31,11 @@ def step_times(run: Run, machine: Machine, motion: Motion | None = None) -> Arra
     return seconds
 
 
-def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
-    """Times by operation: from one operation comment to the next; by tool where there are none."""
+def stretches(run: Run) -> list[tuple[str, int, int]]:
+    """Name, first step and step after the last of each operation.
+
+    They go from one operation comment to the next, or where there are none, from tool to tool.
+    """
     named = [
         (remark.step, _as_planned(remark.text[len(OPERATION_COMMENT) :]))
         for remark in run.remarks
@@ -43,22 +46,26 @@ def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
     if not named or named[0][0] > 0:
         named.insert(0, (0, "start"))
     edges = [step for step, _ in named] + [len(run)]
+    return [(name, first, last) for (first, name), last in zip(named, edges[1:], strict=True) if last > first]
+
+
+def operations(run: Run, seconds: Array) -> tuple[OperationTime, ...]:
+    """Times by operation, see :func:`stretches`."""
     path = np.where(run.cutting, np.nan_to_num(run.length), 0.0)
     out = []
-    for (first, name), last in zip(named, edges[1:], strict=True):
-        if last > first:
-            # After the last cut the next file may already have named its tool.
-            cuts = np.flatnonzero(run.cutting[first:last])
-            tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])
-            out.append(
-                OperationTime(
-                    name,
-                    tool,
-                    float(seconds[first:last].sum()),
-                    float(path[first:last].sum()),
-                    float(seconds[first:last][run.cutting[first:last]].sum()),
-                )
+    for name, first, last in stretches(run):
+        # After the last cut the next file may already have named its tool.
+        cuts = np.flatnonzero(run.cutting[first:last])
+        tool = int(run.tool[first + cuts[-1] if cuts.size else last - 1])
+        out.append(
+            OperationTime(
+                name,
+                tool,
+                float(seconds[first:last].sum()),
+                float(path[first:last].sum()),
+                float(seconds[first:last][run.cutting[first:last]].sum()),
             )
+        )
     return tuple(out)
 
 

@@ -20,6 +20,15 @@ class Clamp:
 
 
 @dataclass(frozen=True)
+class ToeClamp:
+    """A clamp on the plate: its number, its plan view with the bolt, its top, z in mm."""
+
+    number: int
+    shape: shapely.Polygon
+    top: float
+
+
+@dataclass(frozen=True)
 class Tab:
     """A bridge from the part to the frame."""
 
@@ -49,7 +58,7 @@ class Tab:
         if not self.ramped:
             return self.shape
         place = (*self.at, self.along)
-        return _piece_at(shapely.intersection(_rectangle(place, self.width, self.ends), self.shape), place)
+        return _piece_at(shapely.intersection(rectangle(place, self.width, self.ends), self.shape), place)
 
     def least_z(self, points: Array, radius: float) -> Array:
         """Lowest z (n,) of a flat cutter of ``radius`` at places (n, 2) that leaves a ramped tab whole, mm.
@@ -79,7 +88,7 @@ def _piece_at(shape: shapely.Geometry, place: tuple[float, float, Point]) -> sha
     return pieces[int(np.argmin(shapely.distance(pieces, shapely.Point(place[:2]))))]
 
 
-def _rectangle(place: tuple[float, float, Point], base: float, ends: tuple[float, float]) -> shapely.Polygon:
+def rectangle(place: tuple[float, float, Point], base: float, ends: tuple[float, float]) -> shapely.Polygon:
     """The plan view of a tab across the wall."""
     return shapely.Polygon(_corners(place, base, ends))
 

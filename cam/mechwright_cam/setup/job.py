@@ -27,7 +27,7 @@ import shapely
 from mechwright.contracts.details import Detail, moved
 from mechwright.contracts.part import Feature, Part, is_outside
 from mechwright.geometry.segments import Point
-from mechwright_cam.setup.holding import Clamp, Jaw, Tab
+from mechwright_cam.setup.holding import Clamp, Jaw, Tab, ToeClamp
 from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.setup.turned import Frame, TurnedOver
 from mechwright_cam.shop.settings import CamSettings
@@ -63,7 +63,7 @@ def air_below(gone: Sequence[Air], z: float) -> shapely.Geometry:
 
 @dataclass(frozen=True)
 class Job:
-    """Everything that planning and proof need to know; what holds the part is one of three."""
+    """Everything that planning and proof need to know; what holds the part is one of four."""
 
     part: Part
     """A plate part, or a nest of several."""
@@ -77,6 +77,8 @@ class Job:
     tabs: tuple[Tab, ...] = ()
     clamp: Clamp | None = None
     jaws: tuple[Jaw, ...] = ()
+    toes: tuple[ToeClamp, ...] = ()
+    """The clamps on the plate, if those hold it."""
     side: Literal["top", "underside"] = "top"
     """The underside is on top where the plate has been turned over."""
     gone: tuple[Air, ...] = ()
@@ -93,6 +95,12 @@ class Job:
     def floor(self) -> float:
         """Depth of through cuts, z in mm."""
         return -self.thickness - self.settings.breakthrough
+
+    @property
+    def highest(self) -> float:
+        """Height z of the highest thing known to be over the table: the stock's top, 0, or what holds it."""
+        things = (self.clamp, *self.jaws, *self.toes)
+        return max(0.0, *(thing.top for thing in things if thing is not None), 0.0)
 
     @property
     def datum(self) -> Point:

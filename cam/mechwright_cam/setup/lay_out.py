@@ -8,7 +8,7 @@ import shapely
 from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.errors import DesignError
 from mechwright_cam.setup.depths import bores
-from mechwright_cam.setup.holding import Clamp
+from mechwright_cam.setup.holding import Clamp, ToeClamp
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, moved_feature
 from mechwright_cam.setup.plate import plate_box
@@ -40,7 +40,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
         origin,
         (stock[0] - origin[0], stock[1] - origin[1], stock[2] - origin[0], stock[3] - origin[1]),
     )
-    if isinstance(part, Nest) and settings.hold.method != "tabs":
+    if isinstance(part, Nest) and settings.hold.method in {"bore", "vice"}:
         raise DesignError(
             f"cam.hold.method: the {len(part.placed)} parts of {part.name} are cut in one setup and "
             'cannot be clamped one by one; use method = "tabs", or no cam.nest'
@@ -49,6 +49,11 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
         return replace(placed, clamp=_clamp(placed))
     if settings.hold.method == "vice":
         return replace(placed, jaws=lay_jaws(placed, widest))
+    if settings.hold.method == "none":
+        clamps = enumerate(settings.hold.toe_clamps, start=1)
+        return replace(
+            placed, toes=tuple(ToeClamp(number, shapely.box(*box), top) for number, (*box, top) in clamps)
+        )
     if settings.stock.finished:
         raise DesignError(
             f"cam.stock.finished: tabs hold part {part.name} in a frame, and there is none at a finished "

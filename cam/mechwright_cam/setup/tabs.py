@@ -10,6 +10,7 @@ base
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import shapely
@@ -21,7 +22,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import filled, opened
-from mechwright_cam.setup.holding import Tab, _corners, _piece_at, _rectangle
+from mechwright_cam.setup.holding import Tab, _corners, _piece_at, rectangle
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.tab_places import rows, tab_width
 from mechwright_cam.shop.tool import MILLS, widest_mill
@@ -74,9 +75,11 @@ def _tabs_of(job: "Job", feature: Profile, slope: float, reach: float, below: Se
             for at in row:
                 place = _across(ring, at, min(width / 2, ring.length / 100))
                 ends = (-TAB_REACH, _frame_at(job, ring, place, reach))
-                shape = _rectangle(place, width + slopes, ends)
+                shape = rectangle(place, width + slopes, ends)
                 tab = Tab(shape, hold.tab_height - job.thickness, width, slope, place[:2], place[2], ends)
-                tabs.append(_sunk(job, feature, tab, slopes) if slopes else tab)
+                tabs.append(
+                    _sunk(job, feature, tab, slopes) if slopes else _beside_openings(job, feature, tab)
+                )
             _check_apart(feature, tabs)
             _check_floors(job, low, tabs)
             _check_below(job, below, tabs)
@@ -104,6 +107,16 @@ def _slope(job: "Job") -> float:
     return math.tan(math.radians(angle))
 
 
+def _beside_openings(job: "Job", feature: Profile, tab: Tab) -> Tab:
+    """A tab as far as it lies on no opening: behind a thin wall its inner end would."""
+    part = shapely.Polygon(feature.loop.flatten())
+    behind = shapely.difference(shapely.intersection(tab.shape, part), job.target)
+    if opened(behind, TOLERANCES.flatten).is_empty:  # outline and wall may differ by rounding
+        return tab
+    rest = shapely.difference(tab.shape, shapely.buffer(behind, TOLERANCES.flatten, join_style="mitre"))
+    return replace(tab, shape=_piece_at(rest, (*tab.at, tab.along)))
+
+
 def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
     """A ramped tab with its inner end so far inside the part that no path along the wall runs around it."""
     part = prepared(shapely.Polygon(feature.loop.flatten()))
@@ -117,7 +130,7 @@ def _sunk(job: "Job", feature: Profile, tab: Tab, slopes: float) -> Tab:
         inner = shapely.LineString(_corners(place, 2 * half, (-depth, 0.0))[:2])
         if shapely.contains_properly(part, inner):
             ends = (-depth, _outer_end(job, part, tab, 2 * half))
-            shape = _rectangle(place, tab.width + slopes, ends)
+            shape = rectangle(place, tab.width + slopes, ends)
             # Outline and wall may differ by rounding, which makes no opening.
             openings = opened(shapely.difference(part, job.target), TOLERANCES.flatten)
             bridge = shapely.difference(shapely.intersection(shape, shapely.box(*job.stock)), openings)

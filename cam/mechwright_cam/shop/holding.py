@@ -1,6 +1,6 @@
 """Stock, holding, nests and the second side: tables of ``[cam]``."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -8,6 +8,10 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, Millimetres
 from mechwright_cam.shop.machine import Place
 from mechwright_cam.shop.posting import WorkOffset
+
+Length = Annotated[Millimetres, Field(ge=-10000, le=10000)]
+ToeClamp = tuple[Length, Length, Length, Length, Length]
+"""Least x and y, greatest x and y, and height z of the top, mm."""
 
 
 class Stock(Parameters):
@@ -55,8 +59,18 @@ class Nesting(Parameters):
 class Hold(Parameters):
     """How the part is held while its outside is cut."""
 
-    method: Literal["tabs", "bore", "vice"] = Field(
-        "tabs", description="Tabs to the frame, a clamp through the bore, or a vice on finished edges."
+    method: Literal["tabs", "bore", "vice", "none"] = Field(
+        "tabs",
+        description="Tabs to the frame, a clamp through the bore, a vice on finished edges, or none of them: "
+        "by bed and toe_clamps.",
+    )
+    bed: Literal["vacuum", "tape"] | None = Field(
+        None, description='With method = "none": what holds the plate and all its pieces from below.'
+    )
+    toe_clamps: tuple[ToeClamp, ...] = Field(
+        (),
+        max_length=40,
+        description='With method = "none": clamps on the plate, [x0, y0, x1, y1, top] in work coordinates.',
     )
     tabs: int = Field(4, ge=2, le=24, description="Number of tabs.")
     tab_width: Millimetres | None = Field(
@@ -67,6 +81,10 @@ class Hold(Parameters):
         "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
     )
     tab_angle: Degrees = Field(15.0, ge=1, le=45, description="Slope of the sides of ramped tabs.")
+    tab_places: Literal["planned", "found"] = Field(
+        "planned",
+        description="Whether the proof asks for the planned tabs, or judges those it finds by their size.",
+    )
     clamp_diameter: Millimetres = Field(20.0, gt=0, le=300, description="Largest diameter of the bore clamp.")
     clamp_height: Millimetres = Field(
         15.0, gt=0, le=200, description="Height of the bore clamp above the part."
@@ -77,6 +95,21 @@ class Hold(Parameters):
     jaw_width: Millimetres | None = Field(
         None, gt=0, le=1000, description="Width of the vice's jaws; by default as wide as there is room."
     )
+
+    @model_validator(mode="after")
+    def _by_something(self) -> Self:
+        if self.method == "none":
+            if self.bed is None and not self.toe_clamps:
+                raise ValueError('method = "none" needs what holds instead; write bed or toe_clamps')
+        elif self.bed is not None or self.toe_clamps:
+            raise ValueError(f'bed and toe_clamps are for method = "none", and not for "{self.method}"')
+        for x0, y0, x1, y1, top in self.toe_clamps:
+            if not (x0 < x1 and y0 < y1 and top > 0):
+                raise ValueError(
+                    f"toe_clamps: [{x0:g}, {y0:g}, {x1:g}, {y1:g}, {top:g}] is no clamp on the plate; write "
+                    "[x0, y0, x1, y1, top] with x0 below x1, y0 below y1 and top above 0"
+                )
+        return self
 
 
 class SecondSide(Parameters):

@@ -9,7 +9,7 @@ from mechwright.contracts.parameters import Parameters
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
-from mechwright.units import Millimetres, MillimetresPerMin, Ratio, RevPerMin
+from mechwright.units import Kilowatts, Millimetres, MillimetresPerMin, NewtonMetres, Ratio, RevPerMin
 
 MACHINES = Path(__file__).with_name("machines.toml")
 """The machines that come with the program, by name."""
@@ -37,6 +37,15 @@ class Machine(Parameters):
     max_feed: MillimetresPerMin = Field(5000.0, gt=0, le=100000, description="Fastest feed.")
     spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
     spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
+    spindle_power: Kilowatts = Field(
+        5.5, gt=0, le=200, description="Power of the spindle motor, from the speed on at which it has it."
+    )
+    spindle_torque: NewtonMetres = Field(
+        30.0, gt=0, le=5000, description="Torque of the spindle at lower speeds."
+    )
+    spindle_efficiency: Ratio = Field(
+        0.8, gt=0, le=1, description="Share of both that gets into the cut: bearings and belts take the rest."
+    )
     acceleration: Ratio = Field(
         1.0, gt=0, le=50, description="Acceleration of each axis in m/s², for time estimates."
     )

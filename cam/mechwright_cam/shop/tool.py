@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from enum import StrEnum
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -26,6 +26,13 @@ MILLS = frozenset({ToolKind.END_MILL, ToolKind.BULL_NOSE, ToolKind.BALL})
 """Cutters that clear and finish with end and side."""
 
 
+NECK = 0.7
+"""Diameter of a thread mill's neck in that of its teeth, if nothing is said of it: then the teeth are higher
+by a third than the coarsest thread for that diameter asks."""
+BLUNT_TIP = 0.05
+"""Radius of the point of a chamfer mill that is ground to one, mm: there it presses and does not cut."""
+
+
 class CuttingData(Parameters):
     """How a tool cuts one material."""
 
@@ -35,6 +42,9 @@ class CuttingData(Parameters):
         0.5, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
     )
     step_over: Ratio = Field(0.4, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+    plunge: Ratio = Field(
+        0.3, gt=0, le=1, description="Feed of a mill straight down into material, in that of its chip load."
+    )
 
 
 class CuttingChange(Parameters):
@@ -48,6 +58,9 @@ class CuttingChange(Parameters):
         None, gt=0, le=5, description="Depth of one roughing pass, or of one peck, in diameters."
     )
     step_over: Ratio | None = Field(None, gt=0, le=1, description="Width of one roughing pass, in diameters.")
+    plunge: Ratio | None = Field(
+        None, gt=0, le=1, description="Feed of a mill straight down into material, in that of its chip load."
+    )
 
 
 class Tool(Parameters):
@@ -59,12 +72,25 @@ class Tool(Parameters):
     diameter: Millimetres = Field(gt=0, le=100, description="Cutting diameter.")
     flutes: int = Field(2, ge=1, le=12, description="Number of cutting edges.")
     flute_length: Millimetres = Field(gt=0, le=300, description="How deep it can cut.")
-    centre_cutting: bool = Field(True, description="Whether it may be plunged straight down.")
+    centre_cutting: bool = Field(
+        True,
+        description="Whether its middle cuts, so that it may be plunged straight down; by default that of "
+        "all tools does but of chamfer and thread mills.",
+    )
+    ramp_angle: Degrees | None = Field(
+        None, gt=0, le=90, description="Steepest ramp into full material, if its maker says one."
+    )
     point_angle: Degrees = Field(
         118.0, gt=30, le=180, description="Full angle of a drill's point, or of a chamfer mill."
     )
     corner_radius: Millimetres = Field(0.0, ge=0, le=50, description="Radius of a bull-nose mill's corner.")
     tip_diameter: Millimetres = Field(0.0, ge=0, le=50, description="Flat at the tip of a chamfer mill.")
+    neck_diameter: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=100,
+        description="Diameter of a thread mill behind its teeth; by default 0.7 of it.",
+    )
     shank_diameter: Millimetres | None = Field(
         None, gt=0, le=100, description="Diameter above the flutes; by default the cutting diameter."
     )
@@ -92,8 +118,21 @@ class Tool(Parameters):
         default_factory=dict, description="Material name to cutting data."
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _middle(cls, said: Any) -> Any:
+        if isinstance(said, dict) and said.get("kind") in {ToolKind.CHAMFER, ToolKind.THREAD_MILL}:
+            return {"centre_cutting": False, **said}
+        return said
+
     @model_validator(mode="after")
     def _shape(self) -> Self:
+        if self.neck_diameter is not None and (
+            self.kind is not ToolKind.THREAD_MILL or self.neck_diameter >= self.diameter
+        ):
+            raise ValueError("neck_diameter is that of a thread mill, and below its diameter")
+        if self.kind is ToolKind.THREAD_MILL and self.centre_cutting:
+            raise ValueError("a thread mill cuts with the teeth at its rim; leave centre_cutting out")
         if self.corner_radius > self.diameter / 2:
             raise ValueError("corner_radius must be at most half of the diameter")
         if self.tip_diameter >= self.diameter:
@@ -118,6 +157,19 @@ class Tool(Parameters):
     def nose(self) -> float:
         """Radius of the rounded corner between end and side, mm: 0 for a flat end, the radius for a ball."""
         return self.radius if self.kind is ToolKind.BALL else self.corner_radius
+
+    @property
+    def hollow(self) -> float:
+        """Radius, mm, within which its end does not cut: 0 if it is centre-cutting.
+
+        That of a thread mill's neck, or of a chamfer mill's tip; of other mills it is not known, and they may
+        ramp.
+        """
+        if self.kind is ToolKind.THREAD_MILL:
+            return NECK * self.radius if self.neck_diameter is None else self.neck_diameter / 2
+        if self.kind is ToolKind.CHAMFER and not self.centre_cutting:
+            return max(self.tip_diameter / 2, BLUNT_TIP)
+        return 0.0
 
 
 def widest_mill(tools: Iterable[Tool]) -> float:

@@ -25,11 +25,13 @@ def beside(path: Path, name: str, key: str) -> Path:
     return found
 
 
-def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) -> tuple[str, str]:
+def read_text(
+    path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None, mark: bool = False
+) -> tuple[str, str]:
     """Text and SHA-256 of a file; raises OutputError or DesignError that names it.
 
     The text is UTF-8; where it is not and ``older`` names another encoding, that is taken for a text
-    without null bytes.
+    without null bytes. A byte order mark is taken off, unless ``mark`` asks for it.
     """
     try:
         with path.open("rb") as file:
@@ -40,7 +42,7 @@ def read_text(path: Path, limit: int = SIZE_LIMIT, *, older: str | None = None) 
         raise DesignError(f"{path}: is larger than {limit:,} bytes; is it the right file?")
     digest = hashlib.sha256(data).hexdigest()
     try:
-        return data.decode("utf-8-sig"), digest
+        return data.decode("utf-8" if mark else "utf-8-sig"), digest
     except UnicodeDecodeError as error:
         if older is not None and b"\0" not in data:
             return data.decode(older), digest

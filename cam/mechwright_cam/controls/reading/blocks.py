@@ -15,14 +15,17 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.groups import G_GROUP, M_GROUP, spell
 
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)"
+LARGEST_NUMBER = 1e9
+"""Numbers beyond this are a slip of the pen: no control has so many digits."""
 _WORD = re.compile(rf"([A-Z@^])({NUMBER})")
 _LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
 _LENGTHS = frozenset("IJKQRXYZ")
-_PROGRAM = re.compile(r"[O:]\d{1,5}")
+_PROGRAM = re.compile(r"[O:][0-9]{1,5}")
 POLAR = frozenset("@^")
 """LinuxCNC's polar coordinates: distance from X0 Y0, and angle, degrees."""
 _OTHER_AXES = frozenset("ABCUVW")
+_BLANKS = {ord(" "): None, ord("\t"): None}
 
 
 @dataclass(slots=True)
@@ -36,6 +39,8 @@ class Block:
     comments: list[str] = field(default_factory=list)
     bare: set[str] = field(default_factory=set)
     deleted: bool = False
+    title: bool = False
+    """Whether it is a program number, such as O1234."""
 
 
 def fail(line: int, reason: str) -> ProgramError:
@@ -61,13 +66,14 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
     for character in dialect.forbidden:
         if character in text:
             raise fail(line, f"{dialect.name} obeys {character!r} wherever it stands; take it out")
-    if not dialect.counts_code:
-        _check_length(line, text, dialect)
     code = _strip_comments(block, text, dialect) if "(" in text or ";" in text or ")" in text else text
-    code = "".join(code.split()).upper()
-    if dialect.counts_code:
-        _check_length(line, code, dialect)
+    code = code.translate(_BLANKS)
+    small = next((c for c in code if c.islower()), "") if dialect.capitals else ""
+    code = code.upper()
+    if dialect.counts_code and len(code) > dialect.line_length:
+        raise fail(line, f"{len(code)} characters; {dialect.name} reads at most {dialect.line_length}")
     if dialect.program_numbers and _PROGRAM.fullmatch(code):
+        block.title = True
         return block
     if code.startswith("/"):
         block.deleted = True
@@ -79,19 +85,19 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
             raise fail(line, _explain(code[position:]))
         _add(block, match[1], match[2], dialect, first=position == 0)
         position = match.end()
-    if dialect.point_needed and block.bare & _LENGTHS:
-        _check_points(block, dialect)
+    if small:
+        raise fail(line, f"the small letter {small!r} is no word to {dialect.name}; write words in capitals")
+    if dialect.one_m and len(block.m) > 1:
+        raise fail(line, f"several M codes; {dialect.name} obeys one in a line, write a line for each")
     return block
 
 
-def _check_length(line: int, text: str, dialect: Dialect) -> None:
-    if len(text) > dialect.line_length:
-        raise fail(line, f"{len(text)} characters; {dialect.name} reads at most {dialect.line_length}")
+def check_points(block: Block, dialect: Dialect) -> None:
+    """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case.
 
-
-def _check_points(block: Block, dialect: Dialect) -> None:
-    """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case."""
-    for letter in sorted(block.bare & _LENGTHS):
+    Words that are no lengths have been taken out of the block.
+    """
+    for letter in sorted(block.bare & _LENGTHS & block.words.keys()):
         value = block.words[letter]
         if value and not (letter in "RXYZ" and 100 in block.g) and not (letter == "X" and 40 in block.g):
             raise fail(
@@ -113,17 +119,27 @@ def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
             comment = text[position + 1 : end]
             if "(" in comment:
                 raise fail(block.line, "a comment stands inside a comment")
-            block.comments.append(comment.strip())
+            _keep_comment(block, comment, dialect)
             position = end
         elif character == ")":
             raise fail(block.line, "a ) without its (")
         elif character == ";" and dialect.semicolon_comments:
-            block.comments.append(text[position + 1 :].strip())
+            _keep_comment(block, text[position + 1 :], dialect)
             break
         else:
             kept.append(character)
         position += 1
     return "".join(kept)
+
+
+def _keep_comment(block: Block, comment: str, dialect: Dialect) -> None:
+    comment = comment.strip()
+    if comment.lower().startswith(dialect.active_comments):
+        raise fail(
+            block.line,
+            f"{dialect.name} carries out the comment {comment[:20]!r}, which is not simulated; take it out",
+        )
+    block.comments.append(comment)
 
 
 def _explain(rest: str) -> str:
@@ -134,6 +150,8 @@ def _explain(rest: str) -> str:
         return "a % stands in a line of its own"
     if letter == "/":
         return "a / stands at the start of its line"
+    if letter.isdigit():
+        return f"a number without its letter: {rest[:12]!r}"
     if letter in _LETTERS | _OTHER_AXES:
         return f"{letter} is followed by no number: {rest[:12]!r}"
     return f"{letter!r} starts no word: {rest[:12]!r}"
@@ -141,6 +159,8 @@ def _explain(rest: str) -> str:
 
 def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: bool) -> None:
     value = float(number)
+    if not abs(value) <= LARGEST_NUMBER:
+        raise fail(block.line, f"{letter}{value:.3g} is a number that no control reads")
     if letter == "G":
         _add_code(block, "G", block.g, round(value * 10), value * 10, G_GROUP)
     elif letter == "M":
@@ -151,6 +171,9 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     elif letter == "N":
         if not first:
             raise fail(block.line, "a line number stands at the start of its line")
+        whole = number.isdigit() or (dialect.parts_of_n and number[0] not in "+-")
+        if not whole or value > dialect.largest_n:
+            raise fail(block.line, f"N{number[:12]}: line numbers are whole, from 0 to {dialect.largest_n}")
     elif letter == "O":
         raise fail(block.line, _explain("O"))
     elif letter in _OTHER_AXES:

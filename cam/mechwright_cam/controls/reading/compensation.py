@@ -22,6 +22,8 @@ from mechwright_cam.controls.reading.run import Kind
 
 SMALL_CORNER = 0.05
 """Corners up to this angle are passed without an arc or an intersection, rad: LinuxCNC's own tolerance."""
+MORE_TURN, MORE_TURN_INCH = 0.0254, 0.001
+"""By so much an arc beside the contour may turn further than the programmed one, rad, in mm and in inches."""
 ONE_PLACE = 1e-9
 """Places nearer than this are one, mm."""
 
@@ -37,7 +39,13 @@ class Cut:
     centre: Point | None = None
     ccw: bool = False
     along: float | None = None
-    """Direction of the programmed entry move, whose offset only ends beside the contour, rad."""
+    """Direction of the programmed line, which its offset keeps when its ends are moved, rad."""
+    sweep: float = math.inf
+    """Angle of the programmed arc, rad, without its sign."""
+    offset: float = 0.0
+    """By so much the arc was moved, mm."""
+    entry: bool = False
+    """Whether it is the entry move, whose offset only ends beside the contour."""
 
     def heading(self, at: Point) -> float:
         """Direction of travel at a point of it, rad."""
@@ -75,9 +83,10 @@ class Compensation(Recorder):
         self.contour, self.last, self.fresh = self.left or (self.x, self.y), None, True
         self.left = None
 
-    def end_compensation(self) -> None:
+    def end_compensation(self, line: int) -> None:
         """G40: the next move leads from the tool's centre to the contour, in axes that it does not name."""
-        if self.side:
+        if self.side and not self.fresh and self.offset > ONE_PLACE:
+            self._check_forward(line)
             self.left = self.contour
         self.side = 0
 
@@ -123,7 +132,13 @@ class Compensation(Recorder):
             )
         if centre is None:
             along = math.atan2(end[1] - here[1], end[0] - here[0])
-            return Cut(here, self._aside(end, along), along=along)
+            return Cut(here, self._aside(end, along), along=along, entry=True)
+        if not self.dialect.arc_entry:
+            raise fail(line, "compensation is turned on along an arc; enter on a line")
+        self._check_arc(line, here, end, centre)
+        inside = (self.side > 0) == ccw
+        if inside and math.dist(here, centre) <= self.offset:
+            raise fail(line, f"the tool of radius {self.offset:g} mm does not fit into the entry arc")
         arc = Cut(here, end, centre, ccw)
         along = arc.heading(end)
         target = self._aside(end, along)
@@ -134,7 +149,8 @@ class Compensation(Recorder):
         if abs(across) <= ONE_PLACE:
             return Cut(here, target)
         reach = (dx * dx + dy * dy) / across
-        return Cut(here, target, (target[0] + reach * nx, target[1] + reach * ny), reach > 0)
+        middle = (target[0] + reach * nx, target[1] + reach * ny)
+        return Cut(here, target, middle, reach > 0, sweep=abs(sweep_of(here, target, middle, reach > 0)))
 
     def _aside(self, point: Point, heading: float) -> Point:
         """The place of the tool beside a point of the contour."""
@@ -143,7 +159,12 @@ class Compensation(Recorder):
 
     def _beside(self, line: int, start: Point, end: Point, centre: Point | None, ccw: bool) -> Cut:
         move = Cut(start, end, centre, ccw)
-        if centre is not None:
+        along, sweep = None, math.inf
+        if centre is None:
+            along = move.heading(end)
+        else:
+            self._check_arc(line, start, end, centre)
+            sweep = abs(sweep_of(start, end, centre, ccw))
             inside = (self.side > 0) == ccw
             if inside and math.dist(start, centre) <= self.offset:
                 raise fail(
@@ -152,7 +173,7 @@ class Compensation(Recorder):
                     f"{math.dist(start, centre):.3f} mm",
                 )
         first, last = (self._aside(point, move.heading(point)) for point in (start, end))
-        return Cut(first, last, centre, ccw)
+        return Cut(first, last, centre, ccw, along, sweep, self.offset)
 
     def _join(self, line: int, kind: Kind, corner: Point, cut: Cut) -> None:
         """Lead from the last offset to the next one, around or into the corner between them."""
@@ -163,20 +184,48 @@ class Compensation(Recorder):
         turn = cut.heading(cut.start) - before.heading(before.end)
         turn = (turn + math.pi) % math.tau - math.pi
         outer = -self.side * turn  # positive away from the tool: around the outside of the corner
-        if abs(abs(turn) - math.pi) <= ONE_PLACE:
-            outer = math.pi
-        if outer > SMALL_CORNER:
+        if outer < SMALL_CORNER - math.pi:  # back the way it came: around, not between
+            outer += math.tau
+        # Where a line turns back beside an arc that the tool rolls over, it stays above both.
+        arc = before if cut.centre is None else cut
+        over = arc.centre is not None and (self.side > 0) != arc.ccw
+        if outer > SMALL_CORNER and not (over and outer > math.pi - SMALL_CORNER):
+            if cut.centre is None:
+                self._check_forward(line)
             arc = Cut((self.x, self.y), cut.start, corner, self.side < 0)
             if kind is Kind.RAPID:
                 self._rapid(line, *cut.start, self.z)
             else:
                 self._write(line, Kind.ARC, arc, self.z)
-        elif outer < -SMALL_CORNER:
-            meet = _meeting(before, cut)
-            if meet is None or _reversed(before, meet):
+        elif abs(outer) > SMALL_CORNER:
+            meet = _meeting(before, cut, self.side, outer)
+            if meet is None:
                 raise fail(line, f"the tool of radius {self.offset:g} mm does not fit into the inner corner")
+            self._check_forward(line, meet)
             self._move_end(before, meet)
             cut.start = meet
+        else:
+            cut.start = self.x, self.y
+
+    def _check_forward(self, line: int, end: Point | None = None) -> None:
+        """Raise ProgramError if the last move, ended here or at a place, runs against what is programmed.
+
+        Its start was moved into an inner corner, and lies beyond that end then.
+        """
+        move = self.last
+        if move is None:
+            return
+        end = end or move.end
+        if move.centre is not None:
+            slack = MORE_TURN_INCH if self.scale != 1.0 else MORE_TURN
+            backward = abs(sweep_of(move.start, end, move.centre, move.ccw)) > move.sweep + slack
+        else:
+            # Of an entry move the control asks on which side it ends.
+            heading = move.heading(end) + (self.side * math.pi / 2 if move.entry else 0.0)
+            way = end[0] - move.start[0], end[1] - move.start[1]
+            backward = way[0] * math.cos(heading) + way[1] * math.sin(heading) < -ONE_PLACE
+        if backward:
+            raise fail(line, f"the tool of radius {self.offset:g} mm does not fit into the inner corner")
 
     def _move_end(self, before: Cut, place: Point) -> None:
         """Shorten the last move in X and Y, and with it the moves of Z after it."""
@@ -192,60 +241,54 @@ class Compensation(Recorder):
         self.x, self.y = place
 
 
-def _meeting(a: Cut, b: Cut) -> Point | None:
-    """Where two offsets meet, nearest to the corner; None if they do not."""
-    points: list[Point] = []
-    if a.centre is None and b.centre is None:
-        points = _line_line(a, b)
-    elif a.centre is None:
-        points = _line_circle(a, b)
-    elif b.centre is None:
-        points = _line_circle(b, a)
-    else:
-        points = _circle_circle(a, b)
-    return min(points, key=lambda p: math.dist(p, a.end) + math.dist(p, b.start), default=None)
+def _meeting(a: Cut, b: Cut, side: int, outer: float) -> Point | None:
+    """Where two offsets meet at a corner that turns by ``outer`` away from the tool; None if they do not.
+
+    Of two such places it is the one that LinuxCNC takes.
+    """
+    try:
+        if a.centre is None:
+            return _line_line(a, b) if b.centre is None else _line_arc(a, b, side, outer)
+        return _arc_line(a, b, side) if b.centre is None else _arc_arc(a, b, side)
+    except (ValueError, ZeroDivisionError):  # of asin, acos: they are apart
+        return None
 
 
-def _line_line(a: Cut, b: Cut) -> list[Point]:
+def _line_line(a: Cut, b: Cut) -> Point | None:
     (x, y), (u, v) = a.end, b.start
     one, two = a.heading(a.end), b.heading(b.start)
     across = math.sin(two - one)
     if abs(across) < ONE_PLACE:
-        return []
+        return None
     along = ((u - x) * math.sin(two) - (v - y) * math.cos(two)) / across
-    return [(x + along * math.cos(one), y + along * math.sin(one))]
+    return x + along * math.cos(one), y + along * math.sin(one)
 
 
-def _line_circle(line: Cut, arc: Cut) -> list[Point]:
-    assert arc.centre is not None  # noqa: S101 - the caller has looked
-    (x, y), heading = line.end, line.heading(line.end)
-    ux, uy = math.cos(heading), math.sin(heading)
-    px, py = arc.centre[0] - x, arc.centre[1] - y
-    foot, away = px * ux + py * uy, px * uy - py * ux
-    half = math.dist(arc.start, arc.centre) ** 2 - away**2
-    if half < 0:
-        return []
-    root = math.sqrt(half)
-    return [(x + (foot + s) * ux, y + (foot + s) * uy) for s in (-root, root)]
+def _at(centre: Point, radius: float, angle: float) -> Point:
+    return centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)
 
 
-def _circle_circle(a: Cut, b: Cut) -> list[Point]:
+def _line_arc(a: Cut, b: Cut, side: int, outer: float) -> Point:
+    assert b.centre is not None  # noqa: S101 - the caller has looked
+    turn, radius, heading = 1 if b.ccw else -1, math.dist(b.end, b.centre), a.heading(a.end)
+    # How far the centre lies beside the line that is offset: the arc itself is larger by the offset.
+    away = math.asin((b.offset * side * turn - (radius + b.offset * side * turn) * math.cos(outer)) / radius)
+    return _at(b.centre, radius, heading + turn * away if side == turn else heading + math.pi - turn * away)
+
+
+def _arc_line(a: Cut, b: Cut, side: int) -> Point:
+    assert a.centre is not None  # noqa: S101
+    across = b.heading(b.start) + (math.pi / 2 if a.ccw else -math.pi / 2)
+    away = (a.centre[0] - b.start[0]) * math.cos(across) + (a.centre[1] - b.start[1]) * math.sin(across)
+    radius = math.dist(a.end, a.centre)
+    return _at(a.centre, radius, across + math.pi - side * math.acos(away / radius))
+
+
+def _arc_arc(a: Cut, b: Cut, side: int) -> Point:
     assert a.centre is not None  # noqa: S101
     assert b.centre is not None  # noqa: S101
-    r, s, d = math.dist(a.end, a.centre), math.dist(b.start, b.centre), math.dist(a.centre, b.centre)
-    if d < ONE_PLACE or d > r + s or d < abs(r - s):
-        return []
-    along = (r * r - s * s + d * d) / (2 * d)
-    up = math.sqrt(max(r * r - along * along, 0.0))
-    ux, uy = (b.centre[0] - a.centre[0]) / d, (b.centre[1] - a.centre[1]) / d
-    x, y = a.centre[0] + along * ux, a.centre[1] + along * uy
-    return [(x - up * uy, y + up * ux), (x + up * uy, y - up * ux)]
-
-
-def _reversed(cut: Cut, place: Point) -> bool:
-    """Whether a move that ends at ``place`` instead would run backwards."""
-    if cut.centre is None:
-        (x, y), (u, v) = cut.start, cut.end
-        return (u - x) * (place[0] - x) + (v - y) * (place[1] - y) < 0
-    whole = abs(sweep_of(cut.start, cut.end, cut.centre, cut.ccw))
-    return abs(sweep_of(cut.start, place, cut.centre, cut.ccw)) > whole + ONE_PLACE
+    r, s, d = math.dist(a.end, a.centre), math.dist(b.end, b.centre), math.dist(a.centre, b.centre)
+    back = math.acos((r * r + d * d - s * s) / (2 * r * d)) * (1 if b.ccw else -1)
+    towards = math.atan2(b.centre[1] - a.centre[1], b.centre[0] - a.centre[0])
+    inside = (side > 0) == a.ccw
+    return _at(a.centre, r, towards + back if inside else towards - back)

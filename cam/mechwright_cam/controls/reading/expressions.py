@@ -8,6 +8,8 @@ from collections.abc import Callable
 from mechwright_cam.controls.reading.blocks import NUMBER
 
 TRUE, FALSE = 1.0, 0.0
+DEEPEST = 40
+"""Brackets inside of each other beyond which an expression is refused."""
 EQUAL = 1e-6
 """Two values nearer than this are equal to EQ and NE: LinuxCNC's own tolerance."""
 _NUMBER = re.compile(NUMBER)
@@ -54,7 +56,7 @@ class Reader:
     """
 
     def __init__(self, text: str, value: Callable[[float | str], float]) -> None:
-        self.text, self.value, self.at = text, value, 0
+        self.text, self.value, self.at, self.depth = text, value, 0, 0
 
     def real(self) -> float:
         """A number, a parameter, an expression in brackets or a function, from the present place on.
@@ -99,7 +101,11 @@ class Reader:
     def bracket(self) -> float:
         """An expression in brackets."""
         self._skip("[")
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise ValueError(f"brackets are nested more than {DEEPEST} deep")
         result = self._level(0)
+        self.depth -= 1
         self._skip("]")
         return result
 

@@ -7,12 +7,14 @@ The NIST RS274NGC Interpreter, version 3, 2000, table 8) and LinuxCNC's document
 import math
 from collections.abc import Mapping
 
-from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.blocks import Block, fail
-from mechwright_cam.controls.reading.groups import spell
+from mechwright_cam.controls.dialect import RETURN, Dialect
+from mechwright_cam.controls.reading.blocks import Block, check_points, fail
+from mechwright_cam.controls.reading.groups import GROUPS, spell
 from mechwright_cam.controls.reading.motions import Moving
 from mechwright_cam.controls.reading.run import Kind, Remark
 
+AXES_TAKEN = frozenset({100, 280, RETURN, 431})
+"""G10, G28, G30 and G43.1: what they make of X, Y and Z is no place to go to."""
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
@@ -60,6 +62,8 @@ class Machine(Moving):
         if not (block.g or block.m or block.words):
             return
         self._check_codes(block)
+        if self.dialect.point_needed and block.bare:
+            check_points(block, self.dialect)
         words = block.words
         self._units(block)  # first, so that every length of this line is read in the units it states
         self._speeds(block, words)
@@ -98,9 +102,20 @@ class Machine(Moving):
                 if code == refused:
                     raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
             raise fail(block.line, f"{spell(code)} is no code that {self.dialect.name} is known to read")
+        self._check_together(block)
         for code in block.m:
             if code not in self.dialect.m_codes | self.dialect.inert_m:
                 raise fail(block.line, f"M{code} is no code that {self.dialect.name} is known to read")
+
+    def _check_together(self, block: Block) -> None:
+        """Refuse codes that the control does not take in one line."""
+        if not self.dialect.both_coolants and {7, 8} <= set(block.m):
+            raise fail(block.line, f"M7 and M8 in one line; {self.dialect.name} wants a line for each")
+        motion = [code for code in block.g if code in GROUPS["motion"] - {800}]
+        other = [code for code in block.g if code in AXES_TAKEN]
+        if self.dialect.one_use_of_axes and motion and other:
+            names = f"{spell(motion[0])} and {spell(other[0])}"
+            raise fail(block.line, f"{names} both take the axes; write a line for each")
 
     def _check_looser(self, block: Block, code: int) -> None:
         """Refuse a word that lets the control leave the path further than its setting."""

@@ -12,6 +12,8 @@ from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, s
 from mechwright_cam.controls.reading.run import Coolant, Kind, TableWrite
 
 INCH = 25.4
+LARGEST_WHOLE = 99_999_999
+"""Numbers of tools, offsets and turns: more than eight digits no control takes."""
 PLANES = {170: "XYZ", 180: "ZXY", 190: "YZX"}
 """G17, G18, G19: the axes of the plane in the order of a right-handed turn, and the one across it."""
 AXES = "XYZ"
@@ -30,7 +32,6 @@ class Modal(Compensation):
 
     def __init__(self, dialect: Dialect) -> None:
         super().__init__(dialect)
-        self.scale = 1.0
         self.absolute = True
         self.absolute_centres = dialect.absolute_centres
         self.selected: int | None = None
@@ -58,9 +59,13 @@ class Modal(Compensation):
         value = self._take(block, letter, missing)
         return value * (bare if bare is not None and letter in block.bare else unit)
 
+    def _without_compensation(self, block: Block, name: str) -> None:
+        if self.side:
+            raise fail(block.line, f"{name} while compensation is on; write G40 before")
+
     def _whole(self, block: Block, letter: str, value: float) -> int:
-        if value < 0 or value != int(value):
-            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 up")
+        if value < 0 or value != int(value) or value > LARGEST_WHOLE:
+            raise fail(block.line, f"{letter}{value:g} is no whole number from 0 to {LARGEST_WHOLE}")
         return int(value)
 
     def _set(self, **changes: Any) -> None:
@@ -100,6 +105,7 @@ class Modal(Compensation):
                 self._keep_state()
                 self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
         if 6 in block.m:
+            self._without_compensation(block, "M6")
             if self.selected is None:
                 raise fail(block.line, "M6 without a tool; write T before it")
             self._set(tool=self.selected)
@@ -135,7 +141,7 @@ class Modal(Compensation):
                 if code == 170:
                     self._state("plane")
             elif code == 400:
-                self.end_compensation()
+                self.end_compensation(block.line)
                 self._set(side=0, diameter_offset=None)
                 self._state("cutter compensation")
             elif code in {410, 420, 411, 421}:
@@ -182,6 +188,9 @@ class Modal(Compensation):
 
     def _length_offset(self, block: Block) -> None:
         offset, length = self.state.length_offset, None
+        for code in block.g:
+            if code in GROUPS["length offset"]:
+                self._without_compensation(block, spell(code))
         if 430 in block.g:
             offset = self._number(block, "H", 430)
         elif 431 in block.g:
@@ -201,6 +210,7 @@ class Modal(Compensation):
             if code not in GROUPS["work offset"]:
                 continue
             name = spell(code)
+            self._without_compensation(block, name)
             if code in EXTENDED or (self.dialect.program_numbers and code == 540 and "P" in words):
                 number = self._whole(block, "P", self._take(block, "P", f"{name} needs its number, P"))
                 name = f"{'G54.1' if code == 540 else name} P{number}"
@@ -220,9 +230,11 @@ class Modal(Compensation):
         """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
         if 100 not in block.g:
             return
+        self._without_compensation(block, "G10")
         table = self._take(block, "L", "G10 needs L")
-        if table not in {1, 2, 10, 11, 12, 13, 20}:
-            raise fail(block.line, "G10 is read with L1, L2, L10 to L13 and L20")
+        if table not in self.dialect.tables:
+            known = ", ".join(f"L{number}" for number in sorted(self.dialect.tables))
+            raise fail(block.line, f"G10 L{table:g}: {self.dialect.name} is known to read G10 with {known}")
         number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
         values = {letter: words.pop(letter) * self.scale for letter in "XYZRIJQ" if letter in words}
         self.writes.append(TableWrite(self.steps, int(table), number, values, not self.absolute))

@@ -103,6 +103,8 @@ class Moving(Modal):
         axes = {axis: words.pop(axis) for axis in AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
+        if self.motion == 10 and not self.feed > 0:
+            raise fail(block.line, "a feed move without a feed; write F above 0")
         high = axes.get("Z", math.nan) * self.scale >= self.upper_end
         self._home_axes(block.line, axes, math.inf if high else math.nan)
 
@@ -148,6 +150,8 @@ class Moving(Modal):
         here = {"X": self.x, "Y": self.y, "Z": self.z}
         if self.side:
             here["X"], here["Y"] = self.contour
+        elif self.left is not None:
+            raise fail(block.line, "the move after compensation has ended (G40) is an arc; leave on a line")
         target = dict(zip(AXES, self._target(block, words), strict=True))
         start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
         turns = self._whole(block, "P", words.pop("P", 1.0))
@@ -159,7 +163,10 @@ class Moving(Modal):
                 raise fail(block.line, f"an arc has either R, or {first} and {second}")
             radius = words.pop("R") * self.scale
             try:
-                centre = centre_of(start, end, radius, ccw, self.dialect.arc_absolute)
+                chord = (
+                    self.dialect.arc_absolute if self.dialect.arc_chord is None else self.dialect.arc_chord
+                )
+                centre = centre_of(start, end, radius, ccw, chord)
             except ValueError as error:
                 raise fail(block.line, str(error)) from None
         elif words.keys() & {first, second}:
@@ -196,6 +203,7 @@ class Moving(Modal):
         sweep = sweep_of(start, end, centre, ccw)
         sweep += math.copysign(math.tau * (turns - 1), sweep)
         count = math.ceil(abs(sweep) / (2 * math.acos(max(1 - ARC_CHORD / radius, 0.0))))
+        self.check_steps(line, count)
         angle = math.atan2(start[1] - centre[1], start[0] - centre[0])
         for number in range(1, count):
             share = number / count

@@ -21,13 +21,14 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.dialect import Dialect
+from mechwright_cam.controls.reading.blocks import LARGEST_NUMBER
 from mechwright_cam.controls.reading.run import Ints
 
 Bools = NDArray[np.bool_]
 
 LETTERS = "NGXYZIJF"
 """Letters of a plain line in their order; words stand in columns of this order."""
-G, X, Y, Z, I, J, F = range(1, len(LETTERS))
+N, G, X, Y, Z, I, J, F = range(len(LETTERS))
 _LETTER, _DIGIT, _POINT, _SIGN, _BLANK, _END = range(1, 7)
 _KINDS = 8  # kinds of character, 0 for any other, rounded up
 _MAY_FOLLOW = {
@@ -38,6 +39,7 @@ _MAY_FOLLOW = {
     _BLANK: (_BLANK, _LETTER, _END),
     _END: (_END, _BLANK, _LETTER),
 }
+_SIGNED_N = re.compile(rb"[Nn][-+]")
 _TWO_POINTS = re.compile(rb"\.\d*\.")
 
 
@@ -54,6 +56,8 @@ _KIND = _table(
     {_NAMES + _NAMES.lower(): _LETTER, b"0123456789": _DIGIT, b".": _POINT, b"+-": _SIGN, b" ": _BLANK}
     | {b"\n": _END}
 )
+_CAPITALS = bytes(0 if chr(c).islower() and c < 128 else kind for c, kind in enumerate(_KIND))
+"""The same where words have to be written in capitals."""
 _PAIR_IS_WRONG = _table(
     {bytes(_KINDS * first + second for second in seconds): 0 for first, seconds in _MAY_FOLLOW.items()}, 1
 )
@@ -87,7 +91,7 @@ class PlainLines:
 
     def __init__(self, text: str, dialect: Dialect) -> None:
         data = b"\n" + text.encode("utf-8", "surrogatepass") + b"\n"
-        kind = np.frombuffer(data.translate(_KIND), dtype=np.uint8)
+        kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
         length = np.diff(ends)
         self.plain: Bools = length <= dialect.line_length + 1  # with its end
@@ -110,6 +114,8 @@ class PlainLines:
         wrong[1:] = (line[1:] == line[:-1]) & (column[1:] <= column[:-1])
         wrong |= (column == G) & ~np.isin(value, (0.0, 1.0, 2.0, 3.0))
         wrong |= (column == F) & (value < 0)
+        wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.largest_n))
+        wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
         if dialect.point_needed:
             length = (column >= X) & (column <= J)
             wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
@@ -156,9 +162,9 @@ def _wrong_places(data: bytes, kind: NDArray[np.uint8]) -> Ints:
     wrong += kind[wrong] == _END  # the line that begins there, not the one that ends
     point = np.flatnonzero(kind == _POINT)
     bare = point[(kind[point - 1] != _DIGIT) & (kind[point + 1] != _DIGIT)]
-    twice: list[int] = []
+    twice = [match.start() for match in _SIGNED_N.finditer(data)]
     if b".." in data.translate(None, b"+- 0123456789"):
-        twice = [match.start() for match in _TWO_POINTS.finditer(data)]
+        twice += [match.start() for match in _TWO_POINTS.finditer(data)]
     return np.concatenate((wrong, bare, np.array(twice, dtype=np.int64)))
 
 

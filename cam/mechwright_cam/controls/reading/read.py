@@ -8,14 +8,15 @@ from typing import Any
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.blocks import read_block
+from mechwright_cam.controls.reading.blocks import fail, read_block
+from mechwright_cam.controls.reading.characters import Faults
 from mechwright_cam.controls.reading.machine import Machine
 from mechwright_cam.controls.reading.macros import Lines, uses_macros
 from mechwright_cam.controls.reading.plain import PlainLines
 from mechwright_cam.controls.reading.run import Run, joined
 from mechwright_cam.controls.reading.stretch import run_stretch
 
-CODE = re.compile(r"\s*/?\s*[A-Z]\s*[-+.#\[\d]", re.IGNORECASE)
+CODE = re.compile(r"\s*/?\s*[A-Z:]\s*[-+.#\[\d]", re.IGNORECASE)
 """How a line of a program begins, and no line of prose."""
 
 
@@ -50,23 +51,31 @@ def interpret(
     if dialect.macros and uses_macros("\n".join(compress(lines, ~plain.plain))):
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
     percents = 0
+    faults = Faults(text, lines, dialect)
     for index, raw in source.run():
+        faults.check(index)
         # A line that is plain has nothing for macros to work out: it is run as it stands in the text.
         if plain.plain[index]:
             after = run_stretch(machine, plain, index)
             if after > index:
                 source.at = after
+                machine.check_steps(after)
                 continue
-        elif raw.strip() == "%" and dialect.percent:
+        elif dialect.percent and raw.strip(" \t") == "%":
             percents += 1
+            if percents == 1 and any(map(str.strip, lines[:index])):
+                raise fail(index + 1, "a % without one in the first line; put one there, or take this out")
             if percents == 2:
                 machine.ended = machine.ended or dialect.percent_ends
                 break
             continue
         block = read_block(index + 1, raw, dialect)
+        if block.title and any(map(CODE.match, lines[:index])):
+            raise fail(index + 1, "a program number begins another program; keep one program in a file")
         if block.deleted and block_delete:
             continue
         machine.run(block)
+        machine.check_steps(index + 1)
         if machine.ended:
             return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect))
     return machine.result(len(lines))

@@ -14,6 +14,8 @@ from mechwright_cam.controls.reading.run import COLUMNS, WIDTH, Kind, Remark, Ru
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
+MOST_STEPS = 500_000
+"""Moves of a program beyond which it is refused: no proof of more ends in time and memory."""
 LARGEST = 1e5
 """Coordinates and radii beyond this are a slip of the pen, mm: no machine is 100 m long."""
 
@@ -25,6 +27,8 @@ class Recorder:
         self.dialect = dialect
         self.x = self.y = self.z = math.nan
         self.feed = 0.0
+        self.scale = 1.0
+        """Length of a unit of the program, mm."""
         self.ended = False
         self.states: list[State] = [State(off_path=dialect.corners.unsaid)]
         self.index = 0
@@ -57,6 +61,11 @@ class Recorder:
     def steps(self) -> int:
         """Number of steps so far."""
         return self.before + len(self.rows)
+
+    def check_steps(self, line: int, more: int = 0) -> None:
+        """Raise ProgramError if the program, with so many more steps, makes more than any should."""
+        if self.steps + more > MOST_STEPS:
+            raise fail(line, f"more than {MOST_STEPS} moves; split the program")
 
     def append(self, table: Array) -> None:
         """Record steps (k, 15), as COLUMNS has them; the tool is where the last of them ends."""
@@ -101,11 +110,11 @@ class Recorder:
 
         Raises ProgramError if the control refuses the arc.
         """
-        first = math.dist(start, centre)
-        error = abs(first - math.dist(end, centre))
-        if first == 0:
-            raise fail(line, "an arc of radius 0")
-        if self.dialect.refuses(error, first):
+        first, last = math.dist(start, centre), math.dist(end, centre)
+        error = abs(first - last)
+        if min(first, last) <= self.dialect.arc_least:
+            raise fail(line, f"an arc of radius {min(first, last):.4g}")
+        if self.dialect.refuses(first, last, self.scale != 1.0):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
@@ -118,6 +127,8 @@ class Recorder:
         x, y, gap = self.x, self.y, self.dialect.peck_clearance
         if plane - bottom > MOST_PECKS * step:
             raise fail(line, f"{spell(code)} would peck more than {MOST_PECKS} times; Q is too small")
+        if math.isfinite(step):
+            self.check_steps(line, 3 * int((plane - bottom) / step))
         depth = plane - step
         while depth > bottom:
             self._feed_to(line, x, y, depth)

@@ -84,5 +84,5 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     known = np.isfinite(table[arc, 2:8]).all(axis=1) & np.isfinite(error)
     if machine.absolute_centres:
         known &= ~missing.any(axis=1)
-    refused: Bools = ~known | (first == 0) | machine.dialect.refuses(error, first)
+    refused: Bools = ~known | machine.dialect.refuses(first, last, machine.scale != 1.0)
     return refused

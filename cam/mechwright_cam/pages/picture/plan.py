@@ -143,6 +143,11 @@ def _holding(job: Job, frame: Frame) -> str:
         look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}
         parts.append(svg.element("rect", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, **look))
         parts.append(_tag((x0 + x1) / 2, (y0 + y1) / 2, "jaw", frame))
+    for toe in job.toes:
+        x0, y0, x1, y1 = toe.shape.bounds
+        look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}
+        parts.append(svg.element("rect", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, **look))
+        parts.append(_tag((x0 + x1) / 2, (y0 + y1) / 2, f"clamp {toe.number}", frame))
     if job.clamp is not None:
         x, y = job.clamp.centre
         circle = {"cx": x, "cy": -y, "r": job.clamp.diameter / 2}

@@ -15,6 +15,8 @@ def side_view(job: Job, program: Program, deepest: float) -> str:
     rows = [("rapids", program.clearance, "#555555"), ("top of stock, Z0", 0.0, _RED)]
     if job.clamp is not None:
         rows.append(("top of clamp", job.clamp.top, "#8a6100"))
+    if job.toes:
+        rows.append(("top of the toe clamps", job.highest, "#8a6100"))
     if job.jaws:
         rows.append(("top of the jaws", job.jaws[0].top, "#8a6100"))
     if job.tabs:

@@ -110,9 +110,30 @@ def _stock(job: Job, deepest: float) -> Step:
             "Clamp the edge of the plate only. Keep clamps outside the picture's coloured band, and below "
             f"Z {signed(job.settings.clearance, 1)} where rapids cross."
         )
+    elif job.settings.hold.method == "none":
+        lines += _held_from_below(job)
     else:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
+
+
+BEDS = {
+    "vacuum": "The plate lies on a vacuum table: all of it, with no leak under what is cut through.",
+    "tape": "Stick the plate down with double-sided tape all over, on a flat board; degrease both.",
+}
+
+
+def _held_from_below(job: Job) -> list[str]:
+    """What holds the plate where neither tabs nor a bore nor a vice do."""
+    bed = job.settings.hold.bed
+    lines = [] if bed is None else [BEDS[bed]]
+    for toe in job.toes:
+        x0, y0, x1, y1 = (signed(value, 1) for value in toe.shape.bounds)
+        lines.append(
+            f"Toe clamp {toe.number}: from X {x0} to {x1} and Y {y0} to {y1}, bolt and all, and no higher "
+            f"than Z {signed(toe.top, 1)}."
+        )
+    return lines
 
 
 def _vice(job: Job, deepest: float) -> Step:

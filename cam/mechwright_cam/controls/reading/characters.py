@@ -1,0 +1,64 @@
+"""Characters that a control reads, and lines that it reads whole: looked at before any word.
+
+Outside of comments a program is ASCII: printable characters, blanks and tabs. What else there is (a digit of
+another script, a no-break space, a form feed) looks like a word to some readers and is none to a control.
+"""
+
+import re
+import unicodedata
+from collections.abc import Sequence
+
+from mechwright.errors import ProgramError
+from mechwright_cam.controls.dialect import Dialect
+
+_ODD = re.compile(r"[^\t\n -~]")
+_CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f-\x9f\u2028\u2029]")
+_IN_BRACKETS = re.compile(r"\([^()]*\)?")
+_COMMENT = re.compile(r"\([^()]*\)?|;.*")
+
+
+class Faults:
+    """The first line of a program that no control would read as it stands.
+
+    ``at`` is its index, that of the line behind the last if there is none.
+    """
+
+    def __init__(self, text: str, lines: Sequence[str], dialect: Dialect) -> None:
+        self.at, self.reason = len(lines), ""
+        self.dialect = dialect
+        most = len(text) if dialect.counts_code else dialect.line_length
+        if _ODD.search(text) is None and max(map(len, lines), default=0) <= most:
+            return
+        for index, line in enumerate(lines):
+            self.reason = self._fault(line, most)
+            if self.reason:
+                self.at = index
+                return
+
+    def check(self, index: int) -> None:
+        """Raise ProgramError if the program has got to the line, or beyond."""
+        if index >= self.at:
+            raise ProgramError(f"line {self.at + 1}: {self.reason}")
+
+    def _fault(self, line: str, most: int) -> str:
+        name = self.dialect.name
+        if "\r" in line:
+            return "a carriage return (CR) ends no line; save the program with line feeds (LF, or CR and LF)"
+        if _ODD.search(line):
+            comment = _COMMENT if self.dialect.semicolon_comments else _IN_BRACKETS
+            if (odd := _ODD.search(comment.sub("", line))) is not None:
+                return f"{_spelt(odd[0])} stands outside of comments, and {name} reads ASCII only there"
+            odd = (_ODD if self.dialect.ascii_comments else _CONTROL).search(line)
+            if odd is not None:
+                return f"{_spelt(odd[0])} stands in a comment, and {name} does not take it there"
+        return f"{len(line)} characters; {name} reads at most {most}" if len(line) > most else ""
+
+
+def _spelt(character: str) -> str:
+    """A character by number and name.
+
+    >>> _spelt(chr(0xA0)), _spelt(chr(12))
+    ('the character U+00A0 (NO-BREAK SPACE)', 'the character U+000C')
+    """
+    name = unicodedata.name(character, "")
+    return f"the character U+{ord(character):04X}" + (f" ({name})" if name else "")

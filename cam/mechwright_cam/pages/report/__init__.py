@@ -1,0 +1,1 @@
+"""The report on a program from anywhere, as a page."""

@@ -1,0 +1,142 @@
+"""The plate seen from above on a grid: by which step each cell of it is cut through.
+
+The proof of walls is exact and has no grid. This is for what hangs together: a bridge that is too narrow to
+be found here is too narrow to hold. Whatever is uncertain counts as cut, so two cells side by side that are
+not cut are joined by material.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from mechwright.arrays import Array
+from mechwright.geometry.prepared import prepared
+from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.plane import Shape
+from mechwright_cam.setup.job import Job
+
+CELL = 0.4
+"""Width of a cell, mm: bridges of :data:`BRIDGE` are found."""
+MOST_CELLS = 4_000_000
+"""Of a larger plate cells are wider: memory has a bound."""
+SKIN = 0.2
+"""What stands no higher over the underside, mm, holds nothing; nor does the lower half of a tab."""
+NEVER = np.iinfo(np.int32).max
+"""Stands for the step that cuts a cell which no step cuts."""
+UNSURE = 0.5 + math.sqrt(0.5) + 0.25
+"""A cutter counts so many cells wider: half of one between two neighbours, half the diagonal of the cell that
+its place is in, and what is left between two places."""
+BRIDGE = 2 * UNSURE * CELL + math.sqrt(2) * CELL
+"""A bridge so wide is found on the usual grid, mm, whichever way it lies."""
+
+Steps = NDArray[np.int32]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Cells (ny, nx) of the plate; rows from the lower edge."""
+
+    x: float
+    y: float
+    """The plate's lower left corner, mm."""
+    cell: float
+    """Width of a cell, mm."""
+    cut: Steps
+    """(ny, nx) the step that cuts a cell through, :data:`NEVER` where none does."""
+    part: Shape
+    """The finished part: its cells count as never cut, and so do those of planned tabs."""
+
+    def place(self, mask: Mask) -> tuple[float, float]:
+        """The middle of a cell that is nearest to the middle of some, mm."""
+        rows, columns = np.nonzero(mask)
+        best = int(np.argmin((rows - rows.mean()) ** 2 + (columns - columns.mean()) ** 2))
+        x, y = self.x + (columns[best] + 0.5) * self.cell, self.y + (rows[best] + 0.5) * self.cell
+        return float(x), float(y)
+
+    def inside(self, shape: Shape, where: Mask | None = None) -> Mask:
+        """(ny, nx) whether the middle of a cell, of those asked for, is in a shape."""
+        found = np.zeros(self.cut.shape, dtype=bool)
+        x0, y0, x1, y1 = (np.array(shape.bounds) - (self.x, self.y, self.x, self.y)) / self.cell
+        some = np.zeros_like(found)
+        some[max(int(y0), 0) : int(y1 + 1), max(int(x0), 0) : int(x1 + 1)] = True
+        rows, columns = np.nonzero(some if where is None else some & where)
+        x, y = self.x + (columns + 0.5) * self.cell, self.y + (rows + 0.5) * self.cell
+        found[rows, columns] = shapely.contains_xy(prepared(shape), x, y)
+        return found
+
+    def within(self, mask: Mask, distance: float) -> Mask:
+        """(ny + 2 h, nx + 2 h) the cells within a distance of some, mm, with a border h cells wide."""
+        h = math.ceil(distance / self.cell)
+        seeds = np.where(np.pad(mask, 2 * h), 0, NEVER).astype(np.int32)
+        return earliest(seeds, distance / self.cell) < NEVER
+
+    def cells(self, places: Array, border: int = 0) -> tuple[Ints, Ints, Mask]:
+        """Row and column (k,) of places (k, 2), mm, and which of them are on the grid with a border."""
+        ny, nx = self.cut.shape
+        column = np.floor((places[:, 0] - self.x) / self.cell).astype(np.int64) + border
+        row = np.floor((places[:, 1] - self.y) / self.cell).astype(np.int64) + border
+        inside = (column >= 0) & (column < nx + 2 * border) & (row >= 0) & (row < ny + 2 * border)
+        return row, column, inside
+
+
+def footprint(paths: Paths, job: Job) -> Footprint:
+    """Cut the plate through, move by move; time goes with the length of path and the size of the plate."""
+    x0, y0, x1, y1 = job.stock
+    cell = max(CELL, math.sqrt((x1 - x0) * (y1 - y0) / MOST_CELLS))
+    shape = max(math.ceil((y1 - y0) / cell), 1), max(math.ceil((x1 - x0) / cell), 1)
+    cut = np.full(shape, NEVER, dtype=np.int32)
+    found = Footprint(x0, y0, cell, cut, job.target)
+    lowest = min((tab.top + job.thickness for tab in job.tabs), default=np.inf)
+    level = -job.thickness + min(SKIN, lowest / 2)
+    pieces = paths.below(level, steps=paths.cuts)
+    radii = np.round(paths.radius_at(pieces, level), 3)
+    for radius in np.unique(radii[radii > NEAR]).tolist():
+        _cut(found, paths, pieces.step[radii == radius], radius, level)
+    for keep in (job.target, *(shapely.buffer(tab.shape, cell) for tab in job.tabs)):
+        cut[found.inside(keep, cut < NEVER)] = NEVER
+    return found
+
+
+CHUNK = 20_000
+"""So many moves are laid on the grid at a time: memory does not go with the program."""
+
+
+def _cut(found: Footprint, paths: Paths, steps: Ints, radius: float, level: float) -> None:
+    """Cut with one radius: the first step that comes within it of a cell cuts that."""
+    reach = radius / found.cell + UNSURE
+    h, (ny, nx) = int(reach), found.cut.shape
+    centres = np.full((ny + 2 * h, nx + 2 * h), NEVER, dtype=np.int32)
+    for first in range(0, steps.size, CHUNK):
+        # Two places are so near that between them a quarter of a cell is left at most.
+        places, z, owner = paths.samples(steps[first : first + CHUNK], math.sqrt(2 * radius * found.cell))
+        row, column, inside = found.cells(places, h)
+        inside &= z <= level + NEAR
+        np.minimum.at(centres, (row[inside], column[inside]), owner[inside].astype(np.int32))
+    np.minimum(found.cut, earliest(centres, reach), out=found.cut)
+
+
+def earliest(centres: Steps, reach: float) -> Steps:
+    """(m - 2 h, n - 2 h) least of (m, n) numbers within ``reach`` cells of each, h of them at most.
+
+    Each row of the disc is the least over two stretches whose length is a power of two.
+    """
+    h = int(reach)
+    ny, nx = centres.shape[0] - 2 * h, centres.shape[1] - 2 * h
+    powers = [centres]
+    while 2 ** len(powers) <= 2 * h + 1:
+        half, last = 2 ** (len(powers) - 1), powers[-1]
+        powers.append(np.minimum(last[:, :-half], last[:, half:]))
+    found = np.full((ny, nx), NEVER, dtype=np.int32)
+    for up in range(h + 1):
+        w = int(math.sqrt(reach * reach - up * up))
+        k = (2 * w + 1).bit_length() - 1
+        left, right = h - w, h + w + 1 - 2**k
+        row = np.minimum(powers[k][:, left : left + nx], powers[k][:, right : right + nx])
+        np.minimum(found, row[h + up : h + up + ny], out=found)
+        np.minimum(found, row[h - up : h - up + ny], out=found)
+    return found

@@ -1,0 +1,237 @@
+"""Programs of other people, proven against a drawing of the part and nothing else."""
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import ezdxf
+import pytest
+from foreign import LONG, THICK, coupler_drawing, coupler_program, freecad_gear
+
+from mechwright.errors import DesignError
+from mechwright_cam.commands.drawing import read_drawing
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+PLATE = ("--thickness", "6", "--stock", "20", "--tools", "1=mill-6,2=drill-5", "--control", "linuxcnc")
+
+
+@pytest.fixture
+def drawing(tmp_path: Path) -> Path:
+    return coupler_drawing(tmp_path / "coupler.dxf")
+
+
+def verified(run, tmp_path: Path, drawing: Path, text: str, *more: str):  # type: ignore[no-untyped-def]
+    program = tmp_path / "program.ngc"
+    program.write_text(text)
+    return run("verify", program, "--dxf", drawing, *PLATE, *more)
+
+
+@pytest.mark.parametrize("hold", ["vacuum", "tape", "tabs"])
+def test_a_coupler_of_another_program_is_proven(
+    command_line, tmp_path: Path, drawing: Path, hold: str
+) -> None:  # type: ignore[no-untyped-def]
+    text = coupler_program(hold="tabs" if hold == "tabs" else "vacuum")
+    code, out, err = verified(command_line, tmp_path, drawing, text, "--hold", hold)
+    assert (code, err) == (0, ""), err
+    assert out.endswith("program.ngc: proven\n")
+    if hold == "tabs":
+        assert "pass [tabs] 4 tabs are found, and strong enough" in out
+
+
+def test_the_same_without_tabs_needs_something_that_holds(
+    command_line, tmp_path: Path, drawing: Path
+) -> None:  # type: ignore[no-untyped-def]
+    code, _, err = verified(command_line, tmp_path, drawing, coupler_program())
+    assert code == 1
+    assert "FAIL [holding] line" in err
+    assert "the part comes loose: nothing holds it when this is cut; leave tabs" in err
+    assert err.count("FAIL") == 2  # and that there are no tabs
+
+
+def test_coarse_chords_are_stock_left(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
+    code, _, err = verified(command_line, tmp_path, drawing, coupler_program(chord=0.02), "--hold", "vacuum")
+    assert code == 1
+    assert "FAIL [leftover] 0.0" in err
+    assert err.count("FAIL") == 1
+
+
+def test_a_gear_as_freecad_posts_it_is_refused_for_its_reasons(
+    command_line, tmp_path: Path, drawing: Path
+) -> None:  # type: ignore[no-untyped-def]
+    code, _, err = verified(command_line, tmp_path, drawing, freecad_gear())
+    assert code == 1
+    names = {line.split("[")[1].split("]")[0] for line in err.splitlines()}
+    how = {"positions", "tool-change", "path-tolerance", "coolant", "depth-of-cut"}
+    # Its chords run 0.05 mm into the ends, nothing holds the part, and it drills no holes.
+    assert names == how | {"gouge", "tabs", "holding", "depth", "leftover"}
+    assert "the part comes loose: nothing holds it when this is cut; leave tabs" in err
+
+
+def test_the_report_is_json_and_a_page(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
+    page = tmp_path / "report.html"
+    code, out, _ = verified(
+        command_line, tmp_path, drawing, coupler_program(), "--hold", "tape", "--json", "--page", str(page)
+    )
+    report = json.loads(out)
+    assert code == 0
+    assert report["ok"]
+    assert report["part"] == "coupler"
+    text = page.read_text()
+    assert "proven" in text
+    assert "<svg" in text
+    assert text.count('class="pass"') == len(report["checks"])
+    assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
+    code, _, _ = verified(command_line, tmp_path, drawing, coupler_program(), "--page", str(page))
+    assert code == 1
+    assert "does not cut the part" in page.read_text()
+    assert "the part comes loose" in page.read_text()
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
+@pytest.mark.parametrize("width", [1200, 500])
+def test_the_page_is_not_wider_than_the_window(
+    command_line, tmp_path: Path, drawing: Path, width: int
+) -> None:  # type: ignore[no-untyped-def]
+    page = tmp_path / "report.html"
+    verified(command_line, tmp_path, drawing, coupler_program(), "--page", str(page))
+    probe = "<script>document.title = document.documentElement.scrollWidth + ' of ' + innerWidth</script>"
+    page.write_text(page.read_text().replace("</body>", probe + "</body>"))
+    assert CHROMIUM is not None
+    flags = ("--headless", "--no-sandbox", "--disable-gpu", f"--window-size={width},900", "--dump-dom")
+    shown = subprocess.run(
+        [CHROMIUM, *flags, page.as_uri()], capture_output=True, text=True, check=True
+    ).stdout
+    wide, window = shown.split("<title>")[1].split("</title>")[0].split(" of ")
+    assert int(wide) <= int(window)
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (("--tools", "1=mill-6,2"), "--tools: '2' is no tool; write T number and name, as in 1=mill-6"),
+        (("--tools", "1=mill-6,1=drill-5"), "--tools: T1 is named twice"),
+        (("--tools", "1=mill-66"), "--tools: no tool 'mill-66' in the library"),
+        (("--material", "cheese"), "--material: 'cheese' is not known; one of: "),
+        (("--hold", "magnet"), "--hold: 'magnet' is not known; one of: tabs, bore, vacuum, tape"),
+        (("--stock", "big"), "--stock: 'big' is no plate"),
+        (("--thickness", "0"), "--thickness: 0 mm is no plate"),
+        (("--control", "siemens"), "--control: 'siemens' is not known; one of: "),
+        (("--layers", "CUT"), "--layers: there is no layer 'CUT'; it has: 0"),
+        (("--units", "ell"), "--units: 'ell' is not known; one of: mm, cm, inch"),
+        (("--set", "hold"), "--set: 'hold' is no setting; write KEY=VALUE"),
+        (("--set", "clearence=3"), "clearence"),
+        (("--set", "clearance=300"), "cam.clearance"),
+    ],
+)
+def test_what_is_asked_wrongly_is_one_line(command_line, tmp_path, drawing, more, said) -> None:  # type: ignore[no-untyped-def]
+    code, out, err = verified(command_line, tmp_path, drawing, coupler_program(), *more)
+    assert (code, out, err.count("\n")) == (2, "", 1), err
+    assert said in err
+
+
+def test_it_has_to_be_said_what_is_cut(command_line, tmp_path: Path, drawing: Path) -> None:  # type: ignore[no-untyped-def]
+    program = tmp_path / "p.ngc"
+    program.write_text("M2\n")
+    for more in ((), ("--dxf", drawing, "--design", drawing)):
+        code, _, err = command_line("verify", program, *more)
+        assert code == 2
+        assert "say what the program cuts: --design and --part, or --dxf" in err
+    code, _, err = command_line("verify", program, "--design", drawing)
+    assert "--part: name the part of the design" in err
+
+
+# -- drawings ------------------------------------------------------------------------------------------------
+
+
+def drawn(tmp_path: Path, draw, units: int = 4) -> Path:  # type: ignore[no-untyped-def]
+    document = ezdxf.new("R2010", units=units)
+    draw(document.modelspace())
+    document.saveas(tmp_path / "part.dxf")
+    return tmp_path / "part.dxf"
+
+
+def square(space, x: float = 0, size: float = 20) -> None:  # type: ignore[no-untyped-def]
+    space.add_lwpolyline([(x, 0), (x + size, 0), (x + size, size), (x, size)], close=True)
+
+
+@pytest.mark.parametrize(("unit", "scale"), [(1, 25.4), (4, 1.0), (5, 10.0), (6, 1000.0)])
+def test_units_of_a_drawing_are_taken_as_it_says(tmp_path: Path, unit: int, scale: float) -> None:
+    part = read_drawing(coupler_drawing(tmp_path / "c.dxf", unit=unit, scale=scale), THICK, "steel")
+    assert part.outline is not None
+    assert part.outline.bounds == pytest.approx((-10, -10, LONG + 10, 10), abs=1e-6)
+    assert sorted(f.name for f in part.features) == ["bore-1", "bore-2", "outside"]
+
+
+def test_a_drawing_without_units_has_to_be_told_them(tmp_path: Path) -> None:
+    path = drawn(tmp_path, square, units=0)
+    with pytest.raises(
+        DesignError, match=r"says no unit that a mill knows .* say it with --units: mm, cm, inch"
+    ):
+        read_drawing(path, THICK, "steel")
+    found = read_drawing(path, THICK, "steel", "inch").outline
+    assert found is not None
+    assert found.bounds == pytest.approx((0, 0, 508, 508))
+
+
+def test_polylines_with_bulges_splines_ellipses_and_blocks(tmp_path: Path) -> None:
+    def draw(space) -> None:  # type: ignore[no-untyped-def]
+        space.add_lwpolyline([(0, 0, 0), (40, 0, 1), (40, 20, 0), (0, 20, 1)], format="xyb", close=True)
+        space.add_ellipse((10, 10), (4, 0), 0.5)
+        space.add_spline(fit_points=[(30, 6), (36, 10), (30, 14), (26, 10), (30, 6)])
+        block = space.doc.blocks.new("HOLE")
+        block.add_circle((0, 0), 2)
+        space.add_blockref("HOLE", (20, 10))
+        space.add_line((-50, 10), (90, 10), dxfattribs={"linetype": "CENTER"})
+        space.doc.linetypes.add("CENTER", [2.5, 1.25, -0.5, 0.25, -0.5])
+        space.add_mtext("part 7")
+
+    part = read_drawing(drawn(tmp_path, draw), THICK, "steel")
+    assert part.outline is not None
+    assert part.outline.bounds == pytest.approx((-10, 0, 50, 20), abs=1e-6)
+    assert len(part.outline.inner) == 3
+    areas = sorted(-loop.area for loop in part.outline.inner)
+    assert areas[0] == pytest.approx(12.566, abs=1e-3)
+    assert areas[1] == pytest.approx(25.133, abs=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("draw", "said"),
+    [
+        (
+            lambda space: space.add_line((0, 0), (5, 0)),
+            "a line ends, and no other line begins at X5.000 Y0.000",
+        ),
+        (lambda space: (square(space), square(space, 30)), "two outlines lie side by side"),
+        (lambda space: (square(space), square(space, 10)), "two outlines cross each other"),
+        (
+            lambda space: (square(space), space.add_circle((10, 10), 6), space.add_circle((10, 10), 3)),
+            "openings meet, or lie in each other",
+        ),
+        (
+            lambda space: space.add_lwpolyline([(0, 0), (20, 20), (20, 0), (0, 20)], close=True),
+            "an outline crosses itself .*Self-intersection.* draw it as one simple loop",
+        ),
+        (lambda space: space.add_text("nothing"), "shows no closed outline"),
+        (
+            lambda space: [
+                space.add_line(a, b) for a, b in (((0, 0), (9, 0)), ((9, 0), (9, 9)), ((9, 0), (0, 9)))
+            ],
+            "a line meets two others at X9.000 Y0.000",
+        ),
+    ],
+)
+def test_what_is_no_single_part_is_refused_with_its_place(tmp_path: Path, draw, said: str) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(DesignError, match=said):
+        read_drawing(drawn(tmp_path, draw), THICK, "steel")
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"hello", b"  0\nSECTION\n", b"\x00\xff" * 500, b"AutoCAD Binary DXF\r\n\x1a\x00"]
+)
+def test_no_drawing_is_one_line(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "x.dxf"
+    path.write_bytes(data)
+    with pytest.raises(DesignError) as error:
+        read_drawing(path, THICK, "steel")
+    assert "\n" not in str(error.value)

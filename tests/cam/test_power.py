@@ -1,0 +1,144 @@
+"""Power and torque of cuts: against reference values, as simulated, and within what the spindle has."""
+
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from by_control import BY_NAME, prove, simulated
+from golden_operations import CONTROLS, made
+from shop import plate_job
+from test_simulation import row
+
+from mechwright.contracts.materials import Material, material
+from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.machining import Machined, machine
+from mechwright_cam.program.moves import Operation, Program, ToolSection
+from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.library import load_library
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.power import WATTS, available, milling_force, slower
+
+FACTS = next(
+    iter(
+        json.loads((Path(__file__).parents[1] / "data" / "cutting.json").read_text(encoding="utf-8")).values()
+    )
+)
+
+
+def stuff(force: float, exponent: float) -> Material:
+    return replace(material("steel"), force=force, force_exponent=exponent)
+
+
+@pytest.mark.parametrize("fact", FACTS, ids=lambda fact: f"{fact['name']} {fact['inputs']['d']}")
+def test_power_and_torque_are_those_of_the_exact_integral(fact) -> None:
+    given = fact["inputs"]
+    d, wide = given["d"], given["ae"]
+    engagement = math.acos(1 - 2 * wide / d)
+    removal = wide * given["ap"] * given["rpm"] * given["teeth"] * given["fz"] / 1000
+    watts = removal * WATTS * float(milling_force(stuff(given["kc11"], given["mc"]), given["fz"], engagement))
+    found = watts if fact["unit"] == "W" else watts / (2 * math.pi * given["rpm"] / 60)
+    assert found == pytest.approx(fact["expected"], rel=1e-5)
+
+
+@pytest.mark.parametrize(("over", "deep"), [(6.0, 2.0), (3.0, 2.0), (1.0, 3.0)])
+def test_the_simulation_measures_the_power_of_a_cut(over: float, deep: float) -> None:
+    """A slot, half of one, and a narrow cut beside one, which the first cut has made slowly."""
+    of = plate_job()
+    mill = load_library().get("mill-6").model_copy(update={"number": 9})
+    first = Operation("o", tuple(row(-24, 24, 0, -deep, 20.0)) if over < 6 else ())
+    second = Operation("p", tuple(row(-20, 20, over if over < 6 else 0, -deep, 1200.0)))
+    sections = tuple(
+        ToolSection(tool, 8000, "flood", (one,))
+        for tool, one in ((of.tools[2], first), (mill, second))
+        if one.moves
+    )
+    seen = simulated(
+        LinuxCnc().write(Program("plate", "G54", 5.0, sections)), replace(of, tools=(*of.tools, mill))
+    )
+    (work,) = (work for work in seen.works if work.tool == 9)
+    loads = seen.loads.only(seen.loads.tool == 9)
+    steady = loads.only(loads.path >= 5).power[1:-1]
+    aluminium, tooth = material("aluminium"), 1200 / 8000 / 3
+    engagement = math.acos(1 - min(over, 6.0) / 3)
+    wanted = min(over, 6.0) * deep * 1.2 * WATTS / 1000 * float(milling_force(aluminium, tooth, engagement))
+    assert steady == pytest.approx(wanted, rel=0.06)
+    assert work.torque == pytest.approx(work.power * 1000 / (2 * math.pi * 8000 / 60))
+    assert work.share == pytest.approx(work.power / float(available(of.settings.machine, 8000.0)))
+
+
+def test_torque_limits_below_the_base_speed_and_power_above() -> None:
+    spindle = Machine(spindle_power=2.2, spindle_torque=0.88, spindle_efficiency=1.0)
+    assert float(available(spindle, 6000.0)) == pytest.approx(0.553, abs=1e-3)
+    assert float(available(spindle, 24000.0)) == pytest.approx(2.2, abs=0.012)
+    assert float(available(spindle, 30000.0)) == 2.2
+    assert slower(material("steel"), 2.0, 1.0) == pytest.approx(0.5 ** (1 / 0.83))
+
+
+ROUTER = Machine(spindle_power=0.3, spindle_torque=0.3)
+
+
+def weaker(one: Machined, spindle: Machine = ROUTER) -> Job:
+    return replace(one.job, settings=one.job.settings.model_copy(update={"machine": spindle}))
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_cut_beyond_the_spindle_is_refused_and_the_advice_helps(control: str) -> None:
+    (one,) = made("profile-outside", control)
+    of, text = weaker(one), one.text
+    proof = prove(text, of, BY_NAME[control])
+    assert [check.name for check in proof.failures] == ["power"]
+    seen = set()
+    for _ in range(30):  # each line that is beyond it names the feed which does
+        check = prove(text, of, BY_NAME[control]).checks["power"]
+        if check.passed:
+            break
+        said = re.match(
+            r"line (\d+): T23 \(mill-8\) asks for [\d.]+ kW and [\d.]+ N m at S8754 in aluminium, the spindle of "
+            r"three-axis mill has [\d.]+ kW there for the cut; lower F from (\d+) to (\d+), or cut [\d.]+ mm deep "
+            r"instead of [\d.]+, at X",
+            check.message,
+        )
+        assert said, check.message
+        assert int(said[1]) == check.line
+        assert (said[2], said[3]) not in seen
+        seen.add((said[2], said[3]))
+        text = re.sub(rf"F{said[2]}(?=[.\s])", f"F{said[3]}", text)
+    assert check.passed
+    assert check.value <= check.limit * 1.02
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "grbl"])
+def test_planning_slows_what_the_spindle_has_no_power_for_and_nothing_else(control: str) -> None:
+    (one,) = made("profile-outside", control)
+    of = weaker(one)
+    slow = machine(of, BY_NAME[control])
+    assert slow.proof.ok
+    assert slow.program.notes[
+        -1
+    ] == "feed lowered to the power of the spindle: outside: rough, bore: bore" or (
+        slow.program.notes[-1].startswith("feed lowered to the power of the spindle: ")
+    )
+    assert "lowered to the power" in slow.text.lower()
+    share = max(work.share for work in slow.scene.simulation.works)
+    assert 0.9 < share <= 1.02  # no slower than it has to be
+    before, after = (
+        [move for section in item.program.sections for part in section.operations for move in part.moves]
+        for item in (one, slow)
+    )
+    changed = [(a, b) for a, b in zip(before, after, strict=True) if a != b]
+    assert changed
+    assert all(replace(b, feed=a.feed) == a and b.feed < a.feed for a, b in changed)
+    finishing = {
+        move for s in slow.program.sections for o in s.operations if "finish" in o.name for move in o.moves
+    }
+    assert finishing <= set(before)
+    assert slow.proof.time_estimate_s > one.proof.time_estimate_s
+
+
+def test_a_strong_spindle_changes_no_program() -> None:
+    (one,) = made("profile-outside", "linuxcnc")
+    strong = weaker(one, Machine(spindle_power=100, spindle_torque=500))
+    assert machine(strong, LinuxCnc()).text == one.text

@@ -1,0 +1,64 @@
+"""Rapids whose axes arrive one after the other, and rapids from places that the text does not say."""
+
+from dataclasses import replace
+
+import pytest
+from by_control import BY_NAME
+from shop import plate_job
+
+from mechwright_cam.proof import Check, Scene
+from mechwright_cam.proof.entry_rules import rapid_height
+from mechwright_cam.proof.held import clamp
+from mechwright_cam.proof.machine_moves import positions
+from mechwright_cam.setup.holding import Clamp
+from mechwright_cam.setup.job import Job
+
+HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\n"
+
+
+def scene(moves: str, of: Job) -> Scene:
+    return Scene(f"{HEAD}{moves}\nM30\n", of, BY_NAME["linuxcnc"])
+
+
+def clamped() -> Job:
+    """A plate under a clamp of 20 mm at X0 Y0, 15 mm high; the mill has a radius of 3 mm."""
+    return replace(plate_job(), tabs=(), clamp=Clamp((0.0, 0.0), 20.0, 15.0))
+
+
+def judged_clamp(moves: str) -> Check:
+    return clamp(scene(moves, clamped()))
+
+
+def test_a_rapid_past_a_clamp_may_go_along_the_edges_of_its_rectangle() -> None:
+    up = "G0 X-30 Y-5\nG43 H3 Z10\n"
+    # The line from there to X5 Y30 passes 17.7 mm from the middle of the clamp: 13 are needed.
+    assert "the cutter goes 13.00 mm into the clamp" in judged_clamp(up + "X5 Y30").message
+    assert judged_clamp(up + "G1 X5 Y30 F500").passed
+    assert judged_clamp(up + "X-30 Y30\nX5").passed
+    assert judged_clamp("G0 X-30 Y-5\nG43 H3 Z16\nX5 Y30").passed
+
+
+def test_a_rapid_may_have_come_down_before_it_crosses() -> None:
+    """On the straight line from the upper end the tool is half a metre over the clamp."""
+    found = judged_clamp("G0 X-30 Y0\nG43 H3\nG0 X30 Y0 Z10")
+    assert not found.passed
+    assert found.line == 7
+    assert judged_clamp("G0 X-30 Y0\nG43 H3\nG0 X30 Y0\nZ10").passed
+    assert not judged_clamp("G0 X-30 Y0\nG43 H3 Z10\nG0 X30 Y0 Z50").passed  # nor may it have gone up
+
+
+@pytest.mark.parametrize(("words", "passed"), [("X55 Y0", False), ("G1 X55 Y0 F500", True)])
+def test_beside_the_stock_a_low_rapid_stays_clear_of_its_corners(words: str, passed: bool) -> None:
+    of = plate_job()
+    x1, y1 = of.stock[2:]
+    low = f"G0 X{x1 - 10} Y{y1 + 30}\nG43 H3 Z5\nZ-2\n{words.replace('X55 Y0', f'X{x1 + 30} Y{y1 - 10}')}"
+    assert rapid_height(scene(low, of)).passed == passed
+
+
+def test_from_where_the_tool_was_left_x_and_y_move_above_the_clamp() -> None:
+    low = "G43 H3\nG0 Z10\nX-30 Y0\nZ5"
+    found = positions(scene(low, clamped()))
+    assert not found.passed
+    assert "moves below Z15 from a place in X and Y that the text does not say" in found.message
+    assert positions(scene(low.replace("Z10", "Z20"), clamped())).passed
+    assert positions(scene(low, plate_job())).passed
