@@ -87,10 +87,14 @@ def plunges(scene: Scene) -> Check:
         mine = cuts[run.tool[cuts] == tool.number]
         share = BEYOND * data.plunge
         most = share * data.chip_load * rpm[mine] * tool.flutes
-        for index in np.flatnonzero(down[mine] > most + 1.0).tolist():
+        if radius <= 0:
+            continue
+        lift = max(float(cutter(tool).height_at(radius)), SKIM)
+        fast = np.flatnonzero(down[mine] > most + 1.0)
+        fast = fast[~scene.stock.bored(mine[fast], lift=lift, radius=radius)]
+        for index in fast.tolist():
             step, limit = int(mine[index]), float(most[index])
-            lift = max(float(cutter(tool).height_at(radius)), SKIM)
-            if radius <= 0 or _sliver(scene, tool, step):
+            if _sliver(scene, tool, step):
                 continue
             if not scene.stock.meets(step, lift=lift, radius=radius):
                 continue

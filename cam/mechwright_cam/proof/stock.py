@@ -5,10 +5,11 @@ from itertools import islice
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
-from mechwright_cam.controls.reading.run import Ints
+from mechwright_cam.controls.reading.run import Ints, Kind
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths
 from mechwright_cam.proof.plane import Shape, grow
@@ -67,6 +68,34 @@ class Stock:
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
         return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
+
+    @cached_property
+    def _cut_lines(self) -> tuple[Ints, shapely.STRtree]:
+        """The step of each piece of the cuts, and where they are."""
+        pieces = self.paths.whole(self.cuts)
+        return pieces.step, shapely.STRtree(self.paths.lines(pieces))
+
+    def bored(self, steps: Ints, *, lift: float, radius: float) -> NDArray[np.bool_]:
+        """Which of the steps (k,) go straight down in what one earlier step has cut, and meet nothing there.
+
+        What is asked about is a cylinder as in :meth:`meets`, and much sooner answered here.
+        """
+        paths, found = self.paths, np.zeros(steps.size, dtype=np.bool_)
+        flat = np.hypot(*(paths.end - paths.start)[steps, :2].T) < NEAR
+        at = np.flatnonzero(flat & (paths.run.kind[steps] != Kind.ARC))
+        if not at.size or not self.cuts.size:
+            return found
+        of, tree = self._cut_lines
+        widest = max(float(np.nanmax(paths.radius)) - radius, 0.0)
+        middles = shapely.points(paths.end[steps[at], :2])
+        place, line = tree.query(middles, predicate="dwithin", distance=widest)
+        step, cut = steps[at[place]], of[line]
+        above = paths.low[step] + lift - np.maximum(paths.start[cut, 2], paths.end[cut, 2])
+        spare = paths.cutters(cut).radius_at(above + NEAR) - radius
+        sure = np.flatnonzero((cut < step) & (above > -NEAR) & (spare > 0))
+        place, line, spare = place[sure], line[sure], spare[sure]
+        found[at[place[shapely.dwithin(tree.geometries[line], middles[place], spare)]]] = True
+        return found
 
     def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
