@@ -51,7 +51,7 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
     radius = paths.radius_at(pieces, top)
     lines = paths.lines(pieces)
     edge = Boundary(keep)
-    near = _near(edge.shape, lines, radius)
+    near = near_ones(edge.shape, lines, radius)
     gap = np.full(len(pieces), np.inf)
     gap[near] = edge.distance(lines[near], within=float(radius.max()))
     inside = edge.inside(lines)
@@ -77,7 +77,7 @@ def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:
     return pieces.only(np.flatnonzero(~apart.any(axis=1)))
 
 
-def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
+def near_ones(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     """Indices of the lines that come within their radius (m,) of a shape."""
     near = np.zeros(radius.size, dtype=np.bool_)
     for one in np.unique(radius).tolist():

@@ -19,11 +19,14 @@ from mechwright_cam.controls.reading import Run
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, kinds
+from mechwright_cam.proof.gouge import Gouge, kinds, near_ones
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
+
+TOGETHER = 0.0025
+"""Tools whose reach differs by less, mm, are asked for together at first."""
 
 
 class WidePaths(Paths):
@@ -111,7 +114,9 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.boo
             # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
             widest = np.argsort(-reach, kind="stable")
             chosen, kind = kinds(paths, pieces.only(widest))
-            within = shapely.dwithin(keep, paths.lines(pieces.only(widest[chosen])), reach[widest[chosen]])
+            roughly = np.ceil(reach[widest[chosen]] / TOGETHER) * TOGETHER
+            within = np.zeros(chosen.size, dtype=np.bool_)
+            within[near_ones(keep, paths.lines(pieces.only(widest[chosen])), roughly)] = True
             close = widest[within[kind]]
             close = close[shapely.dwithin(keep, paths.lines(pieces.only(close)), reach[close])]
             found[pieces.step[close]] = True

@@ -15,8 +15,8 @@ from mechwright_cam.controls.lookahead.segments import Segments
 
 LEAST_SINE = np.sin(1e-3)
 """Half a turn below this is none: P bounds nothing then."""
-INSTANTS = 33
-"""An overlap is looked at so many times."""
+INSTANTS = 9
+"""An overlap is looked at so many times, and as often again around the greatest of them."""
 
 
 @dataclass(frozen=True)
@@ -100,56 +100,51 @@ def _half_sine(row: Segments) -> Array:
 
 def _off(row: Segments, at: NDArray[np.int64], rate: Array, lasts: Array) -> Array:
     """Greatest distance (k,) from the path while the segments at the junctions ``at`` overlap, mm."""
-    t = np.linspace(0, 1, INSTANTS)[None, :] * lasts[:, None]
-    left = rate[at, None] * (lasts[:, None] - t) ** 2 / 2
-    done = rate[at + 1, None] * t**2 / 2
-    left = np.minimum(left, row.length[at, None])
-    done = np.minimum(done, row.length[at + 1, None])
-    place = _along(row, at, -left, row.last) + _along(row, at + 1, done, row.first)
-    apart = np.minimum(_from(row, at, place, row.last), _from(row, at + 1, place, row.first))
-    return np.asarray(apart.max(axis=1))
+    ends, begins = _Way(row, at, row.last[at], -1.0), _Way(row, at + 1, row.first[at + 1], 1.0)
+    share = np.broadcast_to(np.linspace(0, 1, INSTANTS), (at.size, INSTANTS))
+    most, rows = np.zeros(at.size), np.arange(at.size)
+    for step in (1 / (INSTANTS - 1), None):  # roughly, and around the greatest once more
+        t = share * lasts[:, None]
+        left = np.minimum(rate[at, None] * (lasts[:, None] - t) ** 2 / 2, ends.length)
+        done = np.minimum(rate[at + 1, None] * t**2 / 2, begins.length)
+        place, height = (a + b for a, b in zip(ends.after(-left)[:2], begins.after(done)[:2], strict=True))
+        apart = np.minimum(ends.distance(place, height), begins.distance(place, height))
+        worst = np.argmax(apart, axis=1)
+        most = np.maximum(most, apart[rows, worst])
+        if step is not None:
+            share = share[rows, worst][:, None] + np.linspace(-step, step, INSTANTS)
+            share = np.clip(share, 0.0, 1.0)
+    return np.asarray(most)
 
 
-def _along(row: Segments, at: NDArray[np.int64], way: Array, tangents: Array) -> Array:
-    """Places (k, i, 3) so far along the segments from the junction, which is 0, mm."""
-    tangent = tangents[at]
-    flat = np.hypot(tangent[:, 0], tangent[:, 1])[:, None]
-    bend = np.sign(row.signed[at])[:, None] / row.radius[at, None]
-    angle = way * flat * bend
-    ahead = way * flat * np.sinc(angle / np.pi)
-    aside = way * flat * np.sinc(angle / 2 / np.pi) * np.sin(angle / 2)
-    unit = tangent[:, :2] / np.maximum(flat, 1e-12)
-    x = ahead * unit[:, :1] - aside * unit[:, 1:]
-    y = ahead * unit[:, 1:] + aside * unit[:, :1]
-    return np.stack((x, y, way * tangent[:, 2:]), axis=2)
+class _Way:
+    """Segments (k,) as they begin or end in a junction, which is 0; plan view in complex numbers, mm."""
 
+    def __init__(self, row: Segments, index: NDArray[np.int64], tangent: Array, side: float) -> None:
+        self.length, self.side = row.length[index, None], side
+        self.flat = (tangent[:, 0] + 1j * tangent[:, 1])[:, None]
+        """Tangent at the junction; shorter than 1 where it climbs."""
+        self.climb = tangent[:, 2:]
+        bend = np.sign(row.signed[index]) / row.radius[index]
+        self.half = np.abs(self.flat) * bend[:, None] / 2
+        """Half of the turn of the tangent, rad per mm."""
 
-def _from(row: Segments, at: NDArray[np.int64], place: Array, tangents: Array) -> Array:
-    """Distance (k, i) of places from the segments, mm, to the first order in the bend."""
-    tangent = tangents[at][:, None, :]
-    way = (place * tangent).sum(axis=2)
-    back = np.where(tangents is row.last, -1.0, 1.0)
-    way = np.clip(back * way, 0.0, row.length[at, None]) * back
-    for _ in range(2):  # the foot of the perpendicular, by Newton
-        foot = _along(row, at, way, tangents)
-        way = (
-            np.clip(
-                back * (way + ((place - foot) * _tangent(row, at, way, tangents)).sum(axis=2)),
-                0.0,
-                row.length[at, None],
-            )
-            * back
-        )
-    gap = place - _along(row, at, way, tangents)
-    return np.asarray(np.sqrt((gap**2).sum(axis=2)))
+    def after(self, way: Array) -> tuple[NDArray[np.complex128], Array, NDArray[np.complex128]]:
+        """Places and heights (k, i) so far along from the junction, mm, and the tangents there."""
+        angle = self.half * way
+        turn = np.exp(1j * angle)
+        shrunk = np.divide(turn.imag, angle, out=np.ones_like(angle), where=angle != 0)
+        ahead = self.flat * turn
+        return ahead * (way * shrunk), way * self.climb, ahead * turn
 
-
-def _tangent(row: Segments, at: NDArray[np.int64], way: Array, tangents: Array) -> Array:
-    """Unit vectors (k, i, 3) of the segments so far from the junction."""
-    tangent = tangents[at]
-    flat = np.hypot(tangent[:, 0], tangent[:, 1])[:, None]
-    angle = way * flat * np.sign(row.signed[at])[:, None] / row.radius[at, None]
-    cos, sin = np.cos(angle), np.sin(angle)
-    x = tangent[:, :1] * cos - tangent[:, 1:2] * sin
-    y = tangent[:, 1:2] * cos + tangent[:, :1] * sin
-    return np.stack((x, y, np.broadcast_to(tangent[:, 2:], x.shape)), axis=2)
+    def distance(self, place: NDArray[np.complex128], height: Array) -> Array:
+        """Distance (k, i) of places from the segments, mm: the foot of the perpendicular is found by Newton."""
+        foot, foot_height, tangent = np.zeros_like(place), np.zeros_like(height), self.flat
+        way = np.zeros_like(height)
+        for _ in range(3):
+            gap = place - foot
+            way = way + gap.real * tangent.real + gap.imag * tangent.imag + (height - foot_height) * self.climb
+            way = self.side * np.clip(self.side * way, 0.0, self.length)
+            foot, foot_height, tangent = self.after(way)
+        gap = place - foot
+        return np.asarray(np.sqrt(gap.real**2 + gap.imag**2 + (height - foot_height) ** 2))

@@ -149,12 +149,9 @@ def _waited_for(state: State) -> tuple[object, ...]:
 
 def _in_cycle(run: Run, step: Ints, rapid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(m,) whether a segment is one of a drilling cycle: of several in one line, some are rapids."""
-    _, line = np.unique(
-        np.column_stack((run.file[step] if run.files else 0 * step, run.line[step])),
-        axis=0,
-        return_inverse=True,
-    )
-    line = line.reshape(-1)
+    line = run.line[step] - int(run.line[step].min(initial=0))
+    if run.files:
+        line = line + run.file[step] * (int(line.max(initial=0)) + 1)
     every = np.bincount(line)
     rapids = np.bincount(line, weights=rapid)
     return ((every > 1) & (rapids > 0))[line]
