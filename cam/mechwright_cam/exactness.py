@@ -5,8 +5,10 @@ finishing pass together with what its path cuts stays within the limit of a goug
 be off by more than it is asked for, it is to go exactly to every corner.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
+from copy import copy
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 
@@ -17,47 +19,71 @@ from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.program.moves import OPERATION_COMMENT, Feed, FeedArc, Operation, Program
 from mechwright_cam.proof.off_path import flat, too_deep
-from mechwright_cam.proof.paths import Paths
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
-from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import MILLS, Tool
 
-LIKELY = (0.5, 1.0, 2.0)
-"""The program has to do on machines with so many times the stated acceleration: it is rarely known better."""
+LIKELY = (0.5, 2.0)
+"""The program has to do on machines with so many times the stated acceleration, too: it is rarely known
+better."""
+WALLS = "finish"
+"""Operations whose names end so come to walls."""
 BUDGET = TOLERANCES.gouge - 0.1 * TOLERANCES.arc_fit
 """Most that path and control may cut together, mm: less than the proof's limit by the last digits."""
 
 
-def settled(program: Program, job: Job, control: Control) -> Program:
-    """The program with the loosest tolerance for each operation that keeps its tool out of the part.
+def posted(program: Program, job: Job, control: Control) -> tuple[Program, dict[str, str], Scene]:
+    """A program with a tolerance for each operation, its files, and what the proof looks at.
 
-    Holes and details are left as the control is usually asked for: nothing is won there.
+    Each is the loosest that keeps its tool out of the part; what finishes walls begins with the second. Holes
+    and details are left as the control is usually asked for: nothing is won there.
     """
-    levels = control.tolerances
-    every = [(section.tool, operation) for section in program.sections for operation in section.operations]
-    clearing = {number for number, (tool, operation) in enumerate(every) if _clears(tool, operation)}
-    if not levels or program.posting.exact_stop or not clearing:
-        return program
-    scene = Scene(_text(_with(program, dict.fromkeys(clearing, levels[0])), control), job, control)
-    starts = _starts(scene.run)
+    levels, clearing = control.tolerances, frozenset[int]()
+    if levels and not program.posting.exact_stop:
+        every = [
+            (section.tool, operation) for section in program.sections for operation in section.operations
+        ]
+        clearing = frozenset(n for n, (tool, operation) in enumerate(every) if _clears(tool, operation))
+        walls = {n: every[n][1].name.endswith(WALLS) for n in clearing}
+        program = _with(program, {n: levels[:-1][: 1 + walls[n]][-1] for n in clearing})
+    files, scene = _written(program, job, control)
+    exact = _settled(program, scene, clearing) if clearing else program
+    return (program, files, scene) if exact is program else (exact, *_written(exact, job, control))
+
+
+def _written(program: Program, job: Job, control: Control) -> tuple[dict[str, str], Scene]:
+    files = control.files(program)
+    named = {name + control.suffix: text for name, text in files.items()}
+    return files, Scene(named if len(files) > 1 else next(iter(files.values())), job, control)
+
+
+def _settled(program: Program, scene: Scene, doubtful: Set[int]) -> Program:
+    """The program, finer tolerances for those of the doubtful operations that cut the part with theirs."""
+    run, levels = scene.run, scene.control.tolerances
+    every = [operation for section in program.sections for operation in section.operations]
+    starts = _starts(run)
     if len(starts) != len(every):
-        return program  # a text whose operations cannot be told apart
-    number = np.searchsorted(starts, np.arange(len(scene.run)), side="right") - 1
-    chosen: dict[int, float] = {}
-    for level in levels[:-1]:
-        asked = _asked(scene.run, level)
-        paths = Paths(asked, job.tools)
-        paths.steps = paths.steps[np.isin(number[paths.steps], list(clearing - chosen.keys()))]
-        off = _off(asked, control, program.machine)
+        # A text whose operations cannot be told apart.
+        return _with(program, dict.fromkeys(doubtful, levels[-1]))
+    number = np.searchsorted(starts, np.arange(len(run)), side="right") - 1
+    finer: dict[int, float] = {}
+    off = _off(scene, run)
+    while doubtful:
+        paths = copy(scene.paths)
+        paths.steps = paths.steps[np.isin(number[paths.steps], list(doubtful))]
         loose: set[int] = set()
-        while (far := too_deep(paths, job, off, BUDGET)).any():
+        while (far := too_deep(paths, scene.job, off, BUDGET)).any():
             loose |= set(number[far].tolist())
             paths.steps = paths.steps[~np.isin(number[paths.steps], list(loose))]
             if flat(paths)[paths.steps].all():
                 break  # all of them have been told at once
-        chosen |= dict.fromkeys(clearing - chosen.keys() - loose, level)
-    return _with(program, dict.fromkeys(clearing, levels[-1]) | chosen)
+        for one in loose:
+            now = finer.get(one, every[one].tolerance)
+            finer[one] = max(level for level in levels if now is None or level < now)
+        doubtful = {one for one in loose if finer[one] > levels[-1]}
+        if doubtful:
+            off = _off(scene, _asked(run, number, {one: finer[one] for one in doubtful}))
+    return _with(program, finer) if finer else program
 
 
 def _clears(tool: Tool, operation: Operation) -> bool:
@@ -66,20 +92,15 @@ def _clears(tool: Tool, operation: Operation) -> bool:
 
 
 def _with(program: Program, tolerances: Mapping[int, float]) -> Program:
-    """The program with tolerances by number of the operation."""
-    number, sections = 0, []
+    """The program with tolerances by number of the operation; those of all others stay."""
+    number, sections = count(), []
     for section in program.sections:
-        operations = []
-        for operation in section.operations:
-            operations.append(replace(operation, tolerance=tolerances.get(number)))
-            number += 1
-        sections.append(replace(section, operations=tuple(operations)))
+        operations = tuple(
+            replace(operation, tolerance=tolerances.get(next(number), operation.tolerance))
+            for operation in section.operations
+        )
+        sections.append(replace(section, operations=operations))
     return replace(program, sections=tuple(sections))
-
-
-def _text(program: Program, control: Control) -> str | Mapping[str, str]:
-    files = control.files(program)
-    return files if len(files) > 1 else next(iter(files.values()))
 
 
 def _starts(run: Run) -> Ints:
@@ -89,13 +110,21 @@ def _starts(run: Run) -> Ints:
     )
 
 
-def _asked(run: Run, tolerance: float) -> Run:
-    """The same run with all of it under one tolerance."""
-    states = tuple(replace(state, off_path=tolerance, blend=tolerance) for state in run.states)
-    return replace(run, states=states)
+def _asked(run: Run, number: Ints, tolerances: Mapping[int, float]) -> Run:
+    """The same run with other tolerances for some operations; ``number`` (n,) is that of each step."""
+    states, state = list(run.states), run.state.copy()
+    for one, tolerance in tolerances.items():
+        mine = number == one
+        for old in np.unique(run.state[mine]).tolist():
+            state[mine & (run.state == old)] = len(states)
+            states.append(replace(run.states[old], off_path=tolerance, blend=tolerance))
+    return replace(run, states=tuple(states), state=state)
 
 
-def _off(run: Run, control: Control, machine: Machine) -> Array:
+def _off(scene: Scene, run: Run) -> Array:
     """How far (n,) each step may be off the path on any of the machines that this one may be, mm."""
+    machine, control = scene.job.settings.machine, scene.control
     likely = [machine.model_copy(update={"acceleration": share * machine.acceleration}) for share in LIKELY]
-    return np.asarray(np.max([control.lookahead.motion(run, one).off for one in likely], axis=0))
+    motions = [control.lookahead.motion(run, one).off for one in likely]
+    motions.append(scene.motion.off if run is scene.run else control.lookahead.motion(run, machine).off)
+    return np.asarray(np.max(motions, axis=0))

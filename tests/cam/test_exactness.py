@@ -5,12 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from by_control import BY_NAME
+from by_control import BY_NAME, settled
 from planning_parts import bore, job, plate
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.exactness import LIKELY, settled
+from mechwright_cam.exactness import LIKELY
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Scene
@@ -32,7 +32,7 @@ def tolerances(program: Program) -> dict[str, float | None]:
 
 def test_what_leaves_stock_is_looser_than_what_finishes() -> None:
     made, program = planned()
-    found = tolerances(settled(program, made, LinuxCnc()))
+    found = tolerances(settled(program, made))
     rough = {name: value for name, value in found.items() if "rough" in name}
     finish = {name: value for name, value in found.items() if "finish" in name}
     assert rough
@@ -44,7 +44,7 @@ def test_what_leaves_stock_is_looser_than_what_finishes() -> None:
 
 def test_the_text_asks_for_it_where_it_changes() -> None:
     made, program = planned()
-    text = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    text = LinuxCnc().write(settled(program, made))
     mode, name, modes = "", "", {}
     for line in text.splitlines():
         if line.startswith("(operation: "):
@@ -58,16 +58,16 @@ def test_the_text_asks_for_it_where_it_changes() -> None:
     assert modes["outside: rough"] == {"G64 P0.02 Q0"}
 
 
-@pytest.mark.parametrize("share", LIKELY)
+@pytest.mark.parametrize("share", [1.0, *LIKELY])
 def test_the_program_does_on_machines_that_are_likely(share: float) -> None:
     made, program = planned()
-    text = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    text = LinuxCnc().write(settled(program, made))
     assert path_tolerance(Scene(text, planned(share)[0], LinuxCnc())).passed
 
 
 def test_too_loose_everywhere_would_cut_the_part() -> None:
     made, program = planned()
-    loose = LinuxCnc().write(settled(program, made, LinuxCnc()))
+    loose = LinuxCnc().write(settled(program, made))
     for words in ("G64 P0.002 Q0", "G61"):
         loose = loose.replace(words, "G64 P0.02 Q0")
     found = path_tolerance(Scene(loose, made, LinuxCnc()))

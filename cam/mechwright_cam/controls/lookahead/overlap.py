@@ -107,7 +107,8 @@ def _off(row: Segments, at: NDArray[np.int64], rate: Array, lasts: Array) -> Arr
         t = share * lasts[:, None]
         left = np.minimum(rate[at, None] * (lasts[:, None] - t) ** 2 / 2, ends.length)
         done = np.minimum(rate[at + 1, None] * t**2 / 2, begins.length)
-        place, height = (a + b for a, b in zip(ends.after(-left)[:2], begins.after(done)[:2], strict=True))
+        one, other = ends.after(-left), begins.after(done)
+        place, height = one[0] + other[0], one[1] + other[1]
         apart = np.minimum(ends.distance(place, height), begins.distance(place, height))
         worst = np.argmax(apart, axis=1)
         most = np.maximum(most, apart[rows, worst])
@@ -138,12 +139,14 @@ class _Way:
         return ahead * (way * shrunk), way * self.climb, ahead * turn
 
     def distance(self, place: NDArray[np.complex128], height: Array) -> Array:
-        """Distance (k, i) of places from the segments, mm: the foot of the perpendicular is found by Newton."""
+        """Distance (k, i) of places from the segments, mm; the foot of the perpendicular by Newton."""
         foot, foot_height, tangent = np.zeros_like(place), np.zeros_like(height), self.flat
         way = np.zeros_like(height)
         for _ in range(3):
             gap = place - foot
-            way = way + gap.real * tangent.real + gap.imag * tangent.imag + (height - foot_height) * self.climb
+            way = (
+                way + gap.real * tangent.real + gap.imag * tangent.imag + (height - foot_height) * self.climb
+            )
             way = self.side * np.clip(self.side * way, 0.0, self.length)
             foot, foot_height, tangent = self.after(way)
         gap = place - foot
