@@ -6,7 +6,6 @@ be off by more than it is asked for, it is to go exactly to every corner.
 """
 
 from collections.abc import Mapping, Set
-from copy import copy
 from dataclasses import replace
 from itertools import count
 
@@ -18,7 +17,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.program.moves import OPERATION_COMMENT, Feed, FeedArc, Operation, Program
-from mechwright_cam.proof.off_path import flat, too_deep
+from mechwright_cam.proof.off_path import flat
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import MILLS, Tool
@@ -69,13 +68,12 @@ def _settled(program: Program, scene: Scene, doubtful: Set[int]) -> Program:
     finer: dict[int, float] = {}
     off = _off(scene, run)
     while doubtful:
-        paths = copy(scene.paths)
-        paths.steps = paths.steps[np.isin(number[paths.steps], list(doubtful))]
+        steps = scene.paths.steps[np.isin(number[scene.paths.steps], list(doubtful))]
         loose: set[int] = set()
-        while (far := too_deep(paths, scene.job, off, BUDGET)).any():
+        while (far := scene.off_path.too_deep(off, BUDGET, steps)).any():
             loose |= set(number[far].tolist())
-            paths.steps = paths.steps[~np.isin(number[paths.steps], list(loose))]
-            if flat(paths)[paths.steps].all():
+            steps = steps[~np.isin(number[steps], list(loose))]
+            if flat(scene.paths)[steps].all():
                 break  # all of them have been told at once
         for one in loose:
             now = finer.get(one, every[one].tolerance)

@@ -8,7 +8,7 @@ from copy import copy
 import numpy as np
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.proof.off_path import deepest_off_path, too_deep
+from mechwright_cam.proof.off_path import deepest_off_path
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene, first, in_work
@@ -107,7 +107,7 @@ def path_tolerance(scene: Scene) -> Check:
         return scene.bad(step, message, found, LOOSEST, "mm")
     if not off.any():
         return Check(True, f"no word lets {name} leave the path further than its settings do")
-    far = too_deep(scene.paths, scene.job, off, limit)
+    far = scene.off_path.too_deep(off, limit)
     if far.any():
         some = copy(scene.paths)
         some.steps = some.steps[far[some.steps]]

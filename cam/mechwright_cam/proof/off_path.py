@@ -16,6 +16,7 @@ from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Run
+from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
@@ -88,6 +89,31 @@ def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.boo
         if cut is not None and cut.depth > limit:
             found[cut.step] = True
     return found
+
+
+class OffPath:
+    """Which steps of a program cut too deep off their paths: what is clear with more is not asked again.
+
+    A step of an end mill that has been found clear is clear with less off its path, and with a higher limit.
+    """
+
+    def __init__(self, paths: Paths, job: Job) -> None:
+        self.paths, self.job = paths, job
+        self._flat = flat(paths)
+        self._clear = np.full(len(paths.run), -np.inf)
+        self._limit = 0.0
+
+    def too_deep(self, off: Array, limit: float, steps: Ints | None = None) -> NDArray[np.bool_]:
+        """As :func:`too_deep`, of some steps or of all."""
+        if limit < self._limit:
+            self._clear[:] = -np.inf
+        own, more = copy(self.paths), off - limit
+        own.steps = own.steps if steps is None else steps
+        own.steps = own.steps[more[own.steps] > self._clear[own.steps]]
+        found = too_deep(own, self.job, off, limit)
+        clear = own.steps[(self._flat & ~found)[own.steps]]
+        self._clear[clear], self._limit = more[clear], limit
+        return found
 
 
 def flat(paths: Paths) -> NDArray[np.bool_]:

@@ -18,6 +18,7 @@ from mechwright_cam.proof.footprint import Footprint, footprint
 from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.misfit import misfit
+from mechwright_cam.proof.off_path import OffPath
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.report import Check
@@ -69,6 +70,11 @@ class Scene:
     def paths(self) -> Paths:
         """Where the tools go."""
         return Paths(self.run, self.job.tools)
+
+    @cached_property
+    def off_path(self) -> OffPath:
+        """What they cut where the control leaves the path."""
+        return OffPath(self.paths, self.job)
 
     @cached_property
     def sweeps(self) -> Sweeps:
