@@ -52,6 +52,7 @@ X2.8 Y-4 I2.8 J0
 G1 X0 F1008
 G0 Z13
 (operation: bore-1: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-3.3
 G1 G41 D26 X0.5999 Y-4.7998
@@ -68,7 +69,6 @@ X0.5999 Y-3.2002 I-1.333 J0 F403
 G1 G40 X0 Y-4 F1008
 G0 Z13
 (operation: clamp)
-G64 P0.002 Q0
 M9
 M5
 G53 G0 Z0
@@ -133,7 +133,6 @@ X3.9985 F1008
 Y7.0013
 G0 Z13
 (operation: outside: finish)
-G64 P0.02 Q0
 X3.1262 Y6.4015
 Z1
 G1 Z-3.3
