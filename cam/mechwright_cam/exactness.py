@@ -123,6 +123,6 @@ def _off(scene: Scene, run: Run) -> Array:
     """How far (n,) each step may be off the path on any of the machines that this one may be, mm."""
     machine, control = scene.job.settings.machine, scene.control
     likely = [machine.model_copy(update={"acceleration": share * machine.acceleration}) for share in LIKELY]
-    motions = [control.lookahead.motion(run, one).off for one in likely]
-    motions.append(scene.motion.off if run is scene.run else control.lookahead.motion(run, machine).off)
-    return np.asarray(np.max(motions, axis=0))
+    found = [control.lookahead.off(run, one) for one in likely]
+    found.append(scene.motion.off if run is scene.run else control.lookahead.off(run, machine))
+    return np.asarray(np.max(found, axis=0))

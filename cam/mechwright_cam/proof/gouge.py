@@ -21,8 +21,8 @@ from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
 from mechwright_cam.setup.holding import Tab
 
-DEAR = 20
-"""To grow a shape by one corner takes about a twentieth of the time of one question about nearness."""
+DEAR = 12
+"""To grow a shape by one corner takes about a twelfth of the time of one question about nearness."""
 GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 """2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
 

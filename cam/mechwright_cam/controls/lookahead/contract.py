@@ -30,3 +30,7 @@ class Lookahead(ABC):
     @abstractmethod
     def motion(self, run: Run, machine: Machine) -> Motion:
         """What becomes of a run."""
+
+    def off(self, run: Run, machine: Machine) -> Array:
+        """How far (n,) the tool may be off the path alone, for those whose look-ahead knows that sooner."""
+        return self.motion(run, machine).off

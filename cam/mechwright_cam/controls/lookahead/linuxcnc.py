@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright_cam.controls.lookahead.blend_arc import blend_arcs
 from mechwright_cam.controls.lookahead.contract import Lookahead, Motion
-from mechwright_cam.controls.lookahead.overlap import Overlaps, overlaps
+from mechwright_cam.controls.lookahead.overlap import Overlaps, half_sine, overlaps
 from mechwright_cam.controls.lookahead.segments import NORMAL, Segments, segments
 from mechwright_cam.controls.lookahead.speeds import reached, seconds
 from mechwright_cam.controls.reading.run import Run
@@ -66,6 +66,8 @@ class Junctions:
         (m - 1,) bool.
     may_overlap, may_round
         (m - 1,) bool: an overlap, or an arc, or so nearly one that the planner may decide otherwise.
+    sine
+        (m - 1,) of half the turn, as overlaps see it.
     arc_length, trim
         (m - 1,) of blend arcs, mm: how long, and what they take of either segment; else 0.
     """
@@ -75,6 +77,7 @@ class Junctions:
     overlap: NDArray[np.bool_]
     may_overlap: NDArray[np.bool_]
     may_round: NDArray[np.bool_]
+    sine: Array
     arc_length: Array
     trim: Array
 
@@ -85,22 +88,41 @@ class Planner(Lookahead):
     def motion(self, run: Run, machine: Machine) -> Motion:
         """Times and deviations by the rules."""
         row = segments(run, machine, SERVO_S)
-        took, off = np.zeros(len(run)), run.of_states(lambda state: state.off_path)
         if not row.step.size:
-            return Motion(took, off)
-        highest = machine.acceleration * 1000.0
-        met = junctions(row, highest)
+            return Motion(np.zeros(len(run)), run.of_states(lambda state: state.off_path))
+        took, highest = np.zeros(len(run)), machine.acceleration * 1000.0
+        going = _Going(row, highest)
+        over = overlaps(row, going.rate, going.met.overlap, going.speed, sine=going.met.sine)
+        took[row.step] = _times(row, going.met, over, going.rate, going.speed, highest)
+        return Motion(took, going.deviations(run))
+
+    def off(self, run: Run, machine: Machine) -> Array:
+        """Deviations alone."""
+        row = segments(run, machine, SERVO_S)
+        if not row.step.size:
+            return np.asarray(run.of_states(lambda state: state.off_path))
+        return _Going(row, machine.acceleration * 1000.0).deviations(run)
+
+
+class _Going:
+    """How segments follow on each other: junctions, and what of the acceleration is left along the path."""
+
+    def __init__(self, row: Segments, highest: float) -> None:
+        self.row, self.highest = row, highest
+        self.met = met = junctions(row, highest)
         lagging = np.concatenate((met.overlap | _at_end(row)[:-1], [True]))
         follows = np.concatenate(([False], met.overlap))
         kink = np.maximum(np.append(met.kink, 0.0), np.append(0.0, met.kink))
-        slowed = lagging & ~row.exact & ~row.stop | follows
-        rate = row.acceleration * (1 - kink) * np.where(slowed, 0.5, 1.0)
-        fastest, rate = _on_arcs(row, rate)
-        over = overlaps(row, rate, met.overlap, np.minimum(row.asked, fastest))
-        took[row.step] = _times(row, met, over, rate, np.minimum(row.asked, fastest), highest)
-        halved = np.where(slowed, rate, rate / 2)
-        wide = overlaps(row, halved, met.may_overlap, np.minimum(row.asked, fastest), late=LATE_S).off
-        return Motion(took, _deviations(run, row, met, wide, highest))
+        self.slowed = lagging & ~row.exact & ~row.stop | follows
+        rate = row.acceleration * (1 - kink) * np.where(self.slowed, 0.5, 1.0)
+        fastest, self.rate = _on_arcs(row, rate)
+        self.speed = np.minimum(row.asked, fastest)
+
+    def deviations(self, run: Run) -> Array:
+        """How far (n,) the tool may be off in each step, mm."""
+        met, halved = self.met, np.where(self.slowed, self.rate, self.rate / 2)
+        wide = overlaps(self.row, halved, met.may_overlap, self.speed, late=LATE_S, sine=met.sine).off
+        return _deviations(run, self.row, met, wide, self.highest)
 
 
 def junctions(row: Segments, highest: float) -> Junctions:
@@ -116,12 +138,14 @@ def junctions(row: Segments, highest: float) -> Junctions:
     tangent = runs_on & (share < KINK)
     slower = speed * np.minimum(1.0, KINK / np.maximum(share, 1e-12))
     arcs = blend_arcs(row, highest, SERVO_S)
+    sine = half_sine(row)
     lapping = overlaps(
         row,
         row.acceleration * 0.5 * (1 - KINK) * np.where(row.arc, TANGENTIAL, 1.0),
         runs_on,
         row.speed,
         planned=True,
+        sine=sine,
     )
     free = runs_on & ~tangent & ~row.exact[:-1]
     performance = np.stack((lapping.performance / 2, slower, np.where(free, arcs.speed, 0.0)))
@@ -133,6 +157,7 @@ def junctions(row: Segments, highest: float) -> Junctions:
         overlap=overlap,
         may_overlap=free & (performance[0] >= nearly),
         may_round=free & (performance[2] >= nearly),
+        sine=sine,
         arc_length=np.where(arc, arcs.length, 0.0),
         trim=np.where(arc, arcs.trim, 0.0),
     )

@@ -39,6 +39,7 @@ def overlaps(
     speed: Array,
     planned: bool = False,
     late: float | None = None,
+    sine: Array | None = None,
 ) -> Overlaps:
     """The overlaps at some of the junctions.
 
@@ -57,13 +58,15 @@ def overlaps(
     late
         So much longer an overlap may take than it should, s, since it begins with a servo period; None if
         nobody asks how far it is off, which is then 0.
+    sine
+        (m - 1,) :func:`half_sine`, if it is known.
     """
     length = row.length / 2 if planned else row.length
     summit = np.minimum(np.sqrt(rate * length), speed)
     longest = np.minimum(*_sides(row.length / np.maximum(summit, 1e-12)))
     lasts = np.minimum(longest, np.maximum(*_sides(summit / rate)))
     into, out_of = (np.minimum(top, lasts * a) for top, a in zip(_sides(summit), _sides(rate), strict=True))
-    sine = _half_sine(row)
+    sine = half_sine(row) if sine is None else sine
     bound = row.blend[:-1] > 0
     bound &= sine > LEAST_SINE
     most = np.where(bound, 2 * np.sqrt(rate[:-1] * row.blend[:-1] / np.maximum(sine, LEAST_SINE)), np.inf)
@@ -81,7 +84,7 @@ def _sides(values: Array) -> tuple[Array, Array]:
     return values[:-1], values[1:]
 
 
-def _half_sine(row: Segments) -> Array:
+def half_sine(row: Segments) -> Array:
     """Sine (m - 1,) of half the turn as the planner sees it.
 
     It sees directions of acceleration: an arc that begins is bent inwards, and helices do not climb.
@@ -142,7 +145,7 @@ class _Way:
         """Distance (k, i) of places from the segments, mm; the foot of the perpendicular by Newton."""
         foot, foot_height, tangent = np.zeros_like(place), np.zeros_like(height), self.flat
         way = np.zeros_like(height)
-        for _ in range(3):
+        for _ in range(2):
             gap = place - foot
             way = (
                 way + gap.real * tangent.real + gap.imag * tangent.imag + (height - foot_height) * self.climb
