@@ -97,3 +97,29 @@ def test_the_quick_answer_is_that_of_the_full_one(more: float) -> None:
     cut = deepest_off_path(scene.paths, made, off)
     for limit in (0.001, 0.005, 0.1):
         assert too_deep(scene.paths, made, off, limit).any() == (cut is not None and cut.depth > limit)
+
+
+def test_what_is_not_named_as_finishing_is_found_by_what_it_cuts() -> None:
+    made, program = planned()
+    sections = tuple(
+        replace(s, operations=tuple(replace(o, name=o.name.replace("finish", "last")) for o in s.operations))
+        for s in program.sections
+    )
+    found = tolerances(settled(replace(program, sections=sections), made))
+    last = [value for name, value in found.items() if name.endswith("last")]
+    assert last
+    assert max(value for value in last if value is not None) <= TOLERANCES.arc_fit
+
+
+def test_what_has_been_found_clear_is_told_alike_when_it_is_asked_again() -> None:
+    """In any order of deviations and limits, also when a limit gets lower."""
+    made, program = planned()
+    scene = Scene(LinuxCnc().write(program), made, LinuxCnc())
+    random = np.random.default_rng(7)
+    for limit in (0.004, 0.005, 0.001, 0.02):
+        for most in (0.3, 0.02, 0.004, 0.0):
+            off = most * random.random(len(scene.run))
+            direct = too_deep(scene.paths, made, off, limit)
+            assert (scene.off_path.too_deep(off, limit) == direct).all()
+            some = scene.paths.steps[::3]
+            assert (scene.off_path.too_deep(off, limit, some)[some] == direct[some]).all()
