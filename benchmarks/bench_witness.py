@@ -10,6 +10,7 @@ corridor, or one time more than 2 % off. It takes the better part of an hour.
 """
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -38,9 +39,16 @@ HEAD = (
 
 
 def examples() -> list[str]:
-    """Names of the design files that are for LinuxCNC."""
+    """Names of the design files that are for LinuxCNC, which is the control of those that name none."""
     texts = {path.stem: path.read_text() for path in sorted((ROOT / "examples").glob("*.toml"))}
-    return [name for name, text in texts.items() if '\ncontrol = "linuxcnc"' in text]
+    milled = {
+        name: re.findall(r'^control = "(.*)"', text, re.M) for name, text in texts.items() if "\n[cam" in text
+    }
+    return [
+        name
+        for name, controls in milled.items()
+        if controls in ([], ["linuxcnc"]) and "requirement" not in name
+    ]
 
 
 def made(name: str) -> tuple[list[Machined], str]:
