@@ -84,7 +84,7 @@ def test_a_program_is_read_once_for_its_proof_and_its_pictures(monkeypatch: pyte
     one = machine(job(plate(bore(12.0)), "spot-6", "drill-8", "mill-6"), LINUXCNC)
     assert simulate(one.scene.paths, one.job).works
     assert wall_deviation(one.scene.sweeps, one.job).points.size
-    assert len(runs) == 2  # before that, once to choose the tolerances of the operations
+    assert len(runs) == 1
     assert one.scene.run is runs[-1]
 
 
