@@ -1,47 +1,64 @@
-"""Feeds within the power of the spindle: what a planned program asks for is measured, and lowered.
+"""Feeds within the power of the spindle and the ends of mills: what is asked for is measured, and lowered.
 
 Only the moves that ask for too much are slowed, and by no more than they need: how much of a cutter is in
 material, the simulation of the posted program knows better than any plan.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Move, Program
+from mechwright_cam.proof.edge_rules import too_steep
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.timing import stretches
 from mechwright_cam.shop.power import available, slower
 
+TOLD = "feed lowered to the power of the spindle"
+"""Begins the note on what was slowed for want of power."""
 SPARE = 0.99
 """Feeds are lowered to this share of what would just do: windows begin elsewhere once the feeds differ."""
 
 
 def slowed(program: Program, scene: Scene) -> Program | None:
-    """The program with lower feeds where the spindle has not the power for them; None if it has for all."""
-    most = _most(scene)
-    if not np.isfinite(most).any():
+    """The program with lower feeds where moves ask for too much; None if none does.
+
+    Where that is for want of power the program says so in a note: a larger machine would be faster.
+    """
+    weak, steep = _most(scene), _down(scene)
+    if not np.isfinite(np.minimum(weak, steep)).any():
         return None
     parts = iter(stretches(scene.run))
     sections, names = [], []
     for section in program.sections:
         operations = []
         for operation in section.operations:
-            limits = _limits(scene, most, _next(parts, operation.name), operation.moves)
-            moves = tuple(_fed(move, limit) for move, limit in zip(operation.moves, limits, strict=True))
+            steps = _next(parts, operation.name)
+            moves = _within(operation.moves, _limits(scene, weak, steps, operation.moves))
             if moves != operation.moves:
                 names.append(operation.name)
+            moves = _within(moves, _limits(scene, steep, steps, moves))
             operations.append(replace(operation, moves=moves))
         sections.append(replace(section, operations=tuple(operations)))
-    if not names:
+    gentler = replace(program, sections=tuple(sections))
+    if gentler == program:
         return None
-    told = f"feed lowered to the power of the spindle: {', '.join(dict.fromkeys(names))}"
-    notes = [note for note in program.notes if not note.startswith(told.partition(":")[0])]
-    return replace(program, sections=tuple(sections), notes=(*notes, told))
+    if not names:
+        return gentler
+    notes = [note for note in program.notes if not note.startswith(TOLD)]
+    return replace(gentler, notes=(*notes, f"{TOLD}: {', '.join(dict.fromkeys(names))}"))
+
+
+def _down(scene: Scene) -> Array:
+    """Greatest feed (n,) of each step, mm/min, at which mills may go down into material; inf beside that."""
+    most = np.full(len(scene.run), np.inf)
+    for step, _, found, limit in too_steep(scene):
+        most[step] = max(1.0, math.floor(float(scene.run.feed[step]) * limit / found))
+    return most
 
 
 def _most(scene: Scene) -> Array:
@@ -78,7 +95,10 @@ def _limits(scene: Scene, most: Array, steps: tuple[int, int], moves: tuple[Move
     return [float(most[cuts].min(initial=math.inf))] * len(moves)
 
 
-def _fed(move: Move, limit: float) -> Move:
-    if isinstance(move, Feed | FeedArc | Drill) and move.feed > limit + NEAR:
-        return replace(move, feed=limit)
-    return move
+def _within(moves: tuple[Move, ...], limits: Sequence[float]) -> tuple[Move, ...]:
+    return tuple(
+        replace(move, feed=limit)
+        if isinstance(move, Feed | FeedArc | Drill) and move.feed > limit + NEAR
+        else move
+        for move, limit in zip(moves, limits, strict=True)
+    )

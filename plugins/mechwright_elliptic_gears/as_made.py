@@ -22,6 +22,8 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 
 AGREEMENT = 0.01
 """Share of the greatest play by which both ways may differ."""
+RIDGE = 5e-4
+"""Half a step of a control that reads three decimals, mm: polygons touch on ridges, flanks between them."""
 FINE = 5e-5
 """Chord error of the polygons that run against each other, mm."""
 DEEP = 0.05
@@ -71,13 +73,14 @@ class MadePair:
 
     @cached_property
     def disagreement(self) -> float:
-        """By how much both ways differ at most, as a share of the greatest play.
+        """By how much both ways differ at most, besides ridges of the path, as a share of the greatest play.
 
         Where that is less than what walls within tolerance make of it, of that.
         """
         ahead, behind = self.gaps.play()
         off = max(np.abs(ahead - self.mesh.ahead).max(), np.abs(behind - self.mesh.behind).max())
         lever = float(np.abs(self.gaps.lever).min())
+        off = max(off - RIDGE / lever, 0.0)
         return float(off / max(np.abs(np.concatenate((ahead, behind))).max(), LEFT / lever))
 
     def spare(self, off_centre: float, more: float = 0.0) -> Array:

@@ -30,6 +30,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.slowed import slowed
 
 CONTROLS = ("linuxcnc", "fanuc", "haas", "mach3", "grbl")
 MATERIALS = ("aluminium", "steel", "brass", "pom")
@@ -409,6 +410,8 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
         for job in jobs:
             laid = job if job.side == "top" else second_setup(made[-1], job)
             program, files, scene = posted(plan(laid), laid, post)
+            while gentler := slowed(program, scene):
+                program, files, scene = posted(gentler, laid, post)
             made.append(Machined(laid, program, files, judge(scene), scene))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))

@@ -1,6 +1,7 @@
 """Parts as their programs leave them: known offsets, holes, witness lines, corners, nests, undersides."""
 
 import io
+import re
 from dataclasses import replace
 
 import ezdxf
@@ -11,6 +12,7 @@ from by_control import BY_NAME, LINUXCNC, posted, scene_of
 from planning_parts import job
 from shop import BORE, CORNER, HALF_X, HALF_Y, plate_job, plate_program, rounded_box
 
+from mechwright.contracts.as_made import MadeCurve
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.contracts.made_part import MadeHole
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
@@ -18,6 +20,7 @@ from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.as_made import not_closed
 from mechwright_cam.pages.as_made.drawing import made_drawing
 from mechwright_cam.pages.as_made.picture import exaggeration, made_picture
+from mechwright_cam.pages.as_made.plot import plot
 from mechwright_cam.planning import plan
 from mechwright_cam.proof.made_parts import parts_as_made
 from mechwright_cam.proof.rings import circle_ring
@@ -196,3 +199,10 @@ def test_two_runs_give_the_same_bytes():
     text = LINUXCNC.write(plate_program(bias=0.001))
     assert made_drawing(made(text, plate_job())[0]) == made_drawing(made(text, plate_job())[0])
     assert replace(made(text, plate_job())[0], label="x").label == "x"
+
+
+def test_a_plot_of_an_input_that_turns_backwards():
+    turned, off = np.array([0.0, -40.0, -130.0]), np.array([1.0, 4.0, 2.0])
+    backwards = plot(MadeCurve("Error", "input, degrees", "µrad", turned, {"as made": off}))
+    assert '"M170,-15.5L117.69,-62L0,-31"' in backwards
+    assert {"-100", "-50", "0"} <= set(re.findall(r">([-\d]+)<", backwards))

@@ -73,7 +73,7 @@ def test_the_example_is_built_and_everything_shows_what_it_asks(tmp_path):
             assert f"operation: {detail.name}: {OPERATIONS[type(detail)]}" in program
         for kind, layer in LAYERS.items():
             assert (layer in drawing) == (kind in kinds)
-        assert ("N7" in sheet) == ("N7" in program) == ("N7" in drawing) == (part.name == "ground")
+        assert (" N7 " in sheet) == ("N7" in program) == ("N7" in drawing) == (part.name == "ground")
         assert part_solid(part).Volume() == pytest.approx(volume(part), rel=1e-6)
 
 

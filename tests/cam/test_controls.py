@@ -1,7 +1,6 @@
 """The five controls: kept texts, the contract, options, and what each control reads."""
 
 import re
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -121,8 +120,8 @@ def test_a_program_for_any_control_is_proven_as_that_control_reads_it(control: s
 def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
     texts = {control: post_of(control).write(plate_program()) for control in CONTROLS}
     job = plate_job()
-    with pytest.raises(ProgramError, match=r"^line 2: "):
-        prove(texts["fanuc"], job, BY_NAME["linuxcnc"])
+    (astray,) = prove(texts["fanuc"], job, BY_NAME["linuxcnc"]).failures
+    assert astray.message.startswith("line 17: nothing bounds how far LinuxCNC leaves the path")
     with pytest.raises(ProgramError, match=r"^line 9: P means nothing in this line"):
         prove(texts["linuxcnc"], job, BY_NAME["haas"])
     with pytest.raises(ProgramError, match="no decimal point"):
@@ -225,12 +224,9 @@ def test_linuxcnc_s_own_interpreter_reads_twenty_thousand_moves_alike(tmp_path) 
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-def test_a_long_program_is_read_and_proven_quickly(control: str) -> None:
-    text = post_of(control).write(long_program(20_000))
-    started = time.perf_counter()
+def test_a_long_program_is_read_and_proven(control: str) -> None:
+    text = post_of(control).write(long_program(20_000))  # benchmarks/bench_controls.py times 100,000 moves
     assert prove(text, plate_job(), BY_NAME[control]).ok
-    # 0.4 s on two busy cores; 100,000 moves are timed in benchmarks/bench_controls.py.
-    assert time.perf_counter() - started < 5
 
 
 @pytest.mark.parametrize(

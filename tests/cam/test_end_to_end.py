@@ -23,10 +23,11 @@ from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError, ProgramError
 from mechwright.plugins.host import host
 from mechwright_cad.exporters import StepExporter
-from mechwright_cam.commands.verify import proof_of
+from mechwright_cam.commands.verify import scene_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, Machining, machine
 from mechwright_cam.planning.prepare import prepare
+from mechwright_cam.proof.judge import judge
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import CamTable, JobSettings, settings_of
 from mechwright_elliptic_gears.proof import prove_outlines
@@ -175,7 +176,7 @@ def test_a_planted_defect_is_found_under_its_own_name(
 ) -> None:
     text = spoil(example.text)
     assert text != example.text
-    proof = proof_of(Build(EXAMPLE, host()), example.job.part.name, text)
+    proof = judge(*scene_of(Build(EXAMPLE, host()), example.job.part.name, text))
     failed = {failure.name for failure in proof.failures}
     assert check in failed
     assert all(failure.message and "\n" not in failure.message for failure in proof.failures)
@@ -194,7 +195,7 @@ def test_a_gouge_of_20_micrometres_is_found_and_one_of_none_is_not(example: Mach
 
 def test_a_program_that_cannot_be_read_is_refused_with_its_line(example: Machined) -> None:
     with pytest.raises(ProgramError, match="line 3"):
-        proof_of(Build(EXAMPLE, host()), example.job.part.name, "G21\nG90\nG1 X1..2 F100\nM30\n")
+        judge(*scene_of(Build(EXAMPLE, host()), example.job.part.name, "G21\nG90\nG1 X1..2 F100\nM30\n"))
 
 
 # Random designs are built with a proof that passes, or refused by name; nothing else happens.

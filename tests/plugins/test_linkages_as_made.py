@@ -8,6 +8,7 @@ from as_made_builds import built, example, facts, table
 
 from mechwright.contracts.finding import Severity
 from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
+from mechwright_cam.pages.as_made.plot import plot
 from mechwright_four_bar.as_made import output_rates, point_rates
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
@@ -124,6 +125,7 @@ def test_the_plates_of_the_examples_are_judged():
             assert figure.low <= figure.made <= figure.high
         (curve, *_) = said.curves
         assert all(np.isfinite(line).all() for line in curve.lines.values())
+        assert plot(curve).count("<path") > 5
 
 
 def test_a_slider_and_pins_that_do_not_fit_are_refused():

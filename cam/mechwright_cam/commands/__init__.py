@@ -111,7 +111,7 @@ class Verify(Command):
                 report,
                 thickness=thickness,
                 tools=tools,
-                control=control or "linuxcnc",
+                control=control,
                 material=material,
                 hold=hold,
                 stock=stock,

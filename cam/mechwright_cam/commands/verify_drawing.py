@@ -52,7 +52,9 @@ def job_of(
         raise DesignError(f"--material: {material!r} is not known; one of: {', '.join(MATERIALS)}")
     if hold not in HOLDS:
         raise DesignError(f"--hold: {hold!r} is not known; one of: {', '.join(HOLDS)}")
-    table: dict[str, Any] = {"control": control, "hold": dict(HOLDS[hold])}
+    table: dict[str, Any] = {"hold": dict(HOLDS[hold])}
+    if control:
+        table["control"] = control
     if stock:
         table["stock"] = _size(stock)
     for change in changes:

@@ -187,6 +187,9 @@ class Roughing:
                 taken = areas(shapely.difference(taken, grow(self.free, self.foot, ROUGH)))
             ridges = areas(shapely.union(stock.ridges, taken))
             stock = stock.with_ridges(ridges, min(self.tool.nose, self.zone.height))
+        elif self.tool.nose > 0:
+            above = self.tool.nose - (self.zone.bottom - self.zone.bottom_for(self.tool))
+            stock = replace(stock, fillet=max(stock.fillet, min(above, self.zone.height)))
         return replace(stock, left=areas(shapely.difference(stock.left, reach)))
 
     @cached_property

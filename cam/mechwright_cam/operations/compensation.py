@@ -119,6 +119,7 @@ class CompensatedFinishing:
 
     def __init__(self, zone: Zone, stock: Stock, job: Job, mill: Tool) -> None:
         self.zone, self.job, self.tool, self.settings = zone, job, mill, job.settings
+        self.heights = finish_heights(job, mill, zone.top, zone.bottom, stock.fillet)
         check_compensated(job, zone, mill)
         self.offsets = offsets_of(mill, job.settings)
         self.side = 1 if job.settings.climb else -1
@@ -144,12 +145,10 @@ class CompensatedFinishing:
 
     def write(self, pen: Pen) -> None:
         """Write the moves of all contours."""
-        zone = self.zone
-        heights = finish_heights(self.job, self.tool, zone.top, zone.bottom)
         waiting = self._contours()
         while waiting:
             contour = waiting.pop(0)
-            self._contour(pen, contour, heights)
+            self._contour(pen, contour, self.heights)
             x, y = pen.place or (0.0, 0.0)
             waiting.sort(key=lambda other: math.hypot(other.start[0] - x, other.start[1] - y))
         pen.retract()

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
+from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
@@ -29,13 +30,29 @@ def finish_depth(settings: CamSettings, tool: Tool, material: str) -> float:
     What stands on a wall is the allowance, or a little more: a pass has no larger section than a slot as deep
     as ``step_down``.
     """
-    slot = tool.cutting[material].step_down * tool.diameter * tool.diameter
-    return min(settings.finish_step * tool.diameter, slot / (settings.stock_to_leave + HEAVY))
+    return min(
+        settings.finish_step * tool.diameter, _slot(tool, material) / (settings.stock_to_leave + HEAVY)
+    )
 
 
-def finish_heights(job: Job, tool: Tool, top: float, bottom: float) -> list[float]:
-    """Heights of the finishing passes, z in mm, with the repeats of the last one."""
-    heights = levels(top, bottom, finish_depth(job.settings, tool, job.part.material))
+def _slot(tool: Tool, material: str) -> float:
+    """Section of a slot as deep as ``step_down``, mm²."""
+    return tool.cutting[material].step_down * tool.diameter * tool.diameter
+
+
+def finish_heights(job: Job, tool: Tool, top: float, bottom: float, fillet: float = 0.0) -> list[float]:
+    """Heights of the finishing passes, z in mm, with the repeats of the last one.
+
+    They are closer where a round mill has left a ``fillet`` of this height at the foot of the wall, mm.
+    """
+    material = job.part.material
+    deep = finish_depth(job.settings, tool, material)
+    closer = _slot(tool, material) / max(fillet, TOLERANCES.noise)
+    foot = min(bottom + max(fillet, 0.0), top)
+    if closer < deep and foot > bottom:
+        heights = (levels(top, foot, deep) if foot < top else []) + levels(foot, bottom, closer)
+    else:
+        heights = levels(top, bottom, deep)
     return heights + heights[-1:] * job.settings.spring_passes
 
 
@@ -44,7 +61,7 @@ class Finishing:
 
     def __init__(self, zone: Zone, stock: Stock, job: Job, tool: Tool) -> None:
         self.zone, self.tool, self.settings = zone, tool, job.settings
-        self.heights = finish_heights(job, tool, zone.top, zone.bottom_for(tool))
+        self.heights = finish_heights(job, tool, zone.top, zone.bottom_for(tool), stock.fillet)
         self.step_down = tool.cutting[job.part.material].step_down * tool.diameter
         self.radius = radius = zone.radius_of(tool)
         self.blocked = zone.blocked(tool, zone.path.bias)

@@ -23,6 +23,8 @@ class Stock:
     """Where round mills have cleared all but the floor: fillets at its edge, cusps between their cuts."""
     ridge_height: float = 0.0
     """Height of the ridges above the floor, mm."""
+    fillet: float = 0.0
+    """Height of what round mills have left at the foot of a wall that goes on below, mm."""
     waste: shapely.Geometry = field(default_factory=shapely.Polygon)
     """What of ``left`` need not go: it stays with the frame."""
 

@@ -4,6 +4,7 @@ A drill cuts with its point, downwards; a thread mill with the teeth at its rim;
 """
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +73,19 @@ SKIM = 0.3
 
 def plunges(scene: Scene) -> Check:
     """No mill goes down into material faster than its middle cuts, straight or on a steep ramp."""
+    for step, tool, found, limit in too_steep(scene):
+        feed = float(scene.run.feed[step])
+        message = (
+            f"F{feed:g} takes T{tool.number} ({tool.name}) down into {scene.job.part.material} at "
+            f"{found:.0f} mm/min, {limit:.0f} at most; lower F to {math.floor(feed * limit / found)}, or "
+            "ramp less steeply"
+        )
+        return scene.bad(step, message, found, limit, "mm/min")
+    return Check(True, "no mill goes down into material faster than its middle cuts")
+
+
+def too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
+    """The steps that go down too fast: step, tool, its speed downwards and the greatest one, mm/min."""
     run, paths = scene.run, scene.paths
     rpm = run.of_states(lambda state: state.rpm)
     drop = paths.start[:, 2] - paths.end[:, 2]
@@ -98,14 +112,7 @@ def plunges(scene: Scene) -> Check:
                 continue
             if not scene.stock.meets(step, lift=lift, radius=radius):
                 continue
-            found = float(down[step])
-            feed = math.floor(float(run.feed[step]) * limit / found)
-            message = (
-                f"F{run.feed[step]:g} takes T{tool.number} ({tool.name}) down into {scene.job.part.material} "
-                f"at {found:.0f} mm/min, {limit:.0f} at most; lower F to {feed}, or ramp less steeply"
-            )
-            return scene.bad(step, message, found, limit, "mm/min")
-    return Check(True, "no mill goes down into material faster than its middle cuts")
+            yield step, tool, float(down[step]), limit
 
 
 SLIVER = 0.2

@@ -17,7 +17,7 @@ def variations(start: Parameters, name: str) -> Iterator[Any]:
 
     >>> from mechwright_cam.shop.holding import Hold
     >>> list(variations(Hold(), "method")), next(variations(Hold(), "tabs"))
-    (['bore', 'vice'], 5)
+    (['bore', 'vice', 'none'], 5)
     """
     field = type(start).model_fields[name]
     yield from _others(field.annotation, getattr(start, name), rules(field.metadata), name)

@@ -25,7 +25,7 @@ def plot(curve: MadeCurve) -> str:
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     step = _step((high - low) or 1.0)
     low, high = step * np.floor(low / step), step * max(np.ceil(high / step), np.floor(low / step) + 1)
-    x0, x1 = float(curve.x[0]), float(curve.x[-1])
+    x0, x1 = float(curve.x.min()), float(curve.x.max())  # an input may turn backwards
 
     def at(x: Array, y: Array) -> list[list[float]]:
         flat: list[list[float]] = np.column_stack(
