@@ -5,6 +5,7 @@ A drill cuts with its point, downwards; a thread mill with the teeth at its rim;
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,8 +85,13 @@ def plunges(scene: Scene) -> Check:
     return Check(True, "no mill goes down into material faster than its middle cuts")
 
 
-def too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
+@lru_cache(maxsize=1)  # planning lowers feeds by it, and the proof asks the same scene again
+def too_steep(scene: Scene) -> tuple[tuple[int, Tool, float, float], ...]:
     """The steps that go down too fast: step, tool, its speed downwards and the greatest one, mm/min."""
+    return tuple(_too_steep(scene))
+
+
+def _too_steep(scene: Scene) -> Iterator[tuple[int, Tool, float, float]]:
     run, paths = scene.run, scene.paths
     rpm = run.of_states(lambda state: state.rpm)
     drop = paths.start[:, 2] - paths.end[:, 2]
