@@ -52,8 +52,13 @@ class WidePaths(Paths):
 
 
 def alike(run: Run, off: Array) -> Array:
-    """The greatest (n,) of all steps that are the same in plan view: passes repeat at every depth."""
-    ways = np.column_stack((run.tool, run.start[:, :2], run.end[:, :2], np.nan_to_num(run.centre), run.sweep))
+    """The greatest (n,) of all steps that are the same in plan view: passes repeat at every depth.
+
+    Rough and exact passes along one way are told apart: what is off by half as much is not alike.
+    """
+    size = NEAR * np.floor(np.log2(np.maximum(off, NEAR)))
+    tool, centre = NEAR * run.tool, np.nan_to_num(run.centre)
+    ways = np.column_stack((tool, run.start[:, :2], run.end[:, :2], centre, run.sweep, size))
     with np.errstate(invalid="ignore"):
         rows = np.round(np.nan_to_num(ways) / NEAR).astype(np.int64)
     _, kind = np.unique(rows, axis=0, return_inverse=True)
