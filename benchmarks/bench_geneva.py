@@ -37,7 +37,9 @@ def anchor() -> float:
 
 def one_design() -> int:
     """A design that has not been seen: nothing is cached."""
-    params = GenevaParams(entry_radius=100 + 0.01 * next(_sizes), crank_half_angle=50)
+    params = GenevaParams(
+        entry_radius=100 + 0.01 * next(_sizes), crank_half_angle=50, offset_angle=5, roller_radius=5
+    )
     findings = FAMILY.check(params)
     motion = FAMILY.solve(params, 361)
     m = mechanism_of(params)

@@ -1,18 +1,23 @@
 """Thousands of programs with one fault each: does the proof see it?
 
 ``python benchmarks/mutations.py [EACH [SEED [KIND ...]]]``
+``python benchmarks/mutations.py blocks [SHARE [SEED]]``
 
 Takes proven programs of every operation and control, and of random parts, makes EACH faults of every kind
 (``tests/cam/mutants.py``), and has each proven. A fault that passes is judged by what the machine does with
 the text: whether anything differs at all, and if so, on a height map that is none of the proof's
 (``tests/cam/height_map.py``), what is left of the plate and how hard the cutter works. Prints the faults that
-pass and change something, and a table.
+pass and change something, with the reason why they may, and a table. With ``blocks`` the faults are those of
+``tests/cam/block_mutants.py``: for every kind of block of every control all of them, in programs drawn among
+those that have such a block; with a SHARE of more than 1 in so many programs each, below 1 so much of them.
+A fault that passes for no reason (``UNEXPLAINED``) makes the command fail.
 """
 
 import multiprocessing
 import sys
 import time
 import zlib
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -26,12 +31,14 @@ import golden_compensation
 import golden_operations
 import height_map
 import random_parts
+from block_mutants import PLACES, faults, inserted, kinds, wrong
 from by_control import BY_NAME, prove, read
-from mutants import FAULTS, Mutant, differences, mutant, trace
+from mutants import FAULTS, STATES, Mutant, differences, mutant, trace
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind, Run
+from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
@@ -41,6 +48,8 @@ RANDOM = 2
 """Random parts of each operation."""
 PITCH = 0.15
 """Cells of the height map, mm."""
+WALL = 0.2
+"""So near to a wall, mm, its height is not certain."""
 SEEN = 0.02
 """Heights of the plate that differ by more are told, mm."""
 HARDER = 1.5
@@ -68,12 +77,13 @@ class Verdict:
     message: str
     line: int | None
     differs: tuple[str, ...] = ()
+    reason: str = ""
     judged: str = ""
 
 
 @cache
-def sources() -> tuple[Source, ...]:
-    """Proven programs, each of one file."""
+def golden() -> tuple[Source, ...]:
+    """The kept programs, each of one file."""
     found = []
     for control in golden_operations.CONTROLS:
         for operation in golden_operations.CASES:
@@ -83,6 +93,13 @@ def sources() -> tuple[Source, ...]:
         for control in golden_compensation.CONTROLS:
             one = golden_compensation.made(way, control)
             found.append(Source(f"compensation {way} {control}", control, one.job, one.text))
+    return tuple(found)
+
+
+@cache
+def sources() -> tuple[Source, ...]:
+    """The kept programs, and proven ones of random parts."""
+    found = list(golden())
     for operation in random_parts.OPERATIONS:
         for seed in range(RANDOM):
             outcome = random_parts.run(operation, seed)
@@ -137,54 +154,82 @@ def _cut(run: Run, job: Job) -> tuple[height_map.Simulation, np.ndarray]:
     return seen, seen.table().reshape(-1, 10)
 
 
-@cache
-def _original(name: str) -> tuple[Run, height_map.Simulation, np.ndarray]:
-    source = next(s for s in sources() if s.name == name)
-    run = read(source.text, source.job, source.reader)
-    return run, *_cut(run, source.job)
+_ORIGINALS: dict[str, tuple[Run, height_map.Simulation, np.ndarray]] = {}
 
 
-def judge(source: Source, text: str) -> tuple[tuple[str, ...], str]:
-    """In what a program differs from the proven one, and what comes of it."""
-    run, before, stamps = _original(source.name)
+def _original(source: Source) -> tuple[Run, height_map.Simulation, np.ndarray]:
+    if source.name not in _ORIGINALS:
+        run = read(source.text, source.job, source.reader)
+        _ORIGINALS[source.name] = run, *_cut(run, source.job)
+    return _ORIGINALS[source.name]
+
+
+UNEXPLAINED = "no reason"
+
+
+def judge(source: Source, text: str) -> tuple[tuple[str, ...], str, str]:
+    """In what a program differs from the proven one, why it may, and what comes of it."""
+    run, before, stamps = _original(source)
     other = read(text, source.job, source.reader)
-    differs = differences(trace(run), trace(other))
+    differs = tuple(sorted(differences(trace(run), trace(other))))
     if not differs:
-        return (), "the machine does the same"
+        return (), "the machine does the same", ""
+    if not set(differs) & {"path", "tool"}:
+        return differs, *_feeds(run, other, "the same path; what runs while it cuts, rules ask")
+    after, more = _cut(other, source.job)
+    if len(after.complaints) > len(before.complaints):
+        return differs, UNEXPLAINED, f"rapids in stock: {after.complaints[0]}"
+    low = -source.job.thickness
+    off = np.where(before.solid, np.abs(np.maximum(before.height, low) - np.maximum(after.height, low)), 0.0)
+    if off.max() > SEEN:
+        y, x = np.nonzero(off > SEEN)
+        told = f"{x.size * PITCH**2:.2f} mm² differ, by {off.max():.3f} mm at most"
+        spots = shapely.points(before.x[x], before.y[y])
+        walls = shapely.union_all([shapely.boundary(band.keep) for band in bands(source.job)])
+        inner = shapely.intersects(source.job.target, spots)
+        if (inner & ~shapely.dwithin(walls, spots, WALL)).any():
+            return differs, UNEXPLAINED, told
+        where = "a cell of the height map at a wall" if inner.any() else "another piece of the waste"
+        return differs, where, told
+    if told := "; ".join(_harder(stamps, more)):
+        return differs, "harder work, within chips, plunges, depth-of-cut and power", told
+    return differs, *_feeds(run, other, "the same plate is left")
+
+
+def _harder(stamps: np.ndarray, more: np.ndarray) -> list[str]:
+    """What the tools of a program have to do that they had not before, by their stamps on the height map."""
     told = []
-    if differs & {"path", "tool"}:
-        after, more = _cut(other, source.job)
-        low = -source.job.thickness
-        off = np.abs(np.maximum(before.height, low) - np.maximum(after.height, low))[before.solid]
-        # A cell at a wall may fall on either side of it.
-        if (off > SEEN).sum() > 0:
-            told.append(f"{(off > SEEN).sum() * PITCH**2:.2f} mm² differ, by {off.max():.3f} mm at most")
-        if len(after.complaints) > len(before.complaints):
-            told.append(f"rapids in stock: {after.complaints[0]}")
-        for tool in np.unique(more[:, 1]):
-            for sideways in (0, 1):
-                a, b = (s[(s[:, 1] == tool) & (s[:, 9] == 1 - sideways)] for s in (stamps, more))
-                if b.size and sideways:
-                    worst = b[np.argmax(b[:, 6])]
-                    most = a[:, 6].max() if a.size else 0.0
-                    if worst[6] > HARDER * most and worst[6] > 0.2:
-                        told.append(f"T{tool:.0f} takes {worst[6]:.2f} mm², before at most {most:.2f}")
-                elif b.size:
-                    deep = b[:, 8].max()
-                    most = a[:, 8].max() if a.size else 0.0
-                    if b[:, 8].sum() > 1.2 * a[:, 8].sum() + 0.3:
-                        told.append(f"T{tool:.0f} plunges {deep:.2f} mm deep, before {most:.2f}")
-    if "feed" in differs or "path" in differs:
-        for tool in np.unique(other.tool[other.cutting]):
-            a, b = (r.feed[r.cutting & (r.tool == tool)] for r in (run, other))
-            if a.size and (b.max() > 1.2 * a.max() or b.min() < 0.8 * a.min()):
-                told.append(f"T{tool} feeds {b.min():g} to {b.max():g}, before {a.min():g} to {a.max():g}")
-    return tuple(sorted(differs)), "; ".join(told)
+    for tool in np.unique(more[:, 1]):
+        for sideways in (0, 1):
+            a, b = (s[(s[:, 1] == tool) & (s[:, 9] == 1 - sideways)] for s in (stamps, more))
+            if b.size and sideways:
+                worst = b[np.argmax(b[:, 6])]
+                most = a[:, 6].max() if a.size else 0.0
+                if worst[6] > HARDER * most and worst[6] > 0.2:
+                    told.append(f"T{tool:.0f} takes {worst[6]:.2f} mm², before at most {most:.2f}")
+            elif b.size:
+                deep = b[:, 8].max()
+                most = a[:, 8].max() if a.size else 0.0
+                if b[:, 8].sum() > 1.2 * a[:, 8].sum() + 0.3:
+                    told.append(f"T{tool:.0f} plunges {deep:.2f} mm deep, before {most:.2f}")
+    return told
 
 
-def one(case: tuple[int, Mutant]) -> Verdict:
-    place, made = case
-    source = sources()[place]
+def _feeds(run: Run, other: Run, reason: str) -> tuple[str, str]:
+    """The reason, or that of other feeds, with the feeds."""
+    for tool in np.unique(other.tool[other.cutting]):
+        a, b = (r.feed[r.cutting & (r.tool == tool)] for r in (run, other))
+        told = f"T{tool} feeds {b.min():g} to {b.max():g}, before {a.min() if a.size else 0:g} to "
+        told += f"{a.max() if a.size else 0:g}"
+        if not a.size or b.max() > 1.2 * a.max():
+            return "faster, within chips, feeds and power", told
+        if b.min() < 0.8 * a.min():
+            return "slower, which no rule asks about", told
+    return reason, ""
+
+
+def one(case: tuple[Source, Mutant]) -> Verdict:
+    source, made = case
     try:
         proof = prove(made.text, source.job, source.reader)
     except ProgramError as error:
@@ -194,55 +239,94 @@ def one(case: tuple[int, Mutant]) -> Verdict:
     except Exception as error:
         return Verdict(source.name, made, "CRASH", repr(error), None)
     if proof.ok:
-        differs, judged = judge(source, made.text)
-        return Verdict(source.name, made, "", "", None, differs, judged)
+        return Verdict(source.name, made, "", "", None, *judge(source, made.text))
     first = proof.failures[0]
     return Verdict(source.name, made, first.name, first.message, first.line)
 
 
-def cases(kinds: tuple[str, ...], each: int, seed: int) -> list[tuple[int, Mutant]]:
+def cases(kinds: tuple[str, ...], each: int, seed: int) -> list[tuple[Source, Mutant]]:
     """Faults of every kind, each in a program chosen at random among those that have a place for it."""
     found = []
     for kind in kinds:
         rng = np.random.default_rng(zlib.crc32(f"{kind} {seed}".encode()))
-        mine: list[tuple[int, Mutant]] = []
+        mine: list[tuple[Source, Mutant]] = []
         for place in rng.integers(len(sources()), size=20 * each).tolist():
             if len(mine) == each:
                 break
             made = mutant(sources()[place].text, kind, rng)
             if made is not None:
-                mine.append((place, made))
+                mine.append((sources()[place], made))
         found += mine
     return found
 
 
-def main(each: int = 20, seed: int = 0, *kinds: str) -> int:
+def block_cases(share: float, seed: int) -> list[tuple[Source, Mutant]]:
+    """Every fault of every kind of block of each control, and every state at every kind of place."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for control in golden_operations.CONTROLS:
+        mine = [source for source in golden() if source.control == control]
+        homes: dict[str, list[Source]] = {}
+        for source in mine:
+            for kind in kinds(source.text.split("\n")):
+                homes.setdefault(kind, []).append(source)
+        jobs = [(home, kind, fault) for kind, home in homes.items() for fault in faults(kind)]
+        jobs += [(mine, state, place) for state in STATES for place in PLACES]
+        for home, what, fault in jobs:
+            count = min(int(share), len(home)) if share >= 1 else int(rng.random() < share)
+            for index in rng.permutation(len(home))[:count].tolist():
+                make = inserted if fault in PLACES else wrong
+                made = make(home[index].text.split("\n"), what, fault, rng)
+                if made is not None and made.text != home[index].text:
+                    found.append((home[index], made))
+    return found
+
+
+def _group(kind: str) -> str:
+    """What kinds of fault are counted together: of blocks, the fault without the block."""
+    if ": " in kind:
+        return kind.split(": ")[1].split(" of ")[0]
+    return "state " + kind.split(" ", 1)[1] if kind.endswith(tuple(PLACES)) else kind
+
+
+def run(every: list[tuple[Source, Mutant]]) -> int:
+    """Have all of them proven and print what passes; 1 if any passes for no reason."""
     start, found = time.perf_counter(), []
-    every = cases(kinds or tuple(FAULTS), each, seed)
-    print(f"{len(every)} faults in {len(sources())} programs", flush=True)
+    print(f"{len(every)} faults in {len({source.name for source, _ in every})} programs", flush=True)
     with multiprocessing.get_context("fork").Pool(PROCESSES) as pool:
         for verdict in pool.imap(one, every, chunksize=4):
             found.append(verdict)
             if (not verdict.check and verdict.differs) or verdict.check == "CRASH":
                 made = verdict.mutant
                 print(
-                    f"{verdict.source} | {made.kind} | line {made.line}: {made.change} | "
-                    f"{verdict.check or ','.join(verdict.differs)} | {verdict.judged or verdict.message}",
+                    f"{verdict.reason or verdict.check} | {verdict.source} | {made.kind} | line {made.line}: "
+                    f"{made.change} | {','.join(verdict.differs)} | {verdict.judged or verdict.message}",
                     flush=True,
                 )
-    count = dict.fromkeys(v.mutant.kind for v in found)
-    print(f"{'kind':24} {'made':>5} {'refused':>7} {'same':>5} {'left':>5}")
-    for kind in count:
-        mine = [v for v in found if v.mutant.kind == kind]
-        same = [v for v in mine if not v.check and not v.differs]
-        left = [v for v in mine if not v.check and v.differs]
-        print(
-            f"{kind:24} {len(mine):5d} {len(mine) - len(same) - len(left):7d} {len(same):5d} {len(left):5d}"
-        )
-    left = [v for v in found if not v.check and v.differs]
-    print(f"{len(found)} faults, {len(left)} pass and change something; {time.perf_counter() - start:.0f} s")
-    return 0
+    groups = dict.fromkeys(_group(v.mutant.kind) for v in found)
+    print(f"{'kind':34} {'made':>5} {'refused':>7} {'same':>5} {'left':>5}")
+    for group in groups:
+        mine = [v for v in found if _group(v.mutant.kind) == group]
+        same = sum(not v.check and not v.differs for v in mine)
+        refused = sum(bool(v.check) for v in mine)
+        print(f"{group:34} {len(mine):5d} {refused:7d} {same:5d} {len(mine) - refused - same:5d}")
+    for title, said in (("refused by", [v.check for v in found if v.check]), ("passes", _reasons(found))):
+        print(f"{title}: " + ", ".join(f"{name} {n}" for name, n in Counter(said).most_common()))
+    print(f"{len(found)} faults; {time.perf_counter() - start:.0f} s")
+    return int(UNEXPLAINED in _reasons(found) or any(v.check == "CRASH" for v in found))
+
+
+def _reasons(found: Sequence[Verdict]) -> list[str]:
+    return [verdict.reason for verdict in found if not verdict.check]
+
+
+def main(*arguments: str) -> int:
+    if arguments[:1] == ("blocks",):
+        share, seed = float((*arguments, "1")[1]), int((*arguments, "1", "0")[2])
+        return run(block_cases(share, seed))
+    each, seed = int((*arguments, "20")[0]), int((*arguments, "20", "0")[1])
+    return run(cases(arguments[2:] or tuple(FAULTS), each, seed))
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(int, sys.argv[1:3]), *sys.argv[3:]))
+    sys.exit(main(*sys.argv[1:]))

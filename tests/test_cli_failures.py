@@ -127,7 +127,7 @@ def test_a_reader_that_leaves_is_no_fault() -> None:
     command = f"{sys.executable} -m mechwright new elliptic-gears | head -1; echo ${{PIPESTATUS[0]}}"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.stderr == ""
-    assert done.stdout.splitlines()[0].startswith("# Elliptic gears")
+    assert done.stdout.splitlines()[0] == "#:schema ./elliptic-gears.schema.json"
 
 
 def test_a_design_without_plates_has_nothing_to_mill(

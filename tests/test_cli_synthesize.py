@@ -1,6 +1,8 @@
 """``mechwright synthesize``: designs that meet a requirement, and every way to ask for the wrong thing."""
 
 import json
+import math
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +11,8 @@ import pytest
 
 import mechwright.plugins.host as hosting
 from mechwright.contracts.family import Family
+from mechwright.contracts.motion import Scalar
+from mechwright.contracts.synthesis import Candidate
 from mechwright.designs.design import load
 from mechwright.designs.requirement import load_requirement
 from mechwright.plugins.host import Registered
@@ -151,3 +155,39 @@ def test_the_families_listing_names_the_kinds(command_line: Run) -> None:
         if family["name"] == "disc"
     ]
     assert "rim_speed" in listed["requirements"]["rim"]["properties"]
+
+
+def test_designs_that_the_tables_do_not_let_build_are_named_and_not_given(
+    command_line: Run, tmp_path: Path
+) -> None:
+    """A machine too small for the larger of two discs; one too small for both."""
+    text = 'family = "disc"\n[requirement]\nkind = "rim"\n[cam.machine]\ntravel_x = {0}\ntravel_y = {0}\n'
+    assert command_line("synthesize", requirement(tmp_path, text.format(500)), "-o", tmp_path / "all")[0] == 0
+    whole = json.loads((tmp_path / "all" / "synthesis.json").read_text())
+    assert whole["rejected"] == []
+    diameters = [
+        load(tmp_path / "all" / one["design"], hosting.host()).params.diameter for one in whole["candidates"]
+    ]
+    assert diameters == [40, 50]
+    small = requirement(tmp_path, text.format(10))
+    code, _, wrong = command_line("synthesize", small, "-o", tmp_path / "none")
+    assert code == 1
+    assert "2 found, 0 given: 2 travel" in wrong
+    assert not (tmp_path / "none").exists()
+    asked = float(re.search(r"synthesis.unbuildable.* asks for ([\d.]+) mm of travel", wrong)[1])
+    code, said, _ = command_line(
+        "synthesize", requirement(tmp_path, text.format(asked + 5)), "-o", tmp_path / "some"
+    )
+    assert (code, "2 found, 1 given: 1 travel" in said) == (0, True)
+    some = json.loads((tmp_path / "some" / "synthesis.json").read_text())
+    assert [(one["code"], one["count"]) for one in some["rejected"]] == [("cam.travel", 1)]
+
+
+def test_angles_are_told_in_degrees() -> None:
+    candidate = Candidate(
+        None, Scalar(math.pi / 6, "rad"), {"turn": Scalar(math.pi, "rad"), "a": Scalar(2.0, "mm")}
+    )
+    assert candidate.as_dict() == {
+        "residual": {"value": pytest.approx(30), "unit": "deg"},
+        "figures": {"turn": {"value": 180, "unit": "deg"}, "a": {"value": 2, "unit": "mm"}},
+    }

@@ -174,7 +174,7 @@ class Solids:
         try:
             return motion_page(build.design, build.parts, solids=False)
         except MechwrightError as error:  # the mechanism moves all the same
-            build.faults.append(f"{MOTION} shows no bodies, which cannot be drawn: {error}")
+            build.leave_out(f"{MOTION} shows joints and lines, no bodies", error)
             return motion_page(build.design, (), solids=False)
 
     def _result(self) -> Made:

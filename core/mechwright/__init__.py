@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from mechwright.contracts.joint import GROUND, Joint
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
-    from mechwright.contracts.motion import Channel, Motion, Poses, Scalar, Trace
-    from mechwright.contracts.parameters import Parameters, kept
+    from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Scalar, Trace
+    from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
-    from mechwright.contracts.synthesis import Candidate, Progress, Synthesis
+    from mechwright.contracts.synthesis import Candidate, Progress, Reason, Rejected, Synthesis
     from mechwright.contracts.table import Table
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
@@ -66,11 +66,11 @@ _HOMES = {
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.materials": "MaterialName material",
-    "mechwright.contracts.motion": "Channel Motion Poses Scalar Trace",
-    "mechwright.contracts.parameters": "Parameters kept",
+    "mechwright.contracts.motion": "Channel Curve Motion Poses Scalar Trace",
+    "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
-    "mechwright.contracts.synthesis": "Candidate Progress Synthesis",
+    "mechwright.contracts.synthesis": "Candidate Progress Reason Rejected Synthesis",
     "mechwright.contracts.table": "Table",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
@@ -91,13 +91,13 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
-__all__ += ["MaterialName", "Parameters", "material"]
-__all__ += ["GROUND", "Array", "Channel", "Joint", "Motion", "Poses", "Scalar", "Trace"]
+__all__ += ["FIRST", "MaterialName", "Parameters", "material"]
+__all__ += ["GROUND", "Array", "Channel", "Curve", "Joint", "Motion", "Poses", "Scalar", "Trace"]
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
-__all__ += ["Candidate", "Progress", "Synthesis"]
+__all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
 __all__ += ["Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]

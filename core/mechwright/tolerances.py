@@ -29,9 +29,31 @@ class Tolerances:
     noise: float = 1e-9
     """Depths and counts of passes that differ by less are equal: rounding in sums of lengths up to metres."""
 
+    slack: float = 1e-9
+    """Part of a limit by which a value may be past it and still be at it: the rounding of a sum of what a
+    design file says, far below what anybody can make or measure."""
+
     angle_rad: float = 1e-9
     """Two directions closer than this are the same: a metre of lever moves a nanometre."""
 
 
 TOLERANCES = Tolerances()
 """The tolerances in force."""
+
+
+def exceeds(value: float, limit: float) -> bool:
+    """Whether a value is above a limit; one that reaches it exactly is not, whatever rounding made of it.
+
+    >>> exceeds(50.00000000000001, 50.0), exceeds(50.001, 50.0)
+    (False, True)
+    """
+    return value > limit + TOLERANCES.slack * abs(limit)
+
+
+def falls_short(value: float, limit: float) -> bool:
+    """Whether a value is below a limit; one that reaches it exactly is not, whatever rounding made of it.
+
+    >>> falls_short(0.1 + 0.2 - 0.3, 0.0), falls_short(39.99999999999999, 40.0)
+    (False, False)
+    """
+    return value < limit - TOLERANCES.slack * abs(limit)

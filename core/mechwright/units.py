@@ -125,6 +125,12 @@ class Unit:
         try:
             return convert(value, self.symbol)
         except ValueError as error:
+            if re.match(r"\s*[+-]?\d+,\d", value):
+                raise PydanticCustomError(
+                    "unit",
+                    "{reason}; write a point for the decimal comma: '{meant}'",
+                    {"reason": str(error), "meant": value.replace(",", ".")},
+                ) from error
             raise PydanticCustomError(
                 "unit",
                 "{reason}; write a number, or a number with a unit such as '{example}'",

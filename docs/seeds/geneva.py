@@ -98,6 +98,7 @@ def prototypes(sign: int) -> Iterator[list[str]]:
                 crank_half_angle=half,
                 offset_angle=12.0 * sign,
                 entry_radius=70,
+                roller_radius=5,
                 groove_clearance=0,
             )
         )

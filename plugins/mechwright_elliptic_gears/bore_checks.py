@@ -7,8 +7,9 @@ import numpy as np
 
 from mechwright import Finding, Severity
 from mechwright.contracts.finding import errors
-from mechwright.geometry.keyway import KEYS, Opening, key_of_width
+from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
+from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -36,6 +37,7 @@ def opening_findings(params: EllipticGearParams) -> Iterator[Finding]:
 def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
     standard = key_of_width(params.keyway_width)
     if params.keyway_depth is None and standard is None:
+        fitting = key_for_bore(params.bore)
         yield Finding.error(
             "bore.keyway-depth",
             "keyway_depth",
@@ -43,6 +45,7 @@ def _keyway(params: EllipticGearParams) -> Iterator[Finding]:
             params.keyway_width,
             unit="mm",
             remedy=f"give keyway_depth, or a width of {', '.join(f'{key.width:g}' for key in KEYS)}",
+            proposed=({"parameters.keyway_width": fitting.width},) if fitting else (),
         )
         return
     opening = opening_of(params)
@@ -68,6 +71,7 @@ def _depth(opening: Opening, standard: float, key_height: float) -> Iterator[Fin
         key_height if too_shallow else standard,
         "mm",
         f"use keyway_depth = {standard:g}, or leave it out",
+        proposed=({"parameters.keyway_depth": None},),
     )
 
 
@@ -79,12 +83,12 @@ def _rim(params: EllipticGearParams) -> Iterator[Finding]:
     rim, blame = plain, "bore" if opening else "eccentricity"
     if opening and opening.has_keyway:
         rim = min(plain, room(params, opening.loop().flatten()))
-        if rim < plain:
+        if falls_short(rim, plain):
             blame = "keyway_relief" if opening.relief and rim < _without_relief(params) else "keyway_depth"
     full = FULL_RIM * (rack.addendum + rack.dedendum) / m
     least = LEAST_RIM
     rim /= m
-    if rim >= full:
+    if not falls_short(rim, full):
         return
     too_thin = rim < least
     if blame == "bore":

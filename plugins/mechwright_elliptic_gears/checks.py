@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, material, of_stage, until_error
 from mechwright.contracts.finding import errors
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.assembly import (
     backlash_of,
     jamming_backlash,
@@ -77,7 +78,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
     """What must hold before any curve is drawn."""
     rack = rack_of(params)
     m = rack.module
-    if m < LEAST_MODULE:
+    if falls_short(m, LEAST_MODULE):
         most = math.floor(params.teeth * m / LEAST_MODULE)
         yield Finding.error(
             "gear.module",
@@ -101,6 +102,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
                 params.tooth_offset,
                 nearest,
                 remedy=f"{parity} numbers of teeth need {right[0]:g} or {right[1]:g}",
+                proposed=({"parameters.tooth_offset": nearest},),
             )
     if params.tip_radius >= params.dedendum:
         yield Finding.error(
@@ -112,7 +114,7 @@ def _rack(params: EllipticGearParams) -> Iterator[Finding]:
             remedy="make tip_radius smaller than dedendum",
         )
     clearance = params.dedendum - params.addendum
-    if clearance < LEAST_CLEARANCE:
+    if falls_short(clearance, LEAST_CLEARANCE):
         yield Finding(
             "gear.clearance",
             Severity.ERROR if clearance <= 0 else Severity.WARNING,
@@ -175,7 +177,7 @@ def _tip(params: EllipticGearParams) -> Iterator[Finding]:
             remedy="make addendum smaller",
         )
         return
-    if width >= LEAST_TIP:
+    if not falls_short(width, LEAST_TIP):
         return
     without = params.model_copy(update={"backlash": 0.0})
     blame = "backlash" if backlash_of(params) and _tip_width(without) >= LEAST_TIP else "addendum"
@@ -201,7 +203,7 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
     angle = math.degrees(
         steepest_shaft_pressure_angle(params.eccentricity, math.radians(params.pressure_angle))
     )
-    if angle > SHAFT_PRESSURE_ANGLE:
+    if exceeds(angle, SHAFT_PRESSURE_ANGLE):
         most = math.sin(math.radians(SHAFT_PRESSURE_ANGLE - params.pressure_angle))
         yield Finding.warning(
             "gear.pressure-angle",
@@ -211,15 +213,15 @@ def _drive(params: EllipticGearParams) -> Iterator[Finding]:
             angle,
             SHAFT_PRESSURE_ANGLE,
             "deg",
-            f"make eccentricity at most {math.floor(most * 1e3) / 1e3:g}, or let a coupler between the free "
-            "foci carry the steep part",
+            f"make eccentricity at most {math.floor(round(most * 1e3, 6)) / 1e3:g}, or let a coupler between "
+            "the free foci carry the steep part",
         )
 
 
 @of_stage(Stage.MACHINING)
 def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
     least, given = least_backlash(params), backlash_of(params)
-    if given >= least:
+    if not falls_short(given, least):
         return
     jams = given < jamming_backlash(params)
     does = (
@@ -239,6 +241,7 @@ def _backlash(params: EllipticGearParams) -> Iterator[Finding]:
         f"make backlash at least {least:g}, or leave it out"
         if _tip_width(better) >= LEAST_TIP
         else f"make module or semi_major larger: with a backlash of {least:g} the teeth are too thin",
+        proposed=({"parameters.backlash": least},),
     )
 
 
@@ -256,7 +259,7 @@ def _mesh(params: EllipticGearParams) -> Iterator[Finding]:
             "make addendum smaller, or use more teeth",
         )
         return
-    if proof.flank_error > FLANK_ERROR:
+    if exceeds(proof.flank_error, FLANK_ERROR):
         yield Finding.warning(
             "gear.contact",
             "addendum",

@@ -33,6 +33,14 @@ def cut_findings(params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]
     return tuple(dict.fromkeys(found))  # both pairs of a train have the same to say
 
 
+_SMALLER = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5})
+"""Lets smaller end mills be chosen, for the fillets."""
+
+
+_MILLS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.6, 1.2, 1.0)
+"""Diameters of common end mills, mm, which a relief in the corners of a keyway may have."""
+
+
 def _ring(polygon: "shapely.Polygon") -> Array:
     import shapely
 
@@ -54,6 +62,7 @@ def _pair(params: EllipticGearParams, one: "shapely.Polygon", other: "shapely.Po
             proof.allowance,
             "mm",
             "add a smaller end mill",
+            proposed=_SMALLER,
         )
     return Finding.note(
         "gear.cut-mesh",
@@ -79,6 +88,7 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
             opening.bore,
             unit="mm",
             remedy="add a smaller end mill",
+            proposed=_SMALLER,
         )
         return
     if gear.key is None:
@@ -99,4 +109,7 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
             KEY_FIT,
             "mm",
             "set keyway_relief to the diameter of an end mill that cuts the keyway, or add a smaller one",
+            proposed=tuple(
+                {"parameters.keyway_relief": size} for size in _MILLS if size <= 0.7 * params.keyway_width
+            )[:3],
         )

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechwright import Array, Channel, Motion, Poses, Trace
+from mechwright import Array, Channel, Curve, Motion, Poses, Trace
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
@@ -60,7 +60,19 @@ def motion_of(params: EllipticGearParams, samples: int) -> Motion:
     channels["pressure_angle"] = Channel(steepest, "rad")
     poses = _pair_poses(turning, a, e) if phase is None else _train_poses(params, turning)
     traces = {"Q": Trace("coupler", (2 * a * params.point_along, params.point_across, 0.0))}
-    return Motion("theta2", channels, poses, figures(params), traces, held_by(params))
+    around = np.linspace(0, math.tau, _PITCH_SAMPLES)
+    ellipse = ellipse_of(params)
+    pitch = (
+        ellipse.focal_distance
+        + ellipse.semi_major * np.cos(around)
+        + 1j * ellipse.semi_minor * np.sin(around)
+    )
+    curves = {f"pitch-{name}": Curve.planar(name, pitch) for name in poses if name.startswith("gear-")}
+    return Motion("theta2", channels, poses, figures(params), traces, held_by(params), curves)
+
+
+_PITCH_SAMPLES = 181
+"""Points of a pitch curve that is drawn: each two degrees."""
 
 
 def _point_channels(q: PointMotion) -> dict[str, Channel]:

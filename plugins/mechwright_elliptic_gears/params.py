@@ -5,7 +5,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 LEAST_MODULE = 0.1
@@ -47,23 +47,38 @@ class EllipticGearParams(Parameters):
     """
 
     stages: int = Field(
-        1, ge=1, le=2, description="1: gears 2 and 4; 2: a train of gears 2 and 3, 4 and 5, with its coupler."
+        1,
+        ge=1,
+        le=2,
+        description="1: gears 2 and 4; 2: a train of gears 2 and 3, 4 and 5, with its coupler.",
+        json_schema_extra=FIRST,
     )
     phase: Annotated[float, Field(ge=0, le=360), Unit("deg")] | None = Field(
-        None, description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90."
+        None,
+        description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90.",
+        json_schema_extra=FIRST,
     )
     eccentricity: Ratio = Field(
         0.4,
         ge=0,
         le=0.9,  # at 0.9 the ratio swings from 1:19 to 19:1
         description="Eccentricity of the pitch ellipse; the speed ratio swings up to (1 + e) / (1 - e).",
+        json_schema_extra=FIRST,
     )
-    teeth: int = Field(25, ge=LEAST_TEETH, le=MOST_TEETH, description="Number of teeth of each gear.")
+    teeth: int = Field(
+        25,
+        ge=LEAST_TEETH,
+        le=MOST_TEETH,
+        description="Number of teeth of each gear.",
+        json_schema_extra=FIRST,
+    )
     module: Annotated[float, Field(ge=LEAST_MODULE, le=25), Unit("mm")] | None = Field(
         None, description="Pitch on the ellipse over π; give this or semi_major."
     )
     semi_major: Annotated[float, Field(ge=2, le=1000), Unit("mm")] | None = Field(
-        50.0, description="Half the major axis, half the centre distance; give this or module."
+        50.0,
+        description="Half the major axis, half the centre distance; give this or module.",
+        json_schema_extra=FIRST,
     )
     tooth_offset: Annotated[float, Field(ge=0, lt=1), Unit("")] | None = Field(
         None,
@@ -85,9 +100,11 @@ class EllipticGearParams(Parameters):
             "with which gears as made turn: 0.067 at e = 0.4, of a train 0.107."
         ),
     )
-    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.")
-    material: MaterialName = Field("aluminium", description="Workpiece material.")
-    bore: Millimetres = Field(10.0, ge=0, le=300, description="Diameter of the shaft bore; 0 for none.")
+    thickness: Millimetres = Field(10.0, ge=0.1, le=200, description="Face width.", json_schema_extra=FIRST)
+    material: MaterialName = Field("aluminium", description="Workpiece material.", json_schema_extra=FIRST)
+    bore: Millimetres = Field(
+        10.0, ge=0, le=300, description="Diameter of the shaft bore; 0 for none.", json_schema_extra=FIRST
+    )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the hub keyway, towards the far vertex; 0 for none."
     )
@@ -101,7 +118,9 @@ class EllipticGearParams(Parameters):
         le=20,
         description="Diameter of the reliefs in the keyway's corners, for a round cutter; 0 for none.",
     )
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of gear 2.")
+    speed: RevPerMin = Field(
+        60.0, ge=0.001, le=20000, description="Constant speed of gear 2.", json_schema_extra=FIRST
+    )
     point_along: Ratio = Field(
         0.5, ge=-1, le=2, description="Where point Q stands along the coupler: 0 at J, 1 at K."
     )

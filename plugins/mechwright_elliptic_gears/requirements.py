@@ -75,16 +75,16 @@ class LongestWindow(TrainRequirement):
 class LeastAcceleration(TrainRequirement):
     """The least peak of Q's acceleration, with a wanted window."""
 
-    window: Annotated[float, Field(ge=0, le=6.28), Unit("rad")] = Field(
-        2.0, description="Wanted length of the part of near-constant speed."
+    window: Annotated[float, Field(ge=0, le=360), Unit("deg")] = Field(
+        115.0, description="Wanted length of the part of near-constant speed, an angle of gear 2."
     )
 
 
 class LeastJerk(TrainRequirement):
     """The least peak of Q's jerk, with a wanted window."""
 
-    window: Annotated[float, Field(ge=0, le=6.28), Unit("rad")] = Field(
-        2.5, description="Wanted length of the part of near-constant speed."
+    window: Annotated[float, Field(ge=0, le=360), Unit("deg")] = Field(
+        143.0, description="Wanted length of the part of near-constant speed, an angle of gear 2."
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, Candidate, Finding, Progress, Scalar, Severity, Synthesis
+from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Severity, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright_elliptic_gears.checks import findings
 from mechwright_elliptic_gears.figures import point_peaks, point_window
@@ -69,7 +69,7 @@ class _Problem:
     @property
     def window(self) -> float:
         """Wanted window, rad; 0 where the longest is sought."""
-        return float(getattr(self.wanted, "window", 0.0))
+        return math.radians(getattr(self.wanted, "window", 0.0))
 
     def values(self, points: Array) -> dict[str, Array]:
         """Values (n,) of all variables, in units of design files, at points (n, free) of the unit cube."""
@@ -229,32 +229,36 @@ def synthesise(kind: str, wanted: TrainRequirement, progress: Progress) -> Synth
         distinct.append((score, value))
     distinct.sort(key=lambda item: item[0])
     faults: list[Finding] = []
+    rejected = Rejected()
     candidates = []
     for number, (score, value) in enumerate(distinct):
         progress(0.9 + 0.1 * number / len(distinct), "teeth")
         if MISSED <= score < UNBUILDABLE:
             faults.append(_missed(problem, value))
+            rejected.by(faults[-1:])
             continue
         params, objections = _with_teeth(problem.params(value), wanted.cutter)
         if params is None:
             faults += objections
+            rejected.by(objections)
         else:
             candidates.append(_candidate(problem, params))
     progress(1.0, "done")
     # What stands in the way of one design is no fault of the others.
-    return Synthesis(tuple(candidates), () if candidates else tuple(dict.fromkeys(faults[:1])))
+    said = () if candidates else tuple(dict.fromkeys(faults[:1]))
+    return Synthesis(tuple(candidates), said, rejected.reasons)
 
 
 def _missed(problem: _Problem, value: Mapping[str, float]) -> Finding:
-    most = point_window(problem.params(value)).length
+    most, wanted = math.degrees(point_window(problem.params(value)).length), math.degrees(problem.window)
     return Finding.error(
         "synthesis.window",
         "window",
-        f"no design between these bounds has a window of {problem.window:g} rad; the nearest has {most:.3f}",
-        problem.window,
+        f"no design between these bounds has a window of {wanted:.6g} degrees; the nearest has {most:.4g}",
+        wanted,
         most,
-        "rad",
-        f"ask for a window of at most {math.floor(most * 100) / 100:g} rad, widen the bounds or the band",
+        "deg",
+        f"ask for a window of at most {math.floor(most * 10) / 10:g} degrees, widen the bounds or the band",
     )
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
@@ -77,7 +78,7 @@ def _joint_margin(params: EllipticGearParams, layout: Layout) -> float:
 def _tracer(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     if layout.tracer == 0:
         return
-    if layout.tracer > layout.pin:
+    if exceeds(layout.tracer, layout.pin):
         yield Finding.error(
             "train.tracer",
             "tracer_diameter",
@@ -121,7 +122,7 @@ def _outwards(value: float, direction: float) -> float:
 def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     """The joint at the free focus: a wall to the bore, and a rim to the roots."""
     wanted = (layout.bore + layout.pin) / 2 + WALL * max(layout.pin, layout.bore)
-    if layout.focus < wanted:
+    if falls_short(layout.focus, wanted):
         nearest = _outwards(wanted / (2 * layout.semi_major), 1)
         yield Finding.error(
             "train.joint",
@@ -135,7 +136,7 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     module = rack_of(params).module
     free = room(params, np.array([[layout.focus, 0.0]]))
     most = 2 * (free - LEAST_RIM * module)
-    if layout.pin > most:
+    if exceeds(layout.pin, most):
         yield Finding.error(
             "train.joint-rim",
             "pin_diameter",
@@ -150,7 +151,7 @@ def _joint(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
 def _sweep(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     """The far vertex of gear 3 passes the tall spacer of gear 5."""
     gap = _sweep_gap(params, layout)
-    if gap >= SWEEP_GAP:
+    if not falls_short(gap, SWEEP_GAP):
         return
     nearest = next(
         (
@@ -179,7 +180,7 @@ def _sweep_gap(params: EllipticGearParams, layout: Layout) -> float:
 def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     """The dowels stand outside the spacer, and inside the rim."""
     least = layout.spacer + layout.dowel + 2 * DOWEL_GAP
-    if layout.dowel_circle < least:
+    if falls_short(layout.dowel_circle, least):
         yield Finding.error(
             "train.dowels",
             "dowel_circle",
@@ -193,7 +194,7 @@ def _dowel_circle(params: EllipticGearParams, layout: Layout) -> Iterator[Findin
     gear3 = next(gear for gear in gears_of(params) if gear.name == "gear-3")
     rim = _least_rim(params, gear3)
     module = rack_of(params).module
-    if rim < LEAST_RIM * module:
+    if falls_short(rim, LEAST_RIM * module):
         yield Finding.error(
             "train.dowel-rim",
             "dowel_circle",
@@ -257,7 +258,7 @@ def _phase_fault(params: EllipticGearParams) -> str | None:
         (wall, WALL * joint.diameter, "its joint"),
         (rim, LEAST_RIM * module, "its nearest root"),
     ):
-        if left < due:
+        if falls_short(left, due):
             return (
                 f"{max(left, 0.0):.2f} mm stay between the {what} of gear 4 and {where}, below {due:.2f} mm"
             )

@@ -13,12 +13,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mechwright import Array, AsMade, MadeCurve, MadeFigure, MadePart
-from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
+from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, offset, stuck
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bar_of, bosses_of
+from mechwright_four_bar.plates import bosses_of, posts_of
+from mechwright_four_bar.reach import bar_of, course_of
 
 SAMPLES = 361
 DIRECTIONS = 32
@@ -67,9 +68,12 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
         name: [Hole(boss.centre, boss.bore) for boss in own if boss.tag != "coupler-point"]
         for name, own in bosses.items()
     }
-    links = {name: link(made[name][0], *own) for name, own in holes.items()}
+    links = {name: link(made[name][0], *own) for name, own in holes.items() if len(own) == 2}
     bushed = params.running_fit if params.bushing_wall > 0 else None
     turning = {"A0": ("ground", 0), "A": ("coupler", 0), "B": ("coupler", 1), "B0": ("follower", 0)}
+    if "ground-2" in holes:
+        turning["B0"] = ("ground-2", 0)
+        links["ground"] = _between(params, made, holes["ground"][0], holes["ground-2"][0])
     joints = {
         name: joint(name, made[plate][0], holes[plate][end], params.pin_diameter, bushed)
         for name, (plate, end) in turning.items()
@@ -78,7 +82,7 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
     pins = {name: one for name, one in joints.items() if one is not None}
     if len(sure) < len(links) or len(pins) < len(joints):
         return AsMade()
-    phi = np.linspace(0.0, 2 * np.pi, SAMPLES)
+    phi = np.sort(course_of(params).way(SAMPLES))
     bar = bar_of(params)
     rates = output_rates(bar, phi)
     figures, curves = [], []
@@ -109,6 +113,17 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
     )
     jammed = stuck("four-bar.as-made", list(pins.values()), "running_fit", params.running_fit)
     return AsMade(tuple(figures), tuple(curves), tuple(jammed))
+
+
+def _between(
+    params: FourBarParams, made: Mapping[str, Sequence[MadePart]], one: Hole, two: Hole
+) -> MadeLink | None:
+    """The distance of A0 and B0 in two plates that four bolts bring in line."""
+    screws = [Hole(at, params.pin_diameter) for at in posts_of(params).values()]
+    ends = offset(made["ground"][0], one, screws, 1 + 0j), offset(made["ground-2"][0], two, screws, 1 + 0j)
+    if ends[0] is None or ends[1] is None:
+        return None
+    return MadeLink(ends[1].off - ends[0].off, ends[0].spread + ends[1].spread)
 
 
 def _worst(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from mechwright import Candidate, Scalar
+from mechwright import Candidate, Rejected, Scalar
 from mechwright.contracts.finding import errors
 from mechwright_four_bar.checks import findings
 from mechwright_four_bar.dimensions import FourBar
@@ -60,7 +60,7 @@ class Found:
 
 
 def buildable(
-    found: Iterable[Found], most: int, progress: Callable[[float], None]
+    found: Iterable[Found], most: int, rejected: Rejected, progress: Callable[[float], None]
 ) -> tuple[list[Candidate[FourBarParams]], str]:
     """The first ``most`` linkages whose design has no error, and why the first other one was left out."""
     candidates: list[Candidate[FourBarParams]] = []
@@ -70,10 +70,12 @@ def buildable(
             params = FourBarParams.model_validate(one.table())
         except ValidationError as error:
             detail = error.errors(include_url=False)[0]
-            reason = reason or f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
+            said = f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}"
+            reason = reason or said
+            rejected.because("four-bar.out-of-bounds", said)
             continue
         faults = errors(findings(params))
-        if faults:
+        if rejected.by(faults):
             reason = reason or f"{faults[0].parameter}: {faults[0].message}"
             continue
         candidates.append(Candidate(params, one.residual, one.figures))

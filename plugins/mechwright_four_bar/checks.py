@@ -9,10 +9,22 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
+from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import peaks_of, speed_of
-from mechwright_four_bar.plates import bar_of, bosses_of, outlines_of, stack_of
+from mechwright_four_bar.peaks import peaks_of
+from mechwright_four_bar.plates import bosses_of, hidden_point, layout_of, layout_or_none, sides_of
+from mechwright_four_bar.reach import (
+    TURN_BACK,
+    bar_of,
+    course_of,
+    is_lever,
+    reach,
+    toggles,
+    transmission_of,
+    within,
+)
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -21,7 +33,7 @@ which way the linkage goes through the line-up is left to chance."""
 GOOD_TRANSMISSION = 40.0
 """Degrees below which the coupler mainly presses the follower into its bearing (VDI 2127: 40 to 50)."""
 
-LEAST_TRANSMISSION = 1.0
+LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 """Degrees below which play and bending let the linkage change its branch."""
 
 BEARING_PRESSURE = 10.0
@@ -33,6 +45,7 @@ def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(
         params,
+        _joined,
         _turning,
         _transmission,
         _room,
@@ -42,8 +55,8 @@ def findings(params: FourBarParams) -> tuple[Finding, ...]:
     )
 
 
-def _turning(params: FourBarParams) -> Iterator[Finding]:
-    """Whether the loop closes and the crank turns fully."""
+def _joined(params: FourBarParams) -> Iterator[Finding]:
+    """Whether the loop closes, and where the crank shall go: all that a motion needs."""
     bar = bar_of(params)
     if not bar.closes:
         name, longest = max(
@@ -61,22 +74,81 @@ def _turning(params: FourBarParams) -> Iterator[Finding]:
             "mm",
             f"make {name} at most {_below(limit)}",
         )
-        return
+    elif is_lever(params) and within(params) is None:
+        yield _out_of_reach(params, bar)
+
+
+def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:
+    """A swing that the links do not reach."""
+    ways = reach(bar, TURN_BACK)
+    said = " or ".join(f"{_degrees(one, bar)} to {_degrees(two, bar)}" for one, two in ways)
+    if params.swing_from is None or params.swing_to is None or not ways:
+        parameter, value, near, remedy = _nearest_turning(bar, LEAST_ROOM * max(bar.lengths))
+        return Finding.error(
+            "four-bar.rotation",
+            parameter,
+            f"the links are within {math.degrees(TURN_BACK):g} degree of a toggle wherever the crank stands",
+            value,
+            near,
+            "mm",
+            remedy,
+        )
+    one, two = params.swing_from, params.swing_to
+    middles = [math.degrees((low + high) / 2 + bar.ground_angle) for low, high in ways]
+    apart = [abs(math.remainder((one + two) / 2 - middle, 360)) for middle in middles]
+    low, high = (math.degrees(end + bar.ground_angle) for end in ways[apart.index(min(apart))])
+    turn = 360 * round(((one + two) - (low + high)) / 720)
+    worse = max(
+        ("swing_from", one), ("swing_to", two), key=lambda end: max(end[1] - high, low - end[1]) - turn
+    )
+    return Finding.error(
+        "four-bar.swing",
+        worse[0],
+        f"the crank cannot swing from {one:g} to {two:g} degrees: it reaches {said} degrees, "
+        f"{math.degrees(TURN_BACK):g} degree of transmission angle before its toggles",
+        worse[1],
+        (high if worse[1] > (low + high) / 2 + turn else low) + turn,
+        "deg",
+        f"keep swing_from and swing_to within {said}",
+    )
+
+
+def _degrees(angle: float, bar: FourBar) -> str:
+    """A crank angle from the ground line as one from X."""
+    return f"{math.degrees(angle + bar.ground_angle):.3f}"
+
+
+def _turning(params: FourBarParams) -> Iterator[Finding]:
+    """Whether the crank turns fully, and without a doubt how the linkage goes on."""
+    bar = bar_of(params)
     least = LEAST_ROOM * max(bar.lengths)
-    if bar.crank_room >= least:
+    if params.swing_from is not None or bar.crank_room >= least:
         return
-    change = bar.kind is Kind.CHANGE_POINT or bar.crank_room >= 0
     parameter, value, near, remedy = _nearest_turning(bar, least)
-    yield Finding.error(
-        "four-bar.change-point" if change else "four-bar.rotation",
+    if not bar.rocks:
+        yield Finding.error(
+            "four-bar.change-point",
+            parameter,
+            "all links line up once a turn, and nothing decides how the linkage goes on",
+            value,
+            near,
+            "mm",
+            remedy,
+            Stage.PARTS,
+        )
+        return
+    course, found = course_of(params), toggles(params)
+    ends = [math.degrees(x) for x in sorted((course.start, course.start + course.travel))]
+    said = "" if found is None else " and ".join(f"{math.degrees(x):.3f}" for x in found)
+    yield Finding.warning(
+        "four-bar.rotation",
         parameter,
-        "all links line up once a turn, and nothing decides how the linkage goes on"
-        if change
-        else f"the crank of {bar.crank:g} mm cannot turn fully ({bar.kind.value})",
+        f"the crank of {bar.crank:g} mm cannot turn fully ({bar.kind.value}): it is a lever that swings from "
+        f"{ends[0]:.3f} to {ends[1]:.3f} degrees, its toggles at {said} degrees",
         value,
         near,
         "mm",
-        remedy,
+        f"say where it turns back with swing_from and swing_to, or {remedy}",
     )
 
 
@@ -112,10 +184,11 @@ def _above(value: float) -> str:
 
 
 def _transmission(params: FourBarParams) -> Iterator[Finding]:
-    angle = math.degrees(bar_of(params).least_transmission_angle())
-    if angle >= GOOD_TRANSMISSION:
+    angle = math.degrees(transmission_of(params)[0])
+    if not falls_short(angle, GOOD_TRANSMISSION):
         return
-    jams = angle < LEAST_TRANSMISSION
+    jams = falls_short(angle, LEAST_TRANSMISSION)
+    shortest = "ground" if bar_of(params).kind is Kind.DOUBLE_CRANK else "crank"
     yield Finding(
         "four-bar.transmission",
         Severity.ERROR if jams else Severity.WARNING,
@@ -124,7 +197,10 @@ def _transmission(params: FourBarParams) -> Iterator[Finding]:
         angle,
         LEAST_TRANSMISSION if jams else GOOD_TRANSMISSION,
         "deg",
-        "make the crank shorter, or change coupler and follower",
+        "give a shorter swing with swing_from and swing_to"
+        if is_lever(params)
+        else f"make the {shortest} shorter, or change coupler and follower",
+        Stage.PARTS,
     )
 
 
@@ -135,7 +211,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
         for one, two in combinations(bosses, 2):
             distance = abs(one.centre - two.centre)
             needed = (one.bore + two.bore) / 2 + params.rim
-            if distance >= needed:
+            if not falls_short(distance, needed):
                 continue
             point = "coupler-point" in (one.tag, two.tag)
             yield Finding.error(
@@ -151,7 +227,7 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
                 else f"make {name} at least {_above(needed)}, or take smaller pins, bushings or rims",
             )
     try:
-        outlines_of(params)
+        link_outline(params, "coupler", bosses_of(params)["coupler"])
     except GeometryError as error:
         yield Finding.error(
             "four-bar.bend",
@@ -166,30 +242,45 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
 @of_stage(Stage.PARTS)
 def _layers(params: FourBarParams) -> Iterator[Finding]:
     try:
-        layers = stack_of(params)
+        layout = layout_of(params)
     except GeometryError as error:
+        other = params.model_copy(update={"frame": "two"})
         yield Finding.error(
             "four-bar.layers",
-            "clearance",
+            "frame",
             str(error),
-            params.clearance,
-            unit="mm",
-            remedy="make pins, rims, webs or clearance smaller, or bend the coupler",
+            remedy='set frame = "two"'
+            if layout_or_none(other) is not None
+            else "make pins, rims, webs or clearance smaller, or bend the coupler",
         )
         return
+    layers = layout.stack
     order = sorted(layers.layer.items(), key=lambda item: (item[1], item[0]))
     height = max(high for _, high in layers.spans.values())
     yield Finding.note(
         "four-bar.stack",
         f"{len(layers.layers)} layers, {height:.4g} mm high: "
-        + ", ".join(f"{name} in {number}" for name, number in order),
+        + ", ".join(f"{name} in {number}" for name, number in order)
+        + (f"; {len(layout.posts)} posts between two ground plates" if layout.posts else ""),
         height,
         "mm",
     )
+    hidden = hidden_point(params)
+    if hidden:
+        yield Finding.warning(
+            "four-bar.point",
+            "coupler_point_x",
+            f"over a turn the coupler point comes under the {hidden[0]} and over the {hidden[1]}: a tool in "
+            "it has no way out of its own layer",
+            remedy="work with it between the plates, or cut a window along its path into one of them",
+        )
 
 
 def _figures(params: FourBarParams) -> Iterator[Finding]:
     bar = bar_of(params)
+    if is_lever(params):
+        yield _swing(params, bar)
+        return
     limits = bar.limits()
     motion = (
         "the follower turns fully"
@@ -207,10 +298,23 @@ def _figures(params: FourBarParams) -> Iterator[Finding]:
     )
 
 
+def _swing(params: FourBarParams, bar: FourBar) -> Finding:
+    course, (least, most) = course_of(params), transmission_of(params)
+    return Finding.note(
+        "four-bar.motion",
+        f"{bar.kind.value}, a lever that swings by {math.degrees(abs(course.travel)):.3f} degrees there and "
+        f"back; transmission angle {math.degrees(least):.3f} to {math.degrees(most):.3f} degrees",
+        math.degrees(least),
+        "deg",
+    )
+
+
 @of_stage(Stage.PARTS)
 def _bearings(params: FourBarParams) -> Iterator[Finding]:
-    peaks = peaks_of(params, bar_of(params), speed_of(params))
+    peaks = peaks_of(params)
     widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
+    if sides_of(params) == 2:
+        widths["B0"] = params.ground_thickness
     joint, pressure = max(
         (
             (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))
@@ -219,7 +323,7 @@ def _bearings(params: FourBarParams) -> Iterator[Finding]:
         key=lambda pair: pair[1],
     )
     force = peaks[f"force_{joint}"].value
-    if pressure > BEARING_PRESSURE:
+    if exceeds(pressure, BEARING_PRESSURE):
         yield Finding.warning(
             "four-bar.bearing-pressure",
             "pin_diameter",

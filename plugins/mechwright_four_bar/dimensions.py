@@ -125,6 +125,16 @@ class FourBar:
         a, c, b, f = self.lengths
         return min(b + c - a - f, abs(f - a) - abs(b - c))
 
+    @property
+    def lines_up(self) -> bool:
+        """Whether all links line up in some position that the crank can reach from either side."""
+        return abs(self.crank_room) <= CHANGE_POINT * sum(self.lengths)
+
+    @property
+    def rocks(self) -> bool:
+        """Whether the crank cannot turn fully: it is a lever."""
+        return self.crank_room < 0 and not self.lines_up
+
     def limits(self) -> Limits | None:
         """Limit positions of the follower; None where it turns fully or the crank does not.
 
@@ -156,11 +166,23 @@ class FourBar:
 
     def least_transmission_angle(self) -> float:
         """Smallest transmission angle of a turn, rad; the crank must turn fully."""
-        return min(math.acos(min(1.0, abs(cosine))) for cosine in self.transmission_cosines())
+        return self.transmission_range()[0]
 
     def greatest_transmission_angle(self) -> float:
         """Largest acute transmission angle of a turn, rad: a right angle where the turn goes through one."""
-        near, far = self.transmission_cosines()
-        if near * far <= 0:
-            return math.pi / 2
-        return max(math.acos(min(1.0, abs(cosine))) for cosine in (near, far))
+        return self.transmission_range()[1]
+
+    def transmission_range(self, one: float = 0.0, two: float = math.tau) -> tuple[float, float]:
+        """Smallest and largest acute transmission angle, rad, while the crank goes from one angle to another.
+
+        Both are counted from the ground line; the angle at B changes one way between crank in line and
+        crank against it.
+        """
+        a, c, b, f = self.lengths
+        low, high = min(one, two), max(one, two)
+        through = range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)
+        squares = [a * a + f * f - 2 * a * f * math.cos(x) for x in (low, high)]
+        squares += [(f + (a if k % 2 else -a)) ** 2 for k in through]
+        cosines = [(b * b + c * c - square) / (2 * b * c) for square in squares]
+        angles = [math.acos(min(1.0, abs(cosine))) for cosine in cosines]
+        return min(angles), math.pi / 2 if min(cosines) * max(cosines) <= 0 else max(angles)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class FourBars(Family[FourBarParams]):
-    """A crank that turns fully drives a follower through a coupler."""
+    """A crank, or a lever that rocks, drives a follower through a coupler."""
 
     name = "four-bar"
     title = "Four-bar linkage"
@@ -27,7 +27,7 @@ class FourBars(Family[FourBarParams]):
         return findings(params)
 
     def solve(self, params: FourBarParams, samples: int) -> "Motion":
-        """One turn of the crank at constant speed."""
+        """One turn of the crank at constant speed, or its swing there and back."""
         from mechwright_four_bar.motion import motion_of
 
         return motion_of(params, samples)

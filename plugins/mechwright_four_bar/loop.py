@@ -30,10 +30,10 @@ class Rates:
     second: Array
     third: Array
 
-    def turning(self, omega: float) -> Turning:
-        """The same over time, with the crank at constant ``omega``, rad/s; the angle runs on over a turn."""
+    def turning(self, drive: Turning) -> Turning:
+        """The same over time, with the crank's own rates; the angle runs on over a turn."""
         angle = np.unwrap(np.angle(self.direction))
-        return Turning(angle, self.first * omega, self.second * omega**2, self.third * omega**3)
+        return Turning(angle, *drive.carried(self.first, self.second, self.third))
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,18 +56,25 @@ class Loop:
     coupler: Rates
     follower: Rates
 
-    def bodies(self, bar: FourBar, omega: float) -> dict[str, BodyMotion]:
-        """Motion over time of ``crank`` (origin A0), ``coupler`` (A, x to B) and ``follower`` (B0)."""
-        unit = np.exp(1j * self.phi)
-        a = bar.crank
+    def bodies(self, bar: FourBar, drive: Turning | float) -> dict[str, BodyMotion]:
+        """Motion over time of ``crank`` (origin A0), ``coupler`` (A, x to B) and ``follower`` (B0).
+
+        ``drive`` is the crank at the same samples, or its constant speed, rad/s.
+        """
+        if not isinstance(drive, Turning):
+            drive = Turning.of(self.phi, drive)
+        lever = bar.crank * np.exp(1j * self.phi)
         origin = PointMotion.of(
-            self.joint_a, 1j * a * omega * unit, -a * omega**2 * unit, -1j * a * omega**3 * unit
+            self.joint_a,
+            drive.velocity_factor * lever,
+            drive.acceleration_factor * lever,
+            drive.jerk_factor * lever,
         )
         pivot = complex(bar.ground * np.exp(1j * bar.ground_angle))
         return {
-            "crank": BodyMotion.about(0j, Turning.of(self.phi, omega)),
-            "coupler": BodyMotion(origin, self.coupler.turning(omega)),
-            "follower": BodyMotion.about(pivot, self.follower.turning(omega)),
+            "crank": BodyMotion.about(0j, drive),
+            "coupler": BodyMotion(origin, self.coupler.turning(drive)),
+            "follower": BodyMotion.about(pivot, self.follower.turning(drive)),
         }
 
 

@@ -16,17 +16,10 @@ from mechwright.mechanics.linkage import (
 from mechwright.mechanics.planar import BodyMotion
 from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
 from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, turning_bore
 from mechwright_four_bar.loop import Loop
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import (
-    HEAD,
-    HEAD_HEIGHT,
-    joints_of,
-    outlines_of,
-    pin_length,
-    stack_of,
-    turning_bore,
-)
+from mechwright_four_bar.plates import joints_of, outlines_of, pin_length, sides_of, stack_of
 
 MILLI = 1e-3
 """Forces are computed in mN, from kg, mm and s."""
@@ -48,11 +41,14 @@ def masses_of(params: FourBarParams) -> dict[str, Mass]:
         if joint.body == "ground":
             continue
         pin = [cylinder_mass(diameter, pin_length(params, layers, name), PIN_MATERIAL, joint.place)]
-        if name != "shaft":
+        if joint.head:
             pin.append(cylinder_mass(HEAD * diameter, HEAD_HEIGHT * diameter, PIN_MATERIAL, joint.place))
         found[joint.body] += pin
     if params.bushing_wall > 0:
-        for body, place in (("coupler", 0j), ("coupler", complex(params.coupler)), ("follower", 0j)):
+        turning = [("coupler", 0j), ("coupler", complex(params.coupler))]
+        if sides_of(params) == 1:
+            turning.append(("follower", 0j))
+        for body, place in turning:
             found[body].append(
                 cylinder_mass(
                     turning_bore(params),

@@ -1,4 +1,4 @@
-"""The motion of a design: channels, poses and figures over one turn of the crank."""
+"""The motion of a design: channels, poses and figures over one period of the crank."""
 
 import math
 from dataclasses import replace
@@ -11,16 +11,17 @@ from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
 from mechwright_four_bar.checks import findings
-from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.loop import close
 from mechwright_four_bar.masses import MICRO, MILLI, force_balance, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import peaks_of, rate_peaks, speed_of, turn
-from mechwright_four_bar.plates import bar_of, crank_angles, frames_of, held_by, pivot_of
+from mechwright_four_bar.peaks import peaks_of, period_of, rate_peaks
+from mechwright_four_bar.plates import frames_of, held_by, pivot_of
+from mechwright_four_bar.reach import bar_of, course_of, is_lever, toggles, transmission_of
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
-    """Sample one turn of the crank at constant speed, both ends included.
+    """Sample one turn of the crank at constant speed, or one swing there and back, both ends included.
+
+    At a change point the linkage goes smoothly on, and a period may be two turns.
 
     Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
 
@@ -32,15 +33,15 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     found = findings(params)
     for finding in errors(found, Stage.MOTION):
         raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
-    bar, omega = bar_of(params), speed_of(params)
-    phi = crank_angles(params, samples)
-    loop = close(bar, phi)
-    bodies = loop.bodies(bar, omega)
+    bar, period = bar_of(params), period_of(params, samples)
+    loop, bodies, drive = period.loop, period.bodies, period.drive
     channels = {
-        "phi": Channel(phi, "rad"),
-        "time": Channel(phi / omega, "s"),
-        "omega_a": Channel(np.full(samples, omega), "rad/s"),
+        "phi": Channel(drive.theta, "rad"),
+        "time": Channel(period.time, "s"),
+        "omega_a": Channel(drive.omega, "rad/s"),
     }
+    if is_lever(params):
+        channels |= {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
         channels |= turning_channels(bodies[name].turning, angle, suffix)
     cosine = (loop.coupler.direction * np.conj(loop.follower.direction)).real
@@ -50,8 +51,10 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     if point is not None:
         moving = bodies["coupler"].point(point)
         channels |= point_channels("P", replace(moving, position=moving.position + pivot))
-    channels |= pole_channels(acceleration_pole(bodies["coupler"]), pivot)
-    figures = _figures(bar)
+    pole = acceleration_pole(bodies["coupler"])
+    if np.isfinite(pole.fixed).all():  # of a coupler that only shifts, as in a parallelogram, there is none
+        channels |= pole_channels(pole, pivot)
+    figures = _figures(params)
     if not errors(found):
         masses = masses_of(params)
         carried = joint_forces(bar, loop, bodies, masses, params.load_torque / MICRO)
@@ -59,20 +62,24 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
             channels[f"force_{joint}"] = Channel(np.abs(force) * MILLI, "N")
         channels["shaking_force"] = Channel(np.abs(carried.shaking) * MILLI, "N")
         channels["drive_torque"] = Channel(carried.drive * MICRO, "N*m")
-        figures |= {f"{name}_max": value for name, value in peaks_of(params, bar, omega).items()}
+        figures |= {f"{name}_max": value for name, value in peaks_of(params).items()}
         figures |= moving_figures(masses, force_balance(bar, masses))
     else:
-        figures |= {f"{name}_max": value for name, value in rate_peaks(turn(bar, omega)[1]).items()}
+        figures |= {f"{name}_max": value for name, value in rate_peaks(period_of(params).bodies).items()}
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
     return Motion("phi", channels, frames_of(params, bodies), figures, traces, held_by(params))
 
 
-def _figures(bar: FourBar) -> dict[str, Scalar]:
+def _figures(params: FourBarParams) -> dict[str, Scalar]:
+    bar = bar_of(params)
+    least, greatest = transmission_of(params)
     figures = {
-        "least_transmission_angle": Scalar(bar.least_transmission_angle(), "rad"),
-        "greatest_transmission_angle": Scalar(bar.greatest_transmission_angle(), "rad"),
+        "least_transmission_angle": Scalar(least, "rad"),
+        "greatest_transmission_angle": Scalar(greatest, "rad"),
         "grashof_excess": Scalar(bar.grashof_excess, "mm"),
     }
+    if is_lever(params):
+        return figures | _lever(params)
     limits = bar.limits()
     if limits is not None:
         figures |= {
@@ -82,3 +89,17 @@ def _figures(bar: FourBar) -> dict[str, Scalar]:
             "limit_folded": Scalar((limits.folded + bar.ground_angle) % math.tau, "rad"),
         }
     return figures
+
+
+def _lever(params: FourBarParams) -> dict[str, Scalar]:
+    """Where a lever turns back, and the toggles that it stays away from: crank angles from X, in degrees."""
+    course, follower = course_of(params), period_of(params).loop.follower.direction
+    ends = sorted((course.start, course.start + course.travel))
+    angles = {"swing_from": ends[0], "swing_to": ends[1], "input_range": ends[1] - ends[0]}
+    if (found := toggles(params)) is not None:
+        angles |= {"toggle_low": found[0], "toggle_high": found[1]}
+    swing = float(np.ptp(np.unwrap(np.angle(follower))))
+    return {
+        **{name: Scalar(math.degrees(value), "deg") for name, value in angles.items()},
+        "swing": Scalar(swing, "rad"),
+    }

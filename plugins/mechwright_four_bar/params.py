@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
 
 Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
@@ -12,7 +12,7 @@ Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 
 
 class FourBarParams(Parameters):
-    """A crank that turns fully, a coupler, a follower and the ground, made of plates.
+    """A crank that turns fully or swings as a lever, a coupler, a follower and the ground, made of plates.
 
     Examples
     --------
@@ -20,32 +20,70 @@ class FourBarParams(Parameters):
     True
     """
 
-    crank: Millimetres = Field(30.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.")
-    coupler: Millimetres = Field(80.0, ge=1, le=5000, description="Coupler c, from A to B.")
-    follower: Millimetres = Field(70.0, ge=1, le=5000, description="Follower b, from B0 to B.")
-    ground: Millimetres = Field(90.0, ge=1, le=5000, description="Ground f, from A0 to B0.")
+    crank: Millimetres = Field(
+        30.0, ge=1, le=2000, description="Crank a, from A0 to A; it drives.", json_schema_extra=FIRST
+    )
+    coupler: Millimetres = Field(
+        80.0, ge=1, le=5000, description="Coupler c, from A to B.", json_schema_extra=FIRST
+    )
+    follower: Millimetres = Field(
+        70.0, ge=1, le=5000, description="Follower b, from B0 to B.", json_schema_extra=FIRST
+    )
+    ground: Millimetres = Field(
+        90.0, ge=1, le=5000, description="Ground f, from A0 to B0.", json_schema_extra=FIRST
+    )
     ground_angle: Degrees = Field(
         0.0, ge=-360, le=360, description="Direction from A0 to B0, counter-clockwise from X."
     )
     branch: Literal["open", "crossed"] = Field(
-        "open", description="Assembly: B to the left of the line from A to B0, or to the right of it."
+        "open",
+        description="Assembly: B to the left of the line from A to B0, or to the right of it.",
+        json_schema_extra=FIRST,
     )
     pivot_x: Millimetres = Field(0.0, ge=-10000, le=10000, description="X of the crank's pivot A0.")
     pivot_y: Millimetres = Field(0.0, ge=-10000, le=10000, description="Y of the crank's pivot A0.")
     coupler_point_x: Place | None = Field(
-        None, description="Coupler point along the coupler, from A towards B; left out, there is none."
+        None,
+        description="Coupler point along the coupler, from A towards B; left out, there is none.",
+        json_schema_extra=FIRST,
     )
     coupler_point_y: Place | None = Field(
-        None, description="Coupler point across the coupler, positive to the left of A to B."
+        None,
+        description="Coupler point across the coupler, positive to the left of A to B.",
+        json_schema_extra=FIRST,
     )
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
-    direction: Literal["ccw", "cw"] = Field("ccw", description="Sense of the crank, seen from above.")
+    speed: RevPerMin = Field(
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+        json_schema_extra=FIRST,
+    )
+    direction: Literal["ccw", "cw"] = Field(
+        "ccw", description="Sense of the crank, or of a lever's first swing, seen from above."
+    )
+    swing_from: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None,
+        description="One end of the swing of a crank that is a lever, counter-clockwise from X; left out, it "
+        "turns fully, or goes as far as it can.",
+    )
+    swing_to: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None, description="The other end of that swing."
+    )
     load_torque: Annotated[float, Unit("N*m")] = Field(
-        0.0, ge=-10000, le=10000, description="Torque of the load on the follower, counter-clockwise."
+        0.0,
+        ge=-10000,
+        le=10000,
+        description="Torque of the load on the follower, counter-clockwise.",
+        json_schema_extra=FIRST,
     )
-    thickness: Millimetres = Field(6.0, ge=1, le=100, description="Of crank, coupler and follower.")
+    thickness: Millimetres = Field(
+        6.0, ge=1, le=100, description="Of crank, coupler and follower.", json_schema_extra=FIRST
+    )
     ground_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Of the ground plate.")
-    pin_diameter: Millimetres = Field(6.0, ge=1, le=200, description="Pins of all joints.")
+    pin_diameter: Millimetres = Field(
+        6.0, ge=1, le=200, description="Pins of all joints.", json_schema_extra=FIRST
+    )
     bushing_wall: Millimetres = Field(
         1.0, ge=0, le=50, description="Wall of the plain bushings in the turning joints; 0 for none."
     )
@@ -66,7 +104,11 @@ class FourBarParams(Parameters):
         1.0, ge=0.1, le=50, description="Least distance in plan of what moves in one layer."
     )
     washer: Millimetres = Field(0.5, ge=0.05, le=20, description="Air between the layers of plates.")
-    material: MaterialName = Field("aluminium", description="Of the plates.")
+    frame: Literal["auto", "one", "two"] = Field(
+        "auto",
+        description="Ground plates: one below the links, two with the links between, or one where that goes.",
+    )
+    material: MaterialName = Field("aluminium", description="Of the plates.", json_schema_extra=FIRST)
 
     @model_validator(mode="after")
     def _together(self) -> Self:
@@ -76,6 +118,12 @@ class FourBarParams(Parameters):
             raise ValueError(
                 "coupler_bend is for a coupler without a point; leave out coupler_point_x and _y"
             )
+        if (self.swing_from is None) != (self.swing_to is None):
+            raise ValueError("give both swing_from and swing_to, or neither")
+        if self.swing_from is not None and self.swing_from == self.swing_to:
+            raise ValueError("swing_from and swing_to are the same angle, so nothing moves; give two")
+        if self.swing_from is not None and self.direction == "cw":
+            raise ValueError("direction is that of a crank that turns; exchange swing_from and swing_to")
         return self
 
     @property

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import Finding, Progress, Scalar, Synthesis
+from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.multistart import distinct
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.checks import GOOD_TRANSMISSION
@@ -44,7 +44,8 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
         math.radians(wanted.least_transmission_angle) / 2,
         lambda part: progress(SEARCH * part, "linkages through the points"),
     )
-    good = [one for one in found if _fits(one, wanted)]
+    rejected = Rejected()
+    good = [one for one in found if _fits(one, wanted, rejected)]
     features = np.log([[*one.bar.lengths, abs(one.point)] for one in good]) if good else np.empty((0, 5))
     ways = np.array([[one.bar.branch, one.sense] for one in good]).reshape(len(good), 2)
     good = [good[index] for index in distinct(np.hstack((features, ways)), SAME)]
@@ -53,13 +54,14 @@ def through_points(wanted: PathRequirement, progress: Progress) -> Synthesis[Fou
     candidates, reason = buildable(
         (_found(one) for one in good),
         wanted.designs,
+        rejected,
         lambda part: progress(SEARCH + (1 - SEARCH) * part, "designs"),
     )
     if not candidates:
-        return Synthesis((), (_refusal(wanted, found, bool(good), reason),))
+        return Synthesis((), (_refusal(wanted, found, bool(good), reason),), rejected.reasons)
     best = candidates[0].residual.value
     findings = (_missed(wanted, best),) if best > met and wanted.tolerance > 0 else ()
-    return Synthesis(tuple(candidates), findings)
+    return Synthesis(tuple(candidates), findings, rejected.reasons)
 
 
 def mean_distance(one: PathSolution) -> float:
@@ -73,12 +75,22 @@ def _rank(one: PathSolution, met: float) -> tuple[float, float, float]:
     return (0.0, -angle, one.longest) if mean <= met else (mean, -angle, one.longest)
 
 
-def _fits(one: PathSolution, wanted: PathRequirement) -> bool:
-    return (
-        one.longest <= wanted.longest_link
-        and min(one.bar.lengths) >= wanted.shortest_link
-        and one.bar.least_transmission_angle() >= math.radians(wanted.least_transmission_angle)
-    )
+def _fits(one: PathSolution, wanted: PathRequirement, rejected: Rejected) -> bool:
+    """Whether a linkage keeps the limits; one that does not is counted under the first that it breaks."""
+    angle, shortest = math.degrees(one.bar.least_transmission_angle()), min(one.bar.lengths)
+    broken = {
+        "path.longest-link": (one.longest > wanted.longest_link, f"a link is {one.longest:.4g} mm long"),
+        "path.shortest-link": (shortest < wanted.shortest_link, f"a link is {shortest:.4g} mm long"),
+        "path.transmission": (
+            angle < wanted.least_transmission_angle,
+            f"the transmission angle falls to {angle:.3g} degrees",
+        ),
+    }
+    for code, (breaks, message) in broken.items():
+        if breaks:
+            rejected.because(code, message)
+            return False
+    return True
 
 
 def _found(one: PathSolution) -> Found:

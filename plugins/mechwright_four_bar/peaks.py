@@ -1,29 +1,48 @@
 """Peaks of the channels of a motion."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from mechwright import Array, Scalar
-from mechwright.mechanics.planar import BodyMotion
-from mechwright_four_bar.dimensions import FourBar
+from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright_four_bar.change_point import close_through
 from mechwright_four_bar.loop import Loop, close
 from mechwright_four_bar.masses import MICRO, MILLI, joint_forces, masses_of
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.reach import bar_of, course_of
 
 PEAK_SAMPLES = 1441
 """Positions at which peaks are sought: four a degree."""
 
 
-def speed_of(params: FourBarParams) -> float:
-    """Angular velocity of the crank, rad/s, positive counter-clockwise."""
-    return (1.0 if params.direction == "ccw" else -1.0) * params.speed * math.tau / 60
+@dataclass(frozen=True)
+class Period:
+    """One period of the crank: times (n,), s, the crank, the links, and their motion over time."""
+
+    time: Array
+    drive: Turning
+    loop: Loop
+    bodies: dict[str, BodyMotion]
 
 
-def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Scalar]:
-    """Largest sizes over a turn of rates, joint forces and drive torque."""
-    loop, bodies = turn(bar, omega)
-    carried = joint_forces(bar, loop, bodies, masses_of(params), params.load_torque / MICRO)
+def period_of(params: FourBarParams, samples: int = PEAK_SAMPLES) -> Period:
+    """The period of a design whose links can be joined; by default as fine as peaks are sought."""
+    bar, course = bar_of(params), course_of(params)
+    time, drive = course.period(samples, params.speed * math.tau / 60)
+    if bar.lines_up and not course.rocks:
+        loop = close_through(bar, drive.theta, course.travel)
+    else:
+        loop = close(bar, drive.theta)
+    return Period(time, drive, loop, loop.bodies(bar, drive))
+
+
+def peaks_of(params: FourBarParams) -> dict[str, Scalar]:
+    """Largest sizes over a period of rates, joint forces and drive torque."""
+    found = period_of(params)
+    loop, bodies = found.loop, found.bodies
+    carried = joint_forces(bar_of(params), loop, bodies, masses_of(params), params.load_torque / MICRO)
     return {
         **rate_peaks(bodies),
         "drive_torque": most(carried.drive * MICRO, "N*m"),
@@ -33,12 +52,6 @@ def peaks_of(params: FourBarParams, bar: FourBar, omega: float) -> dict[str, Sca
             for joint, force in carried.joints.items()
         },
     }
-
-
-def turn(bar: FourBar, omega: float) -> tuple[Loop, dict[str, BodyMotion]]:
-    """The turn over which peaks are sought."""
-    loop = close(bar, np.linspace(0, math.tau, PEAK_SAMPLES))
-    return loop, loop.bodies(bar, omega)
 
 
 def rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:

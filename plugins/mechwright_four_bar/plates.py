@@ -1,71 +1,41 @@
-"""The linkage as plates, pins and bushings, and the layers they stand in.
+"""The linkage as plates, pins and bushings, and how they stand in its motion.
 
-Joints: the crank's shaft and its pin A are pressed into the crank, pin B into the follower, pin B0 into the
-ground plate. Shaft, coupler (twice) and follower turn in plain bushings, or in reamed bores without them.
+Shafts and pins are pressed into one plate, and turn in plain bushings of the other, or in reamed bores
+without them.
 """
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
-from mechwright import GROUND, Array, Colour, Instance, Outline, Part, Poses, kept
+from mechwright import GROUND, Colour, GeometryError, Instance, Outline, Part, Poses, kept
 from mechwright import Joint as Held
 from mechwright.contracts.joint import fixed
-from mechwright.contracts.motion import travelled
-from mechwright.mechanics.linkage import (
-    Boss,
-    Plate,
-    Spindle,
-    Stack,
-    bent_link,
-    bushing_part,
-    hull_link,
-    pin_part,
-    rectangle,
-    stack,
-    web_link,
-)
+from mechwright.mechanics.linkage import Boss, Stack, bushing_part, pin_part
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, Joint, bosses, joints, turning_bore
+from mechwright_four_bar.layout import Layout, hidden, laid_out
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.reach import bar_of, course_of
 
-FILLET = 5.0
-"""Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
-
-BEND = 2.0
-"""Radius of the bent coupler's middle line, in web widths: its inner edge keeps 1.5 of them."""
-
-HEAD, HEAD_HEIGHT = 1.6, 0.3
-"""Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
-
-SHAFT = 3.0
-"""Length of the crank's shaft below the ground plate, in pin diameters: room for a coupling."""
+BOLT = 1.5
+"""Length of a post's bolt under the lower plate, in pin diameters: for a nut, or the machine's bed."""
 
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
+_TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
+"""On how many sides of the links ground plates are tried; fewer need fewer parts."""
 
 COLOURS: Mapping[str, Colour] = {
     "ground": (0.62, 0.64, 0.66),
+    "ground-2": (0.62, 0.64, 0.66),
     "crank": (0.78, 0.36, 0.30),
     "coupler": (0.45, 0.58, 0.70),
     "follower": (0.80, 0.68, 0.42),
 }
-
-
-def bar_of(params: FourBarParams) -> FourBar:
-    """The dimensions."""
-    return FourBar(
-        params.crank,
-        params.coupler,
-        params.follower,
-        params.ground,
-        math.radians(params.ground_angle),
-        1 if params.branch == "open" else -1,
-    )
 
 
 def pivot_of(params: FourBarParams) -> complex:
@@ -73,108 +43,82 @@ def pivot_of(params: FourBarParams) -> complex:
     return complex(params.pivot_x, params.pivot_y)
 
 
-def turning_bore(params: FourBarParams) -> float:
-    """Diameter of a plate's bore in which a pin turns, with or without a bushing, mm."""
-    if params.bushing_wall > 0:
-        return params.pin_diameter + 2 * params.bushing_wall
-    return params.pin_diameter + params.running_fit
-
-
-@dataclass(frozen=True)
-class Joint:
-    """A pin.
-
-    Parameters
-    ----------
-    body
-        The body it is pressed into.
-    frame
-        The frame of the motion on its axis that moves with that body.
-    place
-        Its axis in the body, x + i y, mm.
-    plates
-        The plates it joins.
-    """
-
-    body: str
-    frame: str
-    place: complex
-    plates: tuple[str, str]
-
-
-def joints_of(params: FourBarParams) -> dict[str, Joint]:
-    """Shaft and pins by name."""
-    return {
-        "shaft": Joint("crank", "crank", 0j, ("ground", "crank")),
-        "pin-a": Joint("crank", "crank-a", complex(params.crank), ("crank", "coupler")),
-        "pin-b": Joint("follower", "follower-b", complex(params.follower), ("follower", "coupler")),
-        "pin-b0": Joint("ground", "ground-b0", complex(params.ground), ("ground", "follower")),
-    }
-
-
-def bosses_of(params: FourBarParams) -> dict[str, tuple[Boss, ...]]:
-    """The bosses of every plate, in its body's frame."""
-    pressed, turning = params.pin_diameter, turning_bore(params)
-
-    def boss(x: complex, bore: float, tag: str) -> Boss:
-        return Boss(complex(x), bore / 2 + params.rim, bore, tag)
-
-    point = params.coupler_point
-    third = () if point is None else (boss(point, pressed, "coupler-point"),)
-    return {
-        "ground": (boss(0, turning, "A0"), boss(params.ground, pressed, "B0")),
-        "crank": (boss(0, pressed, "A0"), boss(params.crank, pressed, "A")),
-        "coupler": (boss(0, turning, "A"), boss(params.coupler, turning, "B"), *third),
-        "follower": (boss(0, turning, "B0"), boss(params.follower, pressed, "B")),
-    }
-
-
 @kept
-def outlines_of(params: FourBarParams) -> dict[str, Outline]:
-    """The outline of every plate, in its body's frame: origin in its first joint, x to its second.
+def layout_of(params: FourBarParams) -> Layout:
+    """Plates and layers, on one ground plate where that goes or is asked for, else between two.
 
     Raises
     ------
     GeometryError
-        The bend of the coupler does not fit.
+        The bend of the coupler does not fit, or no order of layers keeps all plates apart.
     """
-    bosses = bosses_of(params)
-    outlines = {name: _straight(bosses[name], params.web_width) for name in ("crank", "follower")}
-    if params.coupler_bend != 0:
-        one, two = bosses["coupler"]
-        elbow = complex(params.coupler / 2, params.coupler_bend)
-        outlines["coupler"] = bent_link(one, two, elbow, params.web_width, FILLET, BEND * params.web_width)
-    elif params.coupler_point is None:
-        outlines["coupler"] = _straight(bosses["coupler"], params.web_width)
-    else:
-        outlines["coupler"] = hull_link(bosses["coupler"])
-    outlines["ground"] = _base(params, bosses["ground"])
-    return outlines
+    poses, faults = _turn(params), []
+    for sides in _TRIED[params.frame]:
+        try:
+            return laid_out(params, poses, sides)
+        except GeometryError as error:
+            faults.append(error)
+    raise faults[0]
 
 
-def _straight(bosses: tuple[Boss, ...], width: float) -> Outline:
-    """A web between two bosses, or the hull where there is no room for its fillets."""
-    one, two = bosses
-    half, least = width / 2, min(one.radius, two.radius)
-    if half < least:
-        taken = sum(math.sqrt((boss.radius + FILLET) ** 2 - (half + FILLET) ** 2) for boss in (one, two))
-        if taken < abs(two.centre - one.centre):
-            return web_link(one, two, width, FILLET)
-    return hull_link((one, two))
+def _turn(params: FourBarParams) -> dict[str, Poses]:
+    """Poses of all bodies over the motion, seen from the ground."""
+    bar, course = bar_of(params), course_of(params)
+    if bar.lines_up and not course.rocks:
+        raise GeometryError("ground: all links line up, and nothing decides which way they go on")
+    phi = course.way(STACK_SAMPLES)
+    still = replace(bar, ground_angle=0.0)
+    bodies = close(still, phi - bar.ground_angle).bodies(still, 1.0)
+    ground = BodyMotion.about(0j, Turning.of(np.zeros_like(phi)))
+    return {name: body.poses() for name, body in {"ground": ground, **bodies}.items()}
 
 
-def _base(params: FourBarParams, bosses: tuple[Boss, ...]) -> Outline:
-    """A plate under both pivots, with a bore for a screw of the pins' diameter in each corner."""
-    corner = params.pin_diameter / 2 + params.rim
-    reach = max(boss.radius for boss in bosses)
-    low = complex(-reach - 2 * corner, -reach - corner)
-    high = complex(params.ground, 0) - low
-    screws = [
-        Boss(complex(x, y), corner, params.pin_diameter, "screw")
-        for x in (low.real + corner, high.real - corner)
-        for y in (low.imag + corner, high.imag - corner)
-    ]
-    return rectangle(low, high, corner, (*bosses, *screws))
+def hidden_point(params: FourBarParams) -> tuple[str, str] | None:
+    """What covers the coupler point from above and from below, if it lies between two ground plates."""
+    layout, point = layout_of(params), params.coupler_point
+    return hidden(params, layout, _turn(params), point) if layout.posts and point is not None else None
+
+
+@kept
+def layout_or_none(params: FourBarParams) -> Layout | None:
+    """As :func:`layout_of`; None where there is no layout."""
+    try:
+        return layout_of(params)
+    except GeometryError:
+        return None
+
+
+def sides_of(params: FourBarParams) -> int:
+    """On how many sides of the links ground plates stand; without a layout, on those first asked for."""
+    layout = layout_or_none(params)
+    return _TRIED[params.frame][0] if layout is None else layout.sides
+
+
+def joints_of(params: FourBarParams) -> dict[str, Joint]:
+    """Shafts and pins by name."""
+    return joints(params, sides_of(params))
+
+
+def bosses_of(params: FourBarParams) -> dict[str, tuple[Boss, ...]]:
+    """The bosses of every plate, in its body's frame."""
+    return bosses(params, sides_of(params))
+
+
+def outlines_of(params: FourBarParams) -> Mapping[str, Outline]:
+    """The outline of every plate; raises as :func:`layout_of`."""
+    return layout_of(params).outlines
+
+
+def stack_of(params: FourBarParams) -> Stack:
+    """The layers of plates and the heights of pins; raises as :func:`layout_of`."""
+    return layout_of(params).stack
+
+
+def posts_of(params: FourBarParams) -> dict[str, complex]:
+    """The frames of the posts between two ground plates, and where they stand on them, x + i y, mm."""
+    layout = layout_or_none(params)
+    posts = () if layout is None else layout.posts
+    return {f"ground-post-{number}": at for number, at in enumerate(posts, start=1)}
 
 
 def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[str, Poses]:
@@ -185,6 +129,9 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
     places = [(name, name, 0j) for name in moving]
     places += [(one.frame, one.body, one.place) for one in joints_of(params).values() if one.place]
     places.append(("coupler-b", "coupler", complex(params.coupler)))
+    if sides_of(params) == 2:
+        places.append(("ground-b0", "ground", complex(params.ground)))
+    places += [(name, "ground", at) for name, at in posts_of(params).items()]
     poses = {}
     for frame, body, place in places:
         at = moving[body].point(place).position + pivot
@@ -198,6 +145,8 @@ def held_by(params: FourBarParams) -> dict[str, Held]:
     for one in joints_of(params).values():
         if one.place:
             held |= fixed(one.body, one.frame)
+    if sides_of(params) == 2:
+        held |= fixed("ground", "ground-b0", *posts_of(params))
     return {
         **held,
         **fixed("coupler", "coupler-b"),
@@ -208,77 +157,40 @@ def held_by(params: FourBarParams) -> dict[str, Held]:
     }
 
 
-def crank_angles(params: FourBarParams, samples: int) -> Array:
-    """Crank angles (samples,), rad, from X, over one turn in its sense."""
-    return travelled(math.tau if params.direction == "ccw" else -math.tau, samples)
-
-
-@kept
-def stack_of(params: FourBarParams) -> Stack:
-    """The layers of plates and the heights of pins.
-
-    Raises
-    ------
-    GeometryError
-        No order of layers keeps all plates apart.
-    """
-    outlines = outlines_of(params)
-    plates = [
-        Plate(
-            name,
-            name,
-            outline,
-            params.ground_thickness if name == "ground" else params.thickness,
-            (0,) if name == "ground" else (),
-        )
-        for name, outline in outlines.items()
-    ]
-    bar, phi = bar_of(params), crank_angles(params, STACK_SAMPLES)
-    poses = frames_of(params, close(bar, phi).bodies(bar, 1.0))
-    head = HEAD * params.pin_diameter / 2
-    spindles = [
-        Spindle(
-            name,
-            joint.body,
-            joint.place,
-            params.pin_diameter / 2,
-            joint.plates,
-            0.0 if name == "shaft" else head,
-        )
-        for name, joint in joints_of(params).items()
-    ]
-    return stack(plates, spindles, poses, params.clearance, params.washer)
-
-
 def parts_of(params: FourBarParams) -> tuple[Part, ...]:
-    """Plates, shaft, pins and bushings, each standing in the mechanism.
+    """Plates, shafts, pins, bushings and posts, each standing in the mechanism.
 
     Raises
     ------
     GeometryError
-        As :func:`outlines_of` and :func:`stack_of`.
+        As :func:`layout_of`.
     """
-    layers = stack_of(params)
+    layout = layout_of(params)
     parts = [
         Part(
             name,
-            outline,
-            params.ground_thickness if name == "ground" else params.thickness,
+            layout.outlines[name],
+            params.ground_thickness if name.startswith("ground") else params.thickness,
             params.material,
-            (Instance(name, layers.bottom(name)),),
-            COLOURS[name],
+            (Instance("ground" if name == "ground-2" else name, layout.stack.bottom(name)),),
+            colour,
         )
-        for name, outline in sorted(
-            outlines_of(params).items(), key=lambda item: list(COLOURS).index(item[0])
-        )
+        for name, colour in COLOURS.items()
+        if name in layout.outlines
     ]
-    return (*parts, *_pins(params, layers), *_bushings(params, layers))
+    return (
+        *parts,
+        *_pins(params, layout.stack),
+        *_bushings(params, layout.stack),
+        *_posts(params, layout.stack),
+    )
 
 
 def pin_length(params: FourBarParams, layers: Stack, name: str) -> float:
-    """Length of a pin under its head, or of the shaft, mm."""
+    """Length of a pin under its head, or of a shaft, mm."""
     low, high = layers.spans[name]
-    return high - low + (SHAFT * params.pin_diameter if name == "shaft" else 0.0)
+    one = joints_of(params)[name]
+    return high - low + (one.below + one.above) * params.pin_diameter
 
 
 def _pins(params: FourBarParams, layers: Stack) -> list[Part]:
@@ -286,8 +198,8 @@ def _pins(params: FourBarParams, layers: Stack) -> list[Part]:
     parts = []
     for name, joint in joints_of(params).items():
         length = pin_length(params, layers, name)
-        instance = Instance(joint.frame, layers.spans[name][1] - length)
-        head = (0.0, 0.0) if name == "shaft" else (HEAD * diameter, HEAD_HEIGHT * diameter)
+        instance = Instance(joint.frame, layers.spans[name][1] + joint.above * diameter - length)
+        head = (HEAD * diameter, HEAD_HEIGHT * diameter) if joint.head else (0.0, 0.0)
         parts.append(pin_part(name, diameter, length, (instance,), *head))
     return parts
 
@@ -296,15 +208,31 @@ def _bushings(params: FourBarParams, layers: Stack) -> list[Part]:
     if params.bushing_wall == 0:
         return []
     bore, outside = params.pin_diameter + params.running_fit, turning_bore(params)
-    thin = [
-        Instance("coupler", layers.bottom("coupler")),
-        Instance("coupler-b", layers.bottom("coupler")),
-        Instance("follower", layers.bottom("follower")),
-    ]
+    thin = [Instance(name, layers.bottom("coupler")) for name in ("coupler", "coupler-b")]
     thick = [Instance("ground", layers.bottom("ground"))]
+    if sides_of(params) == 2:
+        thick.append(Instance("ground-b0", layers.bottom("ground-2")))
+    else:
+        thin.append(Instance("follower", layers.bottom("follower")))
     if params.thickness == params.ground_thickness:
         return [bushing_part("bushing", bore, outside, params.thickness, thin + thick)]
     return [
         bushing_part("bushing", bore, outside, params.thickness, thin),
         bushing_part("bushing-ground", bore, outside, params.ground_thickness, thick),
+    ]
+
+
+def _posts(params: FourBarParams, layers: Stack) -> list[Part]:
+    """Tubes that hold two ground plates apart, and bolts that go through both and into what they stand on."""
+    frames, diameter = posts_of(params), params.pin_diameter
+    if not frames:
+        return []
+    under, over = layers.bottom("ground") + params.ground_thickness, layers.bottom("ground-2")
+    low, high = layers.spans["post-1"]
+    end = low - BOLT * diameter
+    posts = [Instance(frame, under) for frame in frames]
+    bolts = [Instance(frame, end) for frame in frames]
+    return [
+        bushing_part("post", diameter, diameter + 2 * params.rim, over - under, posts, params.material),
+        pin_part("bolt", diameter, high - end, bolts, HEAD * diameter, HEAD_HEIGHT * diameter),
     ]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import Finding, Progress, Scalar, Synthesis
+from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams
@@ -39,12 +39,22 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
         (one for one in turning if one.bar.least_transmission_angle() >= least),
         key=lambda one: -one.bar.least_transmission_angle(),
     )
+    rejected = Rejected()
+    for one in turning:
+        if one.bar.least_transmission_angle() < least:
+            angle = math.degrees(one.bar.least_transmission_angle())
+            rejected.because("poles.transmission", f"the transmission angle falls to {angle:.3g} degrees")
     candidates, reason = buildable(
-        (_found(one) for one in good), wanted.designs, lambda part: progress(0.5 + 0.3 * part, "designs")
+        (_found(one) for one in good),
+        wanted.designs,
+        rejected,
+        lambda part: progress(0.5 + 0.3 * part, "designs"),
     )
     if candidates:
-        return Synthesis(tuple(candidates), tuple(_notes(problem, turning, len(candidates))))
-    return Synthesis((), (_refusal(wanted, result.nearest, turning, bool(good), reason, progress),))
+        notes = tuple(_notes(problem, turning, len(candidates)))
+        return Synthesis(tuple(candidates), notes, rejected.reasons)
+    refusal = _refusal(wanted, result.nearest, turning, bool(good), reason, progress)
+    return Synthesis((), (refusal,), rejected.reasons)
 
 
 def _found(one: PoleSolution) -> Found:

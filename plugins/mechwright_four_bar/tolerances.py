@@ -18,20 +18,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright import Array, Output, ToleranceModel, Tolerances
+from mechwright import Array, DesignError, Output, ToleranceModel, Tolerances
 from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.loop import directions
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.plates import bar_of
+from mechwright_four_bar.plates import joints_of, sides_of
+from mechwright_four_bar.reach import bar_of, course_of
 
 FOLLOWER = Output("follower angle", "rad")
 POINT = Output("coupler point", "mm", 2)
 
 LINKS = ("crank", "coupler", "follower", "ground")
-JOINTS = ("shaft", "pin-a", "pin-b", "pin-b0")
 
 _POSITIONS = 361
-"""Positions of the crank, both ends of the turn included."""
+"""Positions of the crank, both ends of the turn, or of the swing of a lever, included."""
 
 
 class FourBarTolerances(ToleranceModel):
@@ -41,12 +41,27 @@ class FourBarTolerances(ToleranceModel):
 
     def __init__(self, params: FourBarParams, tolerances: Tolerances) -> None:
         self.bar = bar_of(params)
+        if self.bar.lines_up and params.swing_from is None:
+            raise DesignError(
+                "crank: where all links line up, no error is in proportion to a tolerance; swing the crank "
+                "between its change points, or make the linkage a little different"
+            )
         self.place = params.coupler_point
-        self.positions = self.bar.ground_angle + np.linspace(0, 2 * np.pi, _POSITIONS)
-        sizes = [tolerances.length(name, getattr(params, name)) for name in LINKS]
+        way = course_of(params)
+        self.positions = (
+            np.sort(way.way(_POSITIONS))
+            if way.rocks
+            else self.bar.ground_angle + np.linspace(0, 2 * np.pi, _POSITIONS)
+        )
+        nominal = {name: float(getattr(params, name)) for name in LINKS}
+        if sides_of(params) == 2:
+            # In each plate its bore stands so far from the middle of those for the posts.
+            nominal |= {"ground": params.ground / 2, "ground-2": params.ground / 2}
+        self.joints, self.links = tuple(joints_of(params)), tuple(nominal)
+        sizes = [tolerances.length(name, value) for name, value in nominal.items()]
         pins = [
             tolerances.pin(name, params.pin_diameter, params.running_fit, member=name in ("pin-a", "pin-b"))
-            for name in JOINTS
+            for name in self.joints
         ]
         point = []
         if self.place is not None:
@@ -72,7 +87,7 @@ class FourBarTolerances(ToleranceModel):
         ground = np.exp(1j * np.full(at.shape, self.bar.ground_angle))
         along, one = np.ones(at.shape, dtype=complex), 1j
         # What each deviation adds to the left side of the loop, per unit; those of a pin along and across u.
-        shift = [crank, u, -w, -ground]
+        shift = [crank, u, -w, *[-ground] * (len(self.links) - 3)]
         pins = [(sign * u * along, sign * one * u) for sign in (1, 1, 1, -1)]
         steps = [[value] for value in shift] + [list(pair) for pair in pins]
         if self.place is not None:
@@ -104,9 +119,9 @@ class FourBarTolerances(ToleranceModel):
         """The loop closed anew."""
         named = {one.name: value for one, value in zip(self.contributors, deviations, strict=True)}
         crank, u, w = self._closed(np.zeros(4), 0j, at)
-        pins = [_plane(named[name]) * u for name in JOINTS]
+        pins = [_plane(named[name]) * u for name in self.joints]
         turned = at + named["input"][0] if "input" in named else at
-        sizes = [named[name][0] for name in LINKS]
+        sizes = [*(named[name][0] for name in LINKS[:3]), sum(named[name][0] for name in self.links[3:])]
         moved, s, p = self._closed(sizes, pins[0] + pins[1] + pins[2] - pins[3], turned)
         if self.place is None or output == FOLLOWER.name:
             return np.angle(p * np.conj(w))[None]

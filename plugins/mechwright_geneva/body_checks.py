@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from mechwright import Finding, GeometryError
 from mechwright.contracts.finding import errors
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_geneva.counterbore import counterbore_findings
 from mechwright_geneva.crank import boss_radius
 from mechwright_geneva.fixings import driver_room, greatest_island_dowel, island_places, web_place
@@ -13,6 +14,9 @@ from mechwright_geneva.openings import driver_radius, hub_radius, opening_findin
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.sound import LEAST_BITE
 from mechwright_geneva.wheel import Wheel
+
+SIZING = ("entry_radius", "centre_distance", "crank_half_angle", "offset_angle")
+"""Keys that tell how much room the driver has."""
 
 ROLLER_WALL = 0.1
 """Least wall of a roller about its pin, in roller radii: what the smallest needle rollers have."""
@@ -47,10 +51,9 @@ def _construction(m: Mechanism) -> Iterator[Finding]:
 
 def _lock(m: Mechanism) -> Iterator[Finding]:
     params = m.params
-    least = m.axes - m.rim + LEAST_BITE - params.lock_clearance
-    most = m.greatest_lock
+    least, most = m.least_lock, m.greatest_lock
     horn = m.nearest - m.groove - m.arc
-    if most < least:
+    if falls_short(most, least):
         yield Finding.error(
             "geneva.lock",
             "lock_radius" if params.lock_radius else "least_wall",
@@ -59,10 +62,9 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             most,
             least,
             "mm",
-            "make roller_radius or least_wall smaller, or change offset_angle or crank_half_angle",
         )
         return
-    if horn < params.least_wall - 1e-9:
+    if falls_short(horn, params.least_wall):
         yield Finding.error(
             "geneva.horn",
             "lock_radius",
@@ -70,10 +72,10 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             horn,
             params.least_wall,
             "mm",
-            f"make lock_radius at most {math.floor(most * 100) / 100:g}, or leave it out",
+            f"make lock_radius at most {_down(most)}, or leave it out",
         )
         return
-    if m.lock < least:
+    if falls_short(m.lock, least):
         yield Finding.error(
             "geneva.lock",
             "lock_radius",
@@ -93,7 +95,7 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             2 * bites * m.rim,
             params.least_wall,
             "mm",
-            "make lock_radius smaller, or leave it out",
+            "leave lock_radius out" if params.lock_radius else "",
         )
         return
     try:
@@ -106,14 +108,14 @@ def _lock(m: Mechanism) -> Iterator[Finding]:
             m.lock,
             most,
             "mm",
-            f"make lock_radius larger, up to {math.floor(most * 100) / 100:g}, or crank_half_angle larger",
+            f"make lock_radius at most {_down(most)}, or leave it out" if most < m.lock else "",
         )
 
 
 def _hub(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     room = m.axes - m.arc - hub_radius(params)
-    if room < params.least_wall:
+    if falls_short(room, params.least_wall):
         yield Finding.error(
             "geneva.hub",
             "bore" if params.hub_diameter / 2 <= reach(wheel_opening(params)) else "hub_diameter",
@@ -126,7 +128,7 @@ def _hub(m: Mechanism) -> Iterator[Finding]:
     if params.hub_diameter > 0:
         inside = params.hub_diameter / 2 - reach(wheel_opening(params))
         wanted = 2 * params.least_wall + params.fixing if params.fixing else params.least_wall
-        if inside < wanted:
+        if falls_short(inside, wanted):
             yield Finding.error(
                 "geneva.hub",
                 "hub_diameter",
@@ -157,7 +159,7 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
             else 'make least_wall smaller, or use construction = "blind"',
         )
     _, room = web_place(m)
-    if room < fixing / 2 + least:
+    if falls_short(room, fixing / 2 + least):
         yield Finding.error(
             "geneva.fixing",
             "fixing",
@@ -171,7 +173,7 @@ def _dowels(m: Mechanism) -> Iterator[Finding]:
 
 def _pin(m: Mechanism) -> Iterator[Finding]:
     most = 2 * m.roller * (1 - ROLLER_WALL)
-    if m.params.pin_diameter > most:
+    if exceeds(m.params.pin_diameter, most):
         yield Finding.error(
             "geneva.pin",
             "pin_diameter",
@@ -179,7 +181,7 @@ def _pin(m: Mechanism) -> Iterator[Finding]:
             m.params.pin_diameter,
             most,
             "mm",
-            f"make pin_diameter at most {math.floor(most * 100) / 100:g}",
+            f"make pin_diameter at most {_down(most)}",
         )
 
 
@@ -187,19 +189,20 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     inner, outer = driver_room(m)
     wanted = driver_radius(0.0, params.least_wall, params.fixing)
-    if outer - inner < wanted:
+    if falls_short(outer - inner, wanted):
         blame = "driver_bore" if params.fixing == 0 or outer - inner < params.least_wall else "fixing"
-        bore = 2 * (outer - wanted)
-        cures = ["make entry_radius larger"]
-        if bore >= 1 and params.driver_bore > 0 and params.driver_keyway_width == 0:
-            cures.insert(0, f"make driver_bore at most {math.floor(bore * 10) / 10:g}")
-        elif params.driver_bore > 0:
-            cures.insert(0, "make driver_bore smaller, or 0")
+        given = [key for key in SIZING if key not in params.left_out]
+        if blame in params.left_out and given:
+            blame = given[0]
+        cures = []
         dowel = outer - inner - 2 * params.least_wall
-        if params.fixing > 0:
-            cures.insert(
-                0, f"make fixing at most {math.floor(dowel * 10) / 10:g}" if dowel >= 1 else "set fixing to 0"
-            )
+        if params.fixing > 0 and dowel >= 1:
+            cures.append(f"make fixing at most {math.floor(dowel * 10) / 10:g}")
+        elif params.fixing > 0 and outer - inner >= params.least_wall:
+            cures.append("set fixing to 0")
+        bore = 2 * (outer - wanted)
+        if bore >= 1 and params.driver_keyway_width == 0 and "driver_bore" not in params.left_out:
+            cures.append(f"make driver_bore at most {math.floor(bore * 10) / 10:g}")
         yield Finding.error(
             "geneva.driver",
             blame,
@@ -219,3 +222,8 @@ def _driver(m: Mechanism) -> Iterator[Finding]:
             overhang,
             "mm",
         )
+
+
+def _down(length: float) -> str:
+    """A length in hundredths, not rounded up."""
+    return f"{math.floor(length * 100) / 100:g}"

@@ -1,69 +1,34 @@
-"""What an engineer would object to in a design, and the figures worth knowing.
+"""What an engineer would object to in a design, and the figures worth knowing."""
 
-Each group needs what the groups before it have found to be sound, so the first group with an error ends the
-list.
-"""
+from dataclasses import replace
 
-import math
-from collections.abc import Iterator
-
-from mechwright import Finding, Stage, kept, of_stage, until_error
-from mechwright_geneva.body_checks import body_findings
-from mechwright_geneva.clearance_checks import clearance_findings
-from mechwright_geneva.feasible import feasibility
-from mechwright_geneva.load_checks import load_findings
-from mechwright_geneva.mechanism import Mechanism, mechanism_of
-from mechwright_geneva.motion import peaks_of
+from mechwright import Finding, Severity, kept
 from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.slot_checks import REGIMES, slot_findings
-from mechwright_geneva.wheel import Wheel
+from mechwright_geneva.released import released
+from mechwright_geneva.unmended import unmended
+
+_LAST = "choose another law, or the sizes that stand in the way smaller"
 
 
 @kept
 def findings(params: GenevaParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
-    return until_error(params, feasibility, _mechanism_findings, clearance_findings)
+    return tuple(_mended(params, finding) for finding in unmended(params))
 
 
-@of_stage(Stage.PARTS)
-def _mechanism_findings(params: GenevaParams) -> tuple[Finding, ...]:
-    return until_error(mechanism_of(params), slot_findings, body_findings, load_findings, _figures)
+def _mended(params: GenevaParams, finding: Finding) -> Finding:
+    """An error about a size that the design gives, and not about what has been made of it.
 
-
-def _figures(m: Mechanism) -> Iterator[Finding]:
-    yield Finding.note(
-        "geneva.size",
-        f"centre distance {m.axes:.4f} mm, crank radius {m.crank:.4f} mm, slot bottom {m.bottom:.4f} "
-        f"mm from the wheel's axis, locking disc {m.lock:.3f} mm",
-        m.axes,
-        "mm",
-    )
-    peaks = peaks_of(m)
-    yield Finding.note(
-        "geneva.motion",
-        f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the "
-        f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
-        peaks.a,
-    )
-    wheel = Wheel(m)
-    play = math.degrees(wheel.free_play)
-    yield Finding.note(
-        "geneva.play",
-        f"in the middle of the dwell the locked wheel can turn by {play:.4f} degrees either way; within "
-        f"{math.degrees(wheel.arc_half):.1f} degrees of its ends the disc covers one horn only, and it is "
-        "more",
-        play,
-        "deg",
-    )
-    if m.straight:
-        return
-    found = m.measures
-    limit = float(found.island_limit[0])
-    yield Finding.note(
-        "geneva.slot",
-        f"regime {REGIMES[m.side]}: critical roller radius {limit:.4f} mm, tip of the island "
-        f"{limit - m.groove:.3f} mm, neck {2 * float(found.neck[0]):.3f} mm, web "
-        f"{float(found.web[0]):.3f} mm; cutters up to {2 * m.groove:.3f} mm cut the groove",
-        limit,
-        "mm",
+    Where no change of one size cures it, the remedy is the change of several that does.
+    """
+    if finding.severity is not Severity.ERROR:
+        return finding
+    given = [key for key in GenevaParams.model_fields if key in params.model_fields_set]
+    named = next((key for key in given if key in (finding.parameter, *finding.remedy.split())), "")
+    remedy = finding.remedy
+    if not (remedy and named):
+        other, key = released(params)
+        remedy, named = (other, key) if other else (remedy or _LAST, finding.parameter)
+    return replace(
+        finding, remedy=remedy, parameter=finding.parameter if finding.parameter in given else named
     )

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from mechwright import Finding, Severity, Stage, of_stage
+from mechwright.tolerances import falls_short
 from mechwright_geneva.assembly import BINDING, LEAST_GROOVE, LEAST_LOCK
 from mechwright_geneva.params import GenevaParams
 
@@ -15,7 +16,7 @@ def clearance_findings(params: GenevaParams) -> Iterator[Finding]:
         ("lock_clearance", LEAST_LOCK, "the locking disc seizes in the wheel"),
     ):
         given = getattr(params, parameter)
-        if given >= least:
+        if not falls_short(given, least):
             continue
         binds = given < BINDING
         does = what if binds else what.replace("binds", "may bind").replace("seizes", "may seize")

@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_geneva.mechanism import frame_of
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.params import GenevaParams, Sizes
+from mechwright_geneva.sizes import sized
 from mechwright_geneva.sound import LEAST_LOCKED
 
 LEAST_FLOOR = 0.5
@@ -15,6 +17,9 @@ LEAST_FLOOR = 0.5
 
 ANGLE_SLACK = 1e-6
 """Degrees by which the angles of a straight slot may be off: rounding of the design file."""
+
+LENGTH_SLACK = 1e-3
+"""mm by which a centre distance may be off that is given besides what tells it: decimals of a drawing."""
 
 FLATTEST = 1.0
 """Degrees that W + θd0/2 stays below 90, and W above 0: beyond, the slot's bottom is on the wheel's axis, or
@@ -26,8 +31,9 @@ def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
     """Errors that leave nothing to compute."""
     found = list(_law(params))
     if not errors(found):
-        found += _straight(params) if params.law == "straight" else _angles(params)
-        found += [*_rollers(params), *_floor(params)]
+        sizes = sized(params)
+        found += _straight(sizes) if params.law == "straight" else _angles(sizes)
+        found += [*_centres(params), *_rollers(sizes), *_floor(sizes)]
     return tuple(found)
 
 
@@ -48,9 +54,9 @@ def _law(params: GenevaParams) -> Iterator[Finding]:
         )
 
 
-def _straight(params: GenevaParams) -> Iterator[Finding]:
+def _straight(params: Sizes) -> Iterator[Finding]:
     wanted = 90 - 180 / params.slots
-    if params.crank_half_angle is not None and abs(params.crank_half_angle - wanted) > ANGLE_SLACK:
+    if abs(params.crank_half_angle - wanted) > ANGLE_SLACK:
         yield Finding.error(
             "geneva.straight",
             "crank_half_angle",
@@ -60,7 +66,7 @@ def _straight(params: GenevaParams) -> Iterator[Finding]:
             "deg",
             f"use crank_half_angle = {wanted:g}, leave it out, or choose another law",
         )
-    if params.offset_angle is not None and params.offset_angle != 0:
+    if params.offset_angle != 0:
         yield Finding.error(
             "geneva.straight",
             "offset_angle",
@@ -72,12 +78,36 @@ def _straight(params: GenevaParams) -> Iterator[Finding]:
         )
 
 
-def _angles(params: GenevaParams) -> Iterator[Finding]:
+def _centres(params: GenevaParams) -> Iterator[Finding]:
+    """Wheel and angles tell the distance of the axes: one that is given as well has to agree."""
+    if params.centre_distance is None:
+        return
+    sizes = sized(params)
+    axes = float(frame_of(sizes).axes)
+    if abs(axes - params.centre_distance) <= LENGTH_SLACK:
+        return
+    wheel = sizes.entry_radius * params.centre_distance / axes
+    cure = f"use centre_distance = {axes:.4f}, or leave it out"
+    if 5 <= wheel <= 1000 and params.entry_radius is not None:
+        cure = f"use entry_radius = {wheel:.4f} or leave it out, or {cure}"
+    yield Finding.error(
+        "geneva.centre-distance",
+        "centre_distance",
+        f"a wheel of {sizes.entry_radius:g} mm whose slots turn the crank by {2 * sizes.crank_half_angle:g} "
+        f"degrees stands {axes:.4f} mm from the driver",
+        params.centre_distance,
+        axes,
+        "mm",
+        cure,
+    )
+
+
+def _angles(params: Sizes) -> Iterator[Finding]:
     frame = frame_of(params)
     entry, half = math.degrees(frame.entry_angle), math.degrees(frame.crank_half)
     reach = entry + half / 2
     limit = 90 - FLATTEST
-    if reach > limit:
+    if exceeds(reach, limit):
         wheel = math.degrees(frame.wheel_half)
         most, offset = 2 * (limit - entry), limit - half / 2 - wheel
         cures = []
@@ -94,8 +124,9 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
             limit,
             "deg",
             ", or ".join(cures),
+            Stage.MOTION if reach == 90 else Stage.PARTS,  # through the axis itself no force has a lever
         )
-    elif entry < FLATTEST:
+    elif falls_short(entry, FLATTEST):
         yield Finding.error(
             "geneva.angles",
             "offset_angle",
@@ -104,10 +135,11 @@ def _angles(params: GenevaParams) -> Iterator[Finding]:
             FLATTEST,
             "deg",
             f"make offset_angle at least {FLATTEST - 180 / params.slots:g}",
+            Stage.PARTS if entry > 0 else Stage.MOTION,
         )
 
 
-def _rollers(params: GenevaParams) -> Iterator[Finding]:
+def _rollers(params: Sizes) -> Iterator[Finding]:
     half = math.degrees(frame_of(params).crank_half)
     turn = 360 / params.rollers
     locked = turn - 2 * half
@@ -130,7 +162,7 @@ def _rollers(params: GenevaParams) -> Iterator[Finding]:
 
 
 @of_stage(Stage.PARTS)
-def _floor(params: GenevaParams) -> Iterator[Finding]:
+def _floor(params: Sizes) -> Iterator[Finding]:
     length = params.roller_length
     if params.slots_made != "through" and length < LEAST_FLOOR:
         most = params.thickness - params.axial_gap - LEAST_FLOOR

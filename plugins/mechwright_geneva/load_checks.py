@@ -2,11 +2,18 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
 
 from mechwright import Finding, Severity
+from mechwright.tolerances import exceeds
 from mechwright_geneva.contact import loads, strength
+from mechwright_geneva.cures import walls_of
+from mechwright_geneva.horns import clear
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.motion import peaks_of, straight_peaks
+from mechwright_geneva.sound import LEAST_BITE, sound
 
 
 def load_findings(m: Mechanism) -> Iterator[Finding]:
@@ -19,8 +26,9 @@ def load_findings(m: Mechanism) -> Iterator[Finding]:
 
 def _against_straight(m: Mechanism) -> Iterator[Finding]:
     own, straight = peaks_of(m), straight_peaks(m.slots)
-    if own.a > straight.a:
-        half = m.crank_half * math.sqrt(own.a / straight.a)
+    if exceeds(own.a, straight.a):
+        half = math.ceil(10 * math.degrees(m.crank_half * math.sqrt(own.a / straight.a))) / 10
+        longer = f"make crank_half_angle at least {half:g}, " if _turns_by(m, math.radians(half)) else ""
         yield Finding.warning(
             "geneva.acceleration",
             "law",
@@ -28,8 +36,7 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             f"{straight.a:.4g} per crank speed squared (the straight slot jerks at its ends instead)",
             own.a,
             straight.a,
-            remedy=f"make crank_half_angle at least {math.ceil(math.degrees(half) * 10) / 10:g}, choose a "
-            "law with a lower peak, or accept it for the sake of the jerk",
+            remedy=f"{longer}choose a law with a lower peak, or accept it for the sake of the jerk",
         )
     if abs(m.law.jumps[0]) > _JUMP or abs(m.law.jumps[1]) > _JUMP:
         yield Finding.warning(
@@ -40,6 +47,16 @@ def _against_straight(m: Mechanism) -> Iterator[Finding]:
             0.0,
             remedy="choose a law whose acceleration is 0 at both ends",
         )
+
+
+def _turns_by(m: Mechanism, half: float) -> bool:
+    """Whether the slots are sound, and a disc locks the wheel, with another half angle of the crank."""
+    wanted = (m.law, m.wheel_half, [half], float(m.frame.offset), m.rim, m.groove, walls_of(m))
+    if math.degrees(float(m.frame.entry_angle) + half / 2) > 89 or not sound(*wanted).all():
+        return False
+    frame = replace(m.frame, crank_half=np.asarray(half))
+    least = float(frame.axes) - m.rim + LEAST_BITE - m.params.lock_clearance
+    return bool(clear(frame, m.law, np.array([least]), m.params.lock_clearance).all())
 
 
 _JUMP = 1e-3
@@ -75,7 +92,7 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
 
 def _pressure(m: Mechanism) -> Iterator[Finding]:
     load, limit = loads(m), strength(m.params.material, m.params.roller_material)
-    if load.pressure > limit:
+    if exceeds(load.pressure, limit):
         yield Finding.warning(
             "geneva.pressure",
             "load_inertia",

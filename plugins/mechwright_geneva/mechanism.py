@@ -7,19 +7,22 @@ from functools import cached_property
 import numpy as np
 
 from mechwright import kept
-from mechwright.mechanics.laws import LAWS, Law, Polynomial
+from mechwright.mechanics.laws import Law
+from mechwright_geneva.horns import greatest_disc
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
+from mechwright_geneva.law import law_of
 from mechwright_geneva.limits import FINE_SAMPLES, Measures, measure, samples_of
-from mechwright_geneva.params import GenevaParams
-from mechwright_geneva.straight import StraightSlot
-
-OFFSET = 5.0
-"""Offset angle of curved slots that the design leaves open, degrees, and how much more than with straight
-slots the crank then turns: both are those of the worked reference."""
+from mechwright_geneva.params import GenevaParams, Sizes
+from mechwright_geneva.sizes import sized
+from mechwright_geneva.sound import LEAST_BITE
 
 _COARSE, _ZOOMS = 65, 4
 """Samples that find the sharpest bend, and how often they are drawn together: 1e-5 of the stroke, where a
 parabola about the bend is flat to rounding."""
+
+
+_RIGHT = 1e-12
+"""Radians by which a right angle is off that has been through degrees."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,14 +32,14 @@ class Mechanism:
     Parameters
     ----------
     params
-        The design.
+        The design with all its sizes.
     law
         Of the wheel's motion.
     frame
         The fixed geometry, of scalars.
     """
 
-    params: GenevaParams
+    params: Sizes
     law: Law
     frame: Frame
 
@@ -111,9 +114,15 @@ class Mechanism:
         return self.crank if self.straight else float(self.measures.nearest[0])
 
     @property
+    def least_lock(self) -> float:
+        """Smallest locking disc that reaches into the wheel."""
+        return self.axes - self.rim + LEAST_BITE - self.params.lock_clearance
+
+    @cached_property
     def greatest_lock(self) -> float:
-        """Largest locking disc that leaves the least wall between its arcs and the slots."""
-        return self.nearest - self.groove - self.params.lock_clearance - self.params.least_wall
+        """Largest locking disc whose arcs leave the least wall to the slots, and whose ends no horn cuts."""
+        most = self.nearest - self.groove - self.params.lock_clearance - self.params.least_wall
+        return greatest_disc(self.frame, self.law, self.least_lock, most, self.params.lock_clearance)
 
     @property
     def lock(self) -> float:
@@ -160,33 +169,13 @@ def _critical(mechanism: Mechanism, side: int, sampled: float) -> float:
 @kept
 def mechanism_of(params: GenevaParams) -> Mechanism:
     """The mechanism of a design that has no faulty law."""
-    return Mechanism(params, law_of(params), frame_of(params))
+    sizes = sized(params)
+    return Mechanism(sizes, law_of(params), frame_of(sizes))
 
 
-def frame_of(params: GenevaParams) -> Frame:
+def frame_of(sizes: Sizes) -> Frame:
     """The fixed geometry."""
-    wheel = math.pi / params.slots
-    more = 0.0 if params.law == "straight" else OFFSET
-    crank, offset = params.crank_half_angle, params.offset_angle
-    return Frame.of(
-        wheel,
-        math.pi / 2 - wheel + math.radians(more) if crank is None else math.radians(crank),
-        math.radians(more if offset is None else offset),
-        params.entry_radius,
-    )
-
-
-@kept
-def law_of(params: GenevaParams) -> Law:
-    """The law; a table or polynomial has been found free of faults before."""
-    match params.law:
-        case "straight":
-            return StraightSlot(params.slots)
-        case "polynomial":
-            return Polynomial(params.polynomial or ())
-        case "table":
-            from mechwright.mechanics.laws.table import Table
-
-            return Table(params.table or ())
-        case named:
-            return LAWS[named]()
+    wheel, half = math.pi / sizes.slots, math.radians(sizes.crank_half_angle)
+    if sizes.law == "straight" and abs(half + wheel - math.pi / 2) < _RIGHT:
+        half = math.pi / 2 - wheel
+    return Frame.of(wheel, half, math.radians(sizes.offset_angle), sizes.entry_radius)

@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 
-from mechwright import GROUND, Array, Channel, Joint, Motion, Poses, Scalar, Stage, refuse
+from mechwright import GROUND, Array, Channel, Curve, Joint, Motion, Poses, Scalar, Stage, refuse
 from mechwright.contracts.joint import fixed
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.laws import Peaks
 from mechwright_geneva.contact import contact, loads
 from mechwright_geneva.feasible import feasibility
+from mechwright_geneva.kinematics import LEFT, RIGHT
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.straight import StraightSlot
@@ -91,7 +92,24 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
     if m.params.slots_made == "backed":
         for k in range(m.slots):
             poses[island_body(k)] = Poses.planar(0.0, 0.0, theta_w + 2 * m.wheel_half * k)
-    return Motion("theta_d", channels, poses, _figures(m, omega), joints=_joints(m))
+    return Motion("theta_d", channels, poses, _figures(m, omega), joints=_joints(m), curves=_outline(m))
+
+
+_WALL_SAMPLES = 361
+"""Points of a slot's wall: a third of a degree of the crank, at most."""
+
+
+def _outline(m: Mechanism) -> dict[str, Curve]:
+    """The walls of all slots as the rollers envelop them, loops and cusps included, and the wheel's rim."""
+    run = m.stroke(np.linspace(0, 1, _WALL_SAMPLES))
+    walls = {name: run.wall(m.roller, side) for name, side in (("left", LEFT), ("right", RIGHT))}
+    found = {
+        f"slot-{k + 1}-{name}": Curve.planar(WHEEL, wall * np.exp(2j * k * m.wheel_half))
+        for k in range(m.slots)
+        for name, wall in walls.items()
+    }
+    rim = m.rim * np.exp(1j * np.linspace(0, math.tau, _WALL_SAMPLES))
+    return {"rim": Curve.planar(WHEEL, rim), **found}
 
 
 def _joints(m: Mechanism) -> dict[str, Joint]:

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from mechwright import Finding
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.params import Sizes
 
 
-def wheel_opening(params: GenevaParams) -> Opening | None:
+def wheel_opening(params: Sizes) -> Opening | None:
     """The wheel's opening; None without a bore."""
     return _opening(params.bore, params.keyway_width, params.keyway_relief)
 
 
-def driver_opening(params: GenevaParams) -> Opening | None:
+def driver_opening(params: Sizes) -> Opening | None:
     """The driver's opening; None without a bore."""
     return _opening(params.driver_bore, params.driver_keyway_width, params.keyway_relief)
 
@@ -38,7 +38,7 @@ def reach(opening: Opening | None) -> float:
     return math.hypot(opening.floor, opening.width / 2) + opening.bite / 2
 
 
-def hub_radius(params: GenevaParams) -> float:
+def hub_radius(params: Sizes) -> float:
     """Radius about the wheel's axis that the slots must leave alone: opening or hub, mm."""
     return max(reach(wheel_opening(params)), params.hub_diameter / 2)
 
@@ -48,14 +48,14 @@ def driver_radius(bore: float, least_wall: float, fixing: float) -> float:
     return bore + (2 * least_wall + fixing if fixing > 0 else least_wall)
 
 
-def opening_findings(params: GenevaParams) -> Iterator[Finding]:
+def opening_findings(params: Sizes) -> Iterator[Finding]:
     """What is wrong with bores and keyways by themselves."""
     for bore, width in (("bore", "keyway_width"), ("driver_bore", "driver_keyway_width")):
         yield from _one(params, bore, width)
-    yield from too_small({"keyway_relief": params.keyway_relief})
+    yield from too_small({"keyway_relief": params.keyway_relief, "fixing": params.fixing})
 
 
-def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Finding]:
+def _one(params: Sizes, bore_name: str, width_name: str) -> Iterator[Finding]:
     bore, width = float(getattr(params, bore_name)), float(getattr(params, width_name))
     small = list(too_small({bore_name: bore, width_name: width}))
     yield from small
@@ -75,4 +75,5 @@ def _one(params: GenevaParams, bore_name: str, width_name: str) -> Iterator[Find
         fitting.width if fitting else None,
         "mm",
         f"use one of {', '.join(f'{one.width:g}' for one in KEYS)}",
+        proposed=({f"parameters.{width_name}": fitting.width},) if fitting else (),
     )

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.contracts.fits import HoleClass
 from mechwright.units import Millimetres, RevPerMin, Unit
 
@@ -33,8 +33,16 @@ class GenevaParams(Parameters):
     'auto'
     """
 
-    slots: int = Field(4, ge=3, le=12, description="Number of slots n of the wheel, which turns by 360/n.")
-    law: LawName = Field("cycloidal", description="How the wheel goes from rest to rest.")
+    slots: int = Field(
+        4,
+        ge=3,
+        le=12,
+        description="Number of slots n of the wheel, which turns by 360/n.",
+        json_schema_extra=FIRST,
+    )
+    law: LawName = Field(
+        "cycloidal", description="How the wheel goes from rest to rest.", json_schema_extra=FIRST
+    )
     polynomial: Annotated[tuple[Coefficient, ...], Field(max_length=16)] | None = Field(
         None, description='Coefficients c0, c1, ... of s(u) for law = "polynomial"; s and u run from 0 to 1.'
     )
@@ -44,34 +52,57 @@ class GenevaParams(Parameters):
     crank_half_angle: Annotated[float, Field(ge=5, le=120), Unit("deg")] | None = Field(
         None,
         description=(
-            "Half the crank's angle of a stroke; left out, 90 - 180/n for straight slots, 5 more for others."
+            "Half the crank's angle of a stroke; left out, 90 - 180/n for straight slots, usual for others."
         ),
     )
     offset_angle: Annotated[float, Field(ge=-60, le=60), Unit("deg")] | None = Field(
         None,
         description=(
             "Half the angle between the mouths of a slot; its sign tells the island's side. Left out, "
-            "5, or 0 for straight slots."
+            "0 for straight slots, usual for others."
         ),
     )
-    entry_radius: Millimetres = Field(
-        100.0, ge=5, le=1000, description="Radius of the wheel, where the roller's centre enters."
+    entry_radius: Annotated[float, Field(ge=5, le=1000), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Radius of the wheel, where the roller's centre enters; left out, as centre_distance wants it, "
+            "or 100, and more where the driver needs room."
+        ),
+        json_schema_extra=FIRST,
     )
-    roller_radius: Millimetres = Field(5.0, ge=0.5, le=100, description="Radius of the rollers.")
+    centre_distance: Annotated[float, Field(ge=5, le=3000), Unit("mm")] | None = Field(
+        None, description="Distance of the axes; left out, as wheel and angles give it."
+    )
+    roller_radius: Annotated[float, Field(ge=0.5, le=100), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Radius of the rollers; left out, the largest standard one up to a twentieth of entry_radius "
+            "with which the slots are sound."
+        ),
+        json_schema_extra=FIRST,
+    )
     groove_clearance: Millimetres = Field(
         0.08, ge=0, le=2, description="How much wider a slot is than the roller; 0.08 runs as made."
     )
-    rollers: int = Field(1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.")
+    rollers: int = Field(
+        1, ge=1, le=4, description="Number of rollers on the driver, evenly spaced.", json_schema_extra=FIRST
+    )
     lock_radius: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
         None, description="Radius of the locking disc; left out, the largest that leaves the least wall."
     )
     lock_clearance: Millimetres = Field(
         0.1, ge=0.005, le=2, description="Gap between the locking disc and the wheel."
     )
-    least_wall: Millimetres = Field(
-        2.0, ge=0.2, le=50, description="Thinnest wall that may stay anywhere: webs, horns, islands, hubs."
+    least_wall: Annotated[float, Field(ge=0.2, le=50), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Thinnest wall that may stay anywhere: webs, horns, islands, hubs; left out, 2, less on wheels "
+            "below 70."
+        ),
     )
-    thickness: Millimetres = Field(10.0, ge=1, le=200, description="Thickness of the wheel, floor included.")
+    thickness: Millimetres = Field(
+        10.0, ge=1, le=200, description="Thickness of the wheel, floor included.", json_schema_extra=FIRST
+    )
     construction: Literal["auto", "through", "blind", "backed"] = Field(
         "auto",
         description=(
@@ -82,7 +113,14 @@ class GenevaParams(Parameters):
     floor: Millimetres = Field(
         3.0, ge=0.2, le=100, description="Thickness of the floor under the grooves, or of the backing plate."
     )
-    bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the wheel; 0 for none.")
+    bore: Annotated[float, Field(ge=0, le=300), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Shaft bore of the wheel, 0 for none; left out, the largest standard one up to 0.12 "
+            "entry_radius that leaves the walls."
+        ),
+        json_schema_extra=FIRST,
+    )
     keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the wheel's keyway (DIN 6885-1); 0 for none."
     )
@@ -100,7 +138,11 @@ class GenevaParams(Parameters):
         0.0, ge=0, le=500, description="Diameter of a hub plate under the wheel; 0 for none."
     )
     hub_height: Millimetres = Field(8.0, ge=1, le=200, description="Height of the hub plate.")
-    driver_bore: Millimetres = Field(12.0, ge=0, le=300, description="Shaft bore of the driver; 0 for none.")
+    driver_bore: Annotated[float, Field(ge=0, le=300), Unit("mm")] | None = Field(
+        None,
+        description="Shaft bore of the driver, 0 for none; left out, found as bore is.",
+        json_schema_extra=FIRST,
+    )
     driver_keyway_width: Millimetres = Field(
         0.0, ge=0, le=60, description="Width of the driver's keyway (DIN 6885-1); 0 for none."
     )
@@ -108,8 +150,12 @@ class GenevaParams(Parameters):
         0.0, ge=0, le=20, description="Diameter of the reliefs in the keyways' corners; 0 for none."
     )
     crank_thickness: Millimetres = Field(8.0, ge=1, le=100, description="Thickness of the crank plate.")
-    pin_diameter: Millimetres = Field(
-        6.0, ge=0.5, le=150, description="Diameter of the rollers' pins, and of their holes in the crank."
+    pin_diameter: Annotated[float, Field(ge=0.5, le=150), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Diameter of the rollers' pins, and of their holes in the crank; left out, the largest standard "
+            "one up to 1.2 roller_radius."
+        ),
     )
     pin_fit: Literal["none"] | HoleClass = Field(
         "H7",
@@ -118,20 +164,28 @@ class GenevaParams(Parameters):
             "H7 locates it, N7 and P7 hold it; none for the bare diameter."
         ),
     )
-    fixing: Millimetres = Field(
-        4.0, ge=0, le=30, description="Diameter of the dowels that join stacked plates; 0 for none."
+    fixing: Annotated[float, Field(ge=0, le=30), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Diameter of the dowels that join stacked plates, 0 for none; left out, 4, or the largest "
+            "standard one that the driver has room for."
+        ),
     )
     axial_gap: Millimetres = Field(
         0.5, ge=0.05, le=10, description="Gap along the axes between wheel, crank plate and rollers."
     )
-    material: MaterialName = Field("steel", description="Material of the plates.")
+    material: MaterialName = Field("steel", description="Material of the plates.", json_schema_extra=FIRST)
     roller_material: MaterialName = Field("steel", description="Material of rollers and pins.")
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the driver.")
+    speed: RevPerMin = Field(
+        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+    )
     load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
-        0.01, description="Moment of inertia that turns with the wheel, the wheel's own included."
+        0.01,
+        description="Moment of inertia that turns with the wheel, the wheel's own included.",
+        json_schema_extra=FIRST,
     )
     load_torque: Annotated[float, Field(ge=0, le=1e6), Unit("N*m")] = Field(
-        0.0, description="Constant torque against the wheel's turning."
+        0.0, description="Constant torque against the wheel's turning.", json_schema_extra=FIRST
     )
 
     @property
@@ -162,3 +216,20 @@ class GenevaParams(Parameters):
                     f'{law} is given but law is "{self.law}"; set law = "{law}", or leave it out'
                 )
         return self
+
+
+class Sizes(GenevaParams):
+    """A design table that leaves no dimension open; :func:`mechwright_geneva.sizes.sized` completes one."""
+
+    crank_half_angle: float
+    offset_angle: float
+    entry_radius: float
+    centre_distance: float
+    roller_radius: float
+    least_wall: float
+    bore: float
+    driver_bore: float
+    pin_diameter: float
+    fixing: float
+    left_out: tuple[str, ...] = ()
+    """The keys of the above that the design file leaves out."""

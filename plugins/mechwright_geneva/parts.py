@@ -30,7 +30,7 @@ from mechwright_geneva.fixings import driver_dowels, driver_room, hub_dowels, is
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import DRIVER, WHEEL, island_body, roller_body
 from mechwright_geneva.openings import driver_opening, wheel_opening
-from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.tabs import tab_sites
 from mechwright_geneva.wheel import Wheel
@@ -142,7 +142,7 @@ def _driver(m: Mechanism) -> list[Part]:
     return [disc, crank]
 
 
-def _pin_fit(params: GenevaParams) -> Fit | None:
+def _pin_fit(params: Sizes) -> Fit | None:
     return None if params.pin_fit == "none" else hole_fit(params.pin_diameter, params.pin_fit)
 
 

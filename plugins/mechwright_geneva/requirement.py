@@ -1,13 +1,17 @@
 """What a user asks of a Geneva mechanism that is still to be found."""
 
-from typing import Annotated, Literal
+import math
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from mechwright import MaterialName, Parameters
 from mechwright.units import Millimetres, RevPerMin, Seconds, Unit
 
 SmoothLaw = Literal["cycloidal", "modified-sine", "modified-trapezoid", "3-4-5", "4-5-6-7"]
+
+LENGTH = 300.0
+"""Overall length, mm, where nothing is said of the size."""
 
 
 class IndexingRequirement(Parameters):
@@ -24,8 +28,18 @@ class IndexingRequirement(Parameters):
     index_time: Seconds = Field(
         0.3, gt=0, le=1e5, description="Longest time that a movement may take; the rest of the turn is dwell."
     )
-    overall_length: Millimetres = Field(
-        300.0, ge=20, le=5000, description="Longest side of the mechanism: wheel and crank along their axes."
+    wheel_diameter: Annotated[float, Field(ge=10, le=2000), Unit("mm")] | None = Field(
+        None, description="Diameter of the wheel; left out, as large as the rest allows."
+    )
+    centre_distance: Annotated[float, Field(ge=5, le=3000), Unit("mm")] | None = Field(
+        None, description="Distance of the axes, instead of wheel_diameter; left out, any."
+    )
+    overall_length: Annotated[float, Field(ge=20, le=5000), Unit("mm")] | None = Field(
+        None,
+        description=(
+            "Longest side of the mechanism: wheel and crank along their axes; left out, 300, or any if wheel "
+            "or centre distance is given."
+        ),
     )
     load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
         0.01, description="Moment of inertia that turns with the wheel."
@@ -52,3 +66,16 @@ class IndexingRequirement(Parameters):
     material: MaterialName = Field("steel", description="Material of the plates.")
     roller_material: MaterialName = Field("steel", description="Material of rollers and pins.")
     designs: int = Field(5, ge=1, le=50, description="Number of designs wanted.")
+
+    @property
+    def longest(self) -> float:
+        """The overall length that is allowed, mm; inf if any."""
+        if self.overall_length is not None:
+            return self.overall_length
+        return math.inf if self.wheel_diameter or self.centre_distance else LENGTH
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Self:
+        if self.wheel_diameter is not None and self.centre_distance is not None:
+            raise ValueError("wheel_diameter and centre_distance are both given; leave one of them out")
+        return self

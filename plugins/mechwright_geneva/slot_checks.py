@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding
+from mechwright.tolerances import falls_short
 from mechwright_geneva.cures import greatest_roller, least_offset, walls_of
 from mechwright_geneva.kinematics import Frame
 from mechwright_geneva.mechanism import Mechanism
@@ -21,15 +22,11 @@ def slot_findings(m: Mechanism) -> Iterator[Finding]:
 def _bottom(m: Mechanism) -> Iterator[Finding]:
     walls = walls_of(m)
     room, wanted = m.bottom - m.groove, walls.hub + walls.least
-    if room >= wanted:
+    if not falls_short(room, wanted):
         return
     most = m.bottom - wanted - m.params.groove_clearance / 2
-    if most >= 0.5:
-        cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}, or bore or hub smaller"
-    elif m.straight:
-        cure = "make entry_radius larger, or bore or hub smaller"
-    else:
-        cure = "make crank_half_angle or offset_angle smaller, or entry_radius larger"
+    given = "roller_radius" not in m.params.left_out
+    cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if given and most >= 0.5 else ""
     yield Finding.error(
         "geneva.slot-bottom",
         "roller_radius",
@@ -44,8 +41,10 @@ def _bottom(m: Mechanism) -> Iterator[Finding]:
 def _straight(m: Mechanism) -> Iterator[Finding]:
     """Two straight slots are nearest where their round bottoms begin, or at the bottoms themselves."""
     web = 2 * (m.bottom * math.sin(m.wheel_half) - m.groove)
-    if web < m.params.least_wall:
-        yield _web(m, web, "make roller_radius smaller, or use fewer slots")
+    if falls_short(web, m.params.least_wall):
+        most = m.bottom * math.sin(m.wheel_half) - (m.params.least_wall + m.params.groove_clearance) / 2
+        cure = f"make roller_radius at most {math.floor(most * 100) / 100:g}" if most >= 0.5 else ""
+        yield _web(m, web, cure)
 
 
 def _web(m: Mechanism, web: float, cure: str) -> Finding:
@@ -61,15 +60,13 @@ def _web(m: Mechanism, web: float, cure: str) -> Finding:
 
 
 def _cure(m: Mechanism) -> str:
-    """The least offset angle and the greatest roller that make the slot sound."""
+    """The least offset angle and the greatest roller that make the slot sound; empty if neither does."""
     offset, roller = least_offset(m), greatest_roller(m)
     cures = []
     if offset is not None:
         cures.append(f"use offset_angle = {offset:.2f}")
     if roller is not None:
         cures.append(f"make roller_radius at most {roller:.2f}")
-    if not cures:
-        return "no offset angle and no smaller roller cures it: change crank_half_angle or entry_radius"
     return ", or ".join(cures)
 
 
@@ -129,7 +126,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
         )
         return
     tip = limits["island's"] - m.groove
-    if tip < LEAST_TIP:
+    if falls_short(tip, LEAST_TIP):
         yield Finding.error(
             "geneva.island-tip",
             "roller_radius",
@@ -140,7 +137,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             _cure(m),
         )
     neck = 2 * float(found.neck[0])
-    if neck < walls.least:
+    if falls_short(neck, walls.least):
         yield Finding.error(
             "geneva.island",
             "offset_angle",
@@ -150,7 +147,7 @@ def _curved(m: Mechanism) -> Iterator[Finding]:
             "mm",
             _cure(m),
         )
-    if found.web[0] < walls.least:
+    if falls_short(float(found.web[0]), walls.least):
         yield _web(m, float(found.web[0]), _cure(m))
 
 

@@ -1,8 +1,9 @@
 """Finding a law, angles and a roller for a requirement: a sweep of array operations, then a finer one.
 
-The overall length fixes the scale: with â = a/l and b̂ = b/l of the angles, l (1 + â + b̂) and the boss about
-the pin are as long as is allowed. A larger wheel has the smaller forces, so nothing is lost by filling the
-space. Of the sound designs the one with the least Hertz pressure comes first.
+The wheel, or the distance of the axes, or else the overall length fixes the scale: with â = a/l and b̂ = b/l
+of the angles, l (1 + â + b̂) and the boss about the pin are as long as is allowed. A larger wheel has the
+smaller forces, so nothing is lost by filling the space. Rollers and pins are those that can be bought. Of the
+sound designs the one with the least Hertz pressure comes first.
 """
 
 import math
@@ -11,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright import Array, Candidate, Finding, Progress, Scalar, Synthesis
-from mechwright.contracts.finding import errors
+from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength
@@ -22,10 +22,12 @@ from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.openings import driver_radius
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
+from mechwright_geneva.series import PINS, ROLLERS, largest
 from mechwright_geneva.sound import Walls, sound
+from mechwright_geneva.usual import PIN, WHEEL, dowel_of
 
-HALVES, OFFSETS, ROLLERS = 22, 44, 14
-"""Values of crank half angle, offset angle and roller share tried with each law."""
+HALVES, OFFSETS = 22, 44
+"""Values of crank half angle and offset angle tried with each law and roller."""
 
 LEAST_HALF, GREATEST_HALF = 20.0, 100.0
 """Crank half angles tried, degrees: beyond them the sweep has never found a sound design."""
@@ -52,19 +54,15 @@ _ROUND = 2
 """Decimals of the angles and lengths of a design: what a drawing states."""
 
 APART = 1.0
-"""Degrees by which angles of two designs of one law differ at least, or rollers by a tenth."""
-
-BORE_ROOM = 2.0
-"""Pin diameter over roller radius is held at this over two: a pin half as thick as its roller."""
+"""Degrees by which angles of two designs of one law with one roller differ at least."""
 
 
 @dataclass(frozen=True)
 class _Tried:
-    """Designs of one law, (m,) each: half and offset in degrees, the roller's share of l, and the rest."""
+    """Designs of one law, (m,) each: half and offset in degrees, wheel and roller in mm, and the rest."""
 
     half: Array
     offset: Array
-    share: Array
     rim: Array
     radius: Array
     pressure: Array
@@ -81,64 +79,90 @@ def from_indexing(wanted: IndexingRequirement, progress: Progress) -> Synthesis[
     longest = min(GREATEST_HALF, 180 * wanted.index_time * wanted.speed / 60)
     if longest < LEAST_HALF:
         return Synthesis((), (_too_fast(wanted, longest),))
-    found: list[Candidate[GenevaParams]] = []
+    rejected = Rejected()
     near: list[_Tried] = []
-    for number, law in enumerate(wanted.laws):
-        progress(number / len(wanted.laws), f"sweep of the {law} law")
-        tried = _sweep(wanted, law, *_grid(longest))
-        near.append(tried)
-        good = _good(wanted, tried, limit)
-        if not good.half.size:
-            continue
-        best = good.take(np.argsort(good.pressure, kind="stable")[:KEPT])
-        finer = _good(wanted, _sweep(wanted, law, *_about(best, longest)), limit)
-        order = np.argsort(finer.pressure, kind="stable")
-        found += _checked(wanted, law, finer.take(order), limit)
+    # A driver whose plates are held by dowels is the better one.
+    for dowel in (dowel_of(WHEEL), 0.0):
+        near, found = [], []
+        for number, law in enumerate(wanted.laws):
+            progress(number / len(wanted.laws), f"sweep of the {law} law")
+            tried = _sweep(wanted, law, dowel, *_grid(wanted, longest))
+            near.append(tried)
+            good = _good(wanted, tried, limit)
+            if not good.half.size:
+                continue
+            best = good.take(np.argsort(good.pressure, kind="stable")[:KEPT])
+            finer = _good(wanted, _sweep(wanted, law, dowel, *_about(best, longest)), limit)
+            order = np.argsort(finer.pressure, kind="stable")
+            found += _checked(wanted, law, finer.take(order), limit, rejected)
+        if found:
+            break
     progress(1.0, "done")
     if not found:
-        return Synthesis((), (_none(wanted, near, limit),))
+        return Synthesis((), (_none(wanted, near, limit),), rejected.reasons)
     ranked = sorted(found, key=lambda one: one.figures["contact_pressure"].value)
-    return Synthesis(tuple(ranked[: wanted.designs]))
+    return Synthesis(tuple(ranked[: wanted.designs]), (), rejected.reasons)
 
 
-def _grid(longest: float) -> tuple[Array, Array, Array]:
+def _grid(wanted: IndexingRequirement, longest: float) -> tuple[Array, Array, Array]:
+    """Angles, and the rollers that may suit a wheel of the size that is asked for."""
     half = np.linspace(LEAST_HALF, longest, HALVES)
     offset = np.linspace(-GREATEST_OFFSET, GREATEST_OFFSET, OFFSETS)
-    share = np.geomspace(LEAST_SHARE, GREATEST_SHARE, ROLLERS)
-    a, b, c = (grid.ravel() for grid in np.meshgrid(half, offset, share, indexing="ij"))
+    most = min(
+        wanted.longest / 2, wanted.centre_distance or math.inf, (wanted.wheel_diameter or math.inf) / 2
+    )
+    # Twice the wheel and more is the overall length; the wheel of the smallest angles is a quarter of it.
+    radii = [one / 2 for one in ROLLERS if LEAST_SHARE * most / 4 <= one / 2 <= GREATEST_SHARE * most]
+    sizes = np.clip(radii or [LEAST_SHARE * most], 0.5, 100)
+    a, b, c = (grid.ravel() for grid in np.meshgrid(half, offset, sizes, indexing="ij"))
     return a, b, c
 
 
 def _about(best: _Tried, longest: float) -> tuple[Array, Array, Array]:
-    """Values within a step of the first grid about each of some designs."""
+    """Angles within a step of the first grid about each of some designs, with its roller."""
     steps = np.linspace(-1, 1, FINER)
-    a, b, c = (grid.ravel() for grid in np.meshgrid(steps, steps, steps, indexing="ij"))
+    a, b = (grid.ravel() for grid in np.meshgrid(steps, steps, indexing="ij"))
     half = best.half[:, None] + a * (longest - LEAST_HALF) / (HALVES - 1)
     offset = best.offset[:, None] + b * 2 * GREATEST_OFFSET / (OFFSETS - 1)
-    share = best.share[:, None] * (GREATEST_SHARE / LEAST_SHARE) ** (c / (ROLLERS - 1))
-    return np.clip(half, 5, longest).ravel(), offset.ravel(), share.ravel()
+    radius = np.broadcast_to(best.radius[:, None], half.shape)
+    return np.clip(half, 5, longest).ravel(), offset.ravel(), radius.ravel()
 
 
-def _sweep(wanted: IndexingRequirement, law: str, half: Array, offset: Array, share: Array) -> _Tried:
+def _wheels(wanted: IndexingRequirement, unit: Frame, radius: Array) -> Array:
+    """Radius of the wheel of each design, mm, in hundredths; 0 where it cannot be as long as is allowed."""
+    length, axes = (1 + unit.axes + unit.crank)[:, 0], unit.axes[:, 0]
+    pins = np.array([largest(PINS, PIN * one) for one in radius])
+    # The boss about a pin is as large as the roller, or the pin and a wall.
+    allowed = (wanted.longest - np.maximum(radius, pins / 2 + wanted.least_wall)) / length
+    if wanted.wheel_diameter is not None:
+        rim = np.full(radius.shape, wanted.wheel_diameter / 2)
+    elif wanted.centre_distance is not None:
+        rim = wanted.centre_distance / axes
+    else:
+        rim = allowed = np.floor(allowed * 10**_ROUND) / 10**_ROUND
+    wheels: Array = np.where(rim <= allowed, rim, 0.0)
+    return wheels
+
+
+def _sweep(
+    wanted: IndexingRequirement, law: str, dowel: float, half: Array, offset: Array, radius: Array
+) -> _Tried:
     """Rank designs of one law: scale, soundness, pressure, acceleration."""
     half, offset = half.round(_ROUND), offset.round(_ROUND)
     wheel = math.pi / wanted.slots
     able = (180 / wanted.slots + offset + half / 2 < 89) & (180 / wanted.slots + offset > 1)
-    half, offset, share = half[able], offset[able], share[able]
-    unit = Frame.of(wheel, np.radians(half), np.radians(offset), 1.0)
-    length = 1 + unit.axes[:, 0] + unit.crank[:, 0]
-    # The boss about a pin is as large as the roller, or the pin and a wall.
-    rim = wanted.overall_length / (length + share)
-    radius = (rim * share).round(_ROUND)
-    boss = np.maximum(radius, radius * BORE_ROOM / 4 + wanted.least_wall)
-    rim = np.floor((wanted.overall_length - boss) / length * 10**_ROUND) / 10**_ROUND
+    half, offset, radius = half[able], offset[able], radius[able]
+    rim = _wheels(wanted, Frame.of(wheel, np.radians(half), np.radians(offset), 1.0), radius)
     usual = GenevaParams()
-    driver = driver_radius(wanted.driver_bore / 2, wanted.least_wall, usual.fixing)
+    driver = driver_radius(wanted.driver_bore / 2, wanted.least_wall, dowel)
     walls = Walls(wanted.least_wall, wanted.bore / 2, driver, usual.lock_clearance, 1)
     groove = radius + usual.groove_clearance / 2
     of = LAWS[law]()
-    sound_ones = sound(of, wheel, np.radians(half), np.radians(offset), rim, groove, walls)
-    sound_ones &= rim > 0
+    sound_ones = (rim >= 5) & (radius <= GREATEST_SHARE * rim) & (radius >= LEAST_SHARE * rim)
+    if sound_ones.any():
+        rows = np.flatnonzero(sound_ones)
+        turned = (np.radians(half[rows]), np.radians(offset[rows]), rim[rows], groove[rows])
+        sound_ones[rows] = sound(of, wheel, *turned, walls)
     pressure, acceleration = np.full(half.shape, np.inf), np.full(half.shape, np.inf)
     if sound_ones.any():
         rows = np.flatnonzero(sound_ones)
@@ -156,7 +180,7 @@ def _sweep(wanted: IndexingRequirement, law: str, half: Array, offset: Array, sh
         pressure[rows] = curved(run, drive).pressure.max(axis=-1)
         crank = np.radians(half[rows])
         acceleration[rows] = of.peaks.a * wheel / (2 * crank**2) * omega**2
-    return _Tried(half, offset, share, rim, radius, pressure, acceleration, sound_ones)
+    return _Tried(half, offset, rim, radius, pressure, acceleration, sound_ones)
 
 
 def _good(wanted: IndexingRequirement, tried: _Tried, limit: float) -> _Tried:
@@ -167,13 +191,13 @@ def _good(wanted: IndexingRequirement, tried: _Tried, limit: float) -> _Tried:
 
 
 def _checked(
-    wanted: IndexingRequirement, law: str, tried: _Tried, limit: float
+    wanted: IndexingRequirement, law: str, tried: _Tried, limit: float, rejected: Rejected
 ) -> list[Candidate[GenevaParams]]:
     """The first designs that every check lets pass, computed in full."""
     passed: list[Candidate[GenevaParams]] = []
     for row in range(min(tried.half.size, _LOOKED_AT)):
         params = _params(wanted, law, tried, row)
-        if any(_alike(params, other.params) for other in passed) or errors(findings(params)):
+        if any(_alike(params, other.params) for other in passed) or rejected.by(findings(params)):
             continue
         m = mechanism_of(params)
         load, omega = loads(m), params.speed * math.tau / 60
@@ -195,27 +219,29 @@ def _checked(
 
 def _alike(one: GenevaParams, two: GenevaParams) -> bool:
     """Whether two designs of one law are the same to an engineer."""
-    if one.crank_half_angle is None or two.crank_half_angle is None:
-        return False
-    return (
-        abs(one.crank_half_angle - two.crank_half_angle) < APART
-        and abs((one.offset_angle or 0) - (two.offset_angle or 0)) < APART
-        and abs(one.roller_radius / two.roller_radius - 1) < APART / 10
-    )
+    angles = ((p.crank_half_angle or 0.0, p.offset_angle or 0.0) for p in (one, two))
+    apart = (abs(a - b) for a, b in zip(*angles, strict=True))
+    return one.roller_radius == two.roller_radius and all(angle < APART for angle in apart)
 
 
 def _params(wanted: IndexingRequirement, law: str, tried: _Tried, row: int) -> GenevaParams:
     """A design with all that the requirement says of it."""
     radius = float(tried.radius[row])
+    asked = {*GenevaParams.model_fields} - {"centre_distance"}
     return GenevaParams.model_validate(
         {
-            **wanted.model_dump(include=set(GenevaParams.model_fields)),
+            **wanted.model_dump(include=asked),
             "law": law,
             "crank_half_angle": float(tried.half[row]),
             "offset_angle": float(tried.offset[row]),
-            "entry_radius": float(tried.rim[row]),
+            # The angles are in hundredths: they tell the wheel between axes that are given.
+            **(
+                {"centre_distance": wanted.centre_distance}
+                if wanted.centre_distance
+                else {"entry_radius": float(tried.rim[row])}
+            ),
             "roller_radius": radius,
-            "pin_diameter": max(0.5, round(radius * BORE_ROOM / 2, 1)),
+            "pin_diameter": largest(PINS, PIN * radius),
         }
     )
 
@@ -239,13 +265,14 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
     able = [tried.take(np.flatnonzero(tried.sound)) for tried in near]
     count = sum(tried.half.size for tried in able)
     if count == 0:
+        size, value = _size(wanted)
         return Finding.error(
             "geneva.requirement",
-            "overall_length",
-            f"none of {total} designs within {wanted.overall_length:g} mm has sound slots",
-            wanted.overall_length,
+            size,
+            f"none of {total} designs with {size} = {value:g} mm has sound slots",
+            value,
             unit="mm",
-            remedy="allow more overall_length or index_time, or smaller bore and least_wall",
+            remedy=f"allow more {size} or index_time, or smaller bore and least_wall",
         )
     most = wanted.acceleration_limit
     slowest = min(float(tried.acceleration.min()) for tried in able if tried.half.size)
@@ -271,7 +298,8 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
             limit,
             least,
             "MPa",
-            "allow more overall_length, a thicker wheel or a longer index_time, or take a stronger material",
+            f"allow more {_size(wanted)[0]}, a thicker wheel or a longer index_time, or take a stronger "
+            "material",
         )
     return Finding.error(
         "geneva.requirement",
@@ -279,5 +307,14 @@ def _none(wanted: IndexingRequirement, near: list[_Tried], limit: float) -> Find
         f"{count} designs have sound slots, but none a driver that can be made",
         wanted.driver_bore,
         unit="mm",
-        remedy="make driver_bore or bore smaller, or allow more overall_length",
+        remedy=f"make driver_bore or bore smaller, or allow more {_size(wanted)[0]}",
     )
+
+
+def _size(wanted: IndexingRequirement) -> tuple[str, float]:
+    """The key that says how large the mechanism may be, and its value, mm."""
+    for name in ("wheel_diameter", "centre_distance"):
+        given = getattr(wanted, name)
+        if given is not None:
+            return name, given
+    return "overall_length", wanted.longest

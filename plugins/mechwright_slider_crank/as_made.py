@@ -15,6 +15,7 @@ import shapely
 
 from mechwright import Array, AsMade, Finding, MadeCurve, MadeFigure, MadePart, Severity, Stage
 from mechwright.mechanics.linkage.made import Hole, Joint, joint, link, stuck
+from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.kinematics import SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import layout_of
@@ -56,7 +57,7 @@ def as_made(params: SliderCrankParams, made: Mapping[str, Sequence[MadePart]]) -
             joint("wrist pin", rod, ends[1], sizes.pin),
             joint("shaft", base, Hole(0j, sizes.base_bore), sizes.shaft),
         ]
-    phi = np.linspace(0.0, 2 * np.pi, SAMPLES)
+    phi = np.sort(course_of(params).way(SAMPLES))
     rates = slide_rates(params.linkage, phi)
     sure = {name: one for name, one in links.items() if one is not None}
     turning = [one for one in pins if one is not None]

@@ -7,7 +7,8 @@ import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
 from mechwright.mechanics.planar.dynamics import Forces
-from mechwright_slider_crank.figures import least_transmission_angle, limits
+from mechwright.tolerances import exceeds, falls_short
+from mechwright_slider_crank.course import TURN_BACK, course_of, ends_of, least_of, period_of, reach, turns
 from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
@@ -37,31 +38,36 @@ MOST_BEND = 0.5
 @kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    return until_error(params, _turns, _webs, _drawn, _carried, _figures)
+    return until_error(params, _joined, _turns, _webs, _drawn, _carried, _figures)
+
+
+def _joined(params: SliderCrankParams) -> Iterator[Finding]:
+    """Whether crank, rod and slider can be put together and move: all that a motion needs."""
+    if turns(params) or reach(params.crank, params.rod, params.offset, TURN_BACK) is not None:
+        return
+    limit = params.crank + params.rod
+    yield Finding.error(
+        "slider-crank.closure",
+        "offset",
+        f"crank and rod, {limit:.6g} mm together, do not reach a slide line {abs(params.offset):.6g} mm "
+        f"away, or only within {math.degrees(TURN_BACK):g} degree of standing across it",
+        abs(params.offset),
+        limit,
+        "mm",
+        f"make offset at most {0.99 * limit:.4g} mm either way",
+    )
 
 
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:
-    reach = params.crank + abs(params.offset)
-    limit = reach * (1 + TURN_MARGIN)
-    if params.rod < limit:
-        crank = params.rod / (1 + TURN_MARGIN) - abs(params.offset)
-        offset = params.rod / (1 + TURN_MARGIN) - params.crank
-        others = [f"crank at most {crank:.6g} mm"] if crank > 0 else []
-        others += [f"offset at most {offset:.6g} mm"] if offset > 0 else []
-        yield Finding.error(
-            "slider-crank.crank-turn",
-            "rod",
-            f"the crank cannot turn fully: a rod of {params.rod:g} mm does not span crank and offset, "
-            f"{reach:.6g} mm",
-            params.rod,
-            limit,
-            "mm",
-            f"make rod at least {limit:.6g} mm" + (f", or {' or '.join(others)}" if others else ""),
-        )
-        return
-    angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
-    if angle < LEAST_TRANSMISSION:
-        wanted = reach / math.cos(math.radians(LEAST_TRANSMISSION))
+    span = params.crank + abs(params.offset)
+    limit = span * (1 + TURN_MARGIN)
+    if falls_short(params.rod, limit):
+        yield _blocked(params, span, limit)
+        if turns(params):
+            return
+    angle = math.degrees(least_of(params))
+    if falls_short(angle, LEAST_TRANSMISSION):
+        wanted = span / math.cos(math.radians(LEAST_TRANSMISSION))
         yield Finding.warning(
             "slider-crank.transmission",
             "rod",
@@ -71,7 +77,43 @@ def _turns(params: SliderCrankParams) -> Iterator[Finding]:
             LEAST_TRANSMISSION,
             "deg",
             f"make rod {wanted:.5g} mm or longer, or crank or offset smaller",
+            Stage.PARTS,
         )
+
+
+def _blocked(params: SliderCrankParams, span: float, limit: float) -> Finding:
+    """A crank that cannot turn fully, which is a lever, or that only just can."""
+    crank = params.rod / (1 + TURN_MARGIN) - abs(params.offset)
+    offset = params.rod / (1 + TURN_MARGIN) - params.crank
+    others = [f"crank at most {crank:.6g} mm"] if crank > 0 else []
+    others += [f"offset at most {offset:.6g} mm"] if offset > 0 else []
+    remedy = f"make rod at least {limit:.6g} mm" + (f", or {' or '.join(others)}" if others else "")
+    if turns(params):
+        over = 100 * (params.rod / span - 1)
+        return Finding.error(
+            "slider-crank.crank-turn",
+            "rod",
+            f"a rod of {params.rod:g} mm is {max(over, 0.0):.2g} % longer than crank and offset together, "
+            f"{span:.6g} mm, and the least is {100 * TURN_MARGIN:g} %: nearer to standing across the slide "
+            "the least friction blocks it",
+            params.rod,
+            limit,
+            "mm",
+            remedy,
+            Stage.PARTS,
+        )
+    course = course_of(params)
+    low, high = (math.degrees(end) for end in sorted((course.start, course.start + course.travel)))
+    return Finding.warning(
+        "slider-crank.crank-turn",
+        "rod",
+        f"the crank cannot turn fully, as a rod of {params.rod:g} mm does not span crank and offset, "
+        f"{span:.6g} mm: it is a lever that swings from {low:.3f} to {high:.3f} degrees",
+        params.rod,
+        limit,
+        "mm",
+        remedy,
+    )
 
 
 @of_stage(Stage.PARTS)
@@ -123,7 +165,7 @@ def _webs(params: SliderCrankParams) -> Iterator[Finding]:
 
 
 def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iterator[Finding]:
-    if web < LEAST_WEB:
+    if falls_short(web, LEAST_WEB):
         message = f"{web:.3g} mm are left {where}, the limit is {LEAST_WEB:g} mm"
         yield Finding.error(code, parameter, message, web, LEAST_WEB, "mm", remedy)
 
@@ -132,7 +174,7 @@ def _web(code: str, parameter: str, where: str, web: float, remedy: str) -> Iter
 def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
     """Whether the rod can be drawn, and all plates find their layers."""
     most = MOST_BEND * params.rod
-    if abs(params.rod_bend) > most:
+    if exceeds(abs(params.rod_bend), most):
         yield Finding.error(
             "slider-crank.rod-bend",
             "rod_bend",
@@ -170,7 +212,7 @@ def _drawn(params: SliderCrankParams) -> Iterator[Finding]:
 
 
 def _at_work(params: SliderCrankParams) -> Forces:
-    bodies = params.linkage.bodies(np.linspace(0, math.tau, TURN_SAMPLES), params.omega)
+    _, _, bodies = period_of(params, TURN_SAMPLES)
     return joint_forces(params.linkage, bodies, masses_of(params), params.load)
 
 
@@ -179,7 +221,7 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     sizes, carried = sizes_of(params), _at_work(params)
     force = float(max(np.abs(carried.joints["crank-pin"]).max(), np.abs(carried.joints["wrist-pin"]).max()))
     pressure = force / (sizes.pin * params.thickness)
-    if pressure > MAX_PRESSURE:
+    if exceeds(pressure, MAX_PRESSURE):
         yield Finding.warning(
             "slider-crank.pin-pressure",
             "pin",
@@ -194,7 +236,7 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
     # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
     lever = params.gap + params.thickness / 2
     bending = 32 * force * lever / (math.pi * sizes.pin**3)
-    if bending > MAX_BENDING:
+    if exceeds(bending, MAX_BENDING):
         yield Finding.warning(
             "slider-crank.pin-bending",
             "pin",
@@ -207,9 +249,9 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
 
 
 def _figures(params: SliderCrankParams) -> Iterator[Finding]:
-    ends, layout, carried = limits(params.linkage), layout_of(params), _at_work(params)
+    ends, layout, carried = ends_of(params), layout_of(params), _at_work(params)
     sense = "away from the crank" if ends.slow_outward != params.clockwise else "towards the crank"
-    angle = math.degrees(least_transmission_angle(params.crank, params.rod, params.offset))
+    angle = math.degrees(least_of(params))
     yield Finding.note(
         "slider-crank.stroke",
         f"stroke {ends.stroke:.6g} mm, time ratio {ends.time_ratio:.6g}"

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from mechwright import Array, KinematicsError
 from mechwright_slider_crank.kinematics import SliderCrank
+from mechwright_slider_crank.limit_motion import at_limit
 
 
 def crank_turns(crank: float, rod: float, offset: float) -> bool:
@@ -65,10 +66,12 @@ def limits(linkage: SliderCrank) -> Limits:
     (101.017898, 1.066564)
     """
     a, c, e = linkage.crank, linkage.rod, linkage.offset
-    if not crank_turns(a, c, e):
+    if not crank_turns(a, c, e) and not at_limit(a, c, e):
         raise KinematicsError(f"the crank cannot turn: the rod of {c:g} mm must be above {a + abs(e):g} mm")
-    stretched, folded = math.asin(e / (a + c)), math.pi + math.asin(e / (c - a))
-    far, near = (math.sqrt((c + pin) ** 2 - e * e) for pin in (a, -a))
+    stretched, folded = math.asin(e / (a + c)), math.pi
+    if e != 0:  # without an offset crank and rod may be alike
+        folded += math.asin(max(-1.0, min(1.0, e / (c - a))))
+    far, near = (math.sqrt(max((c + pin) ** 2 - e * e, 0.0)) for pin in (a, -a))
     inward = (folded - stretched) % math.tau
     if linkage.branch < 0:  # mirror image: x and the sense of turning change sign
         stretched, folded, far, near = math.pi - stretched, math.pi - folded, -far, -near
@@ -87,7 +90,8 @@ def limits(linkage: SliderCrank) -> Limits:
 def transmission_angle(linkage: SliderCrank, phi: ArrayLike) -> Array:
     """Angle (...), rad, of the rod to the normal of the slide, at most π/2: cos μ = |e - a sin φ'| / c."""
     angle = np.asarray(phi, dtype=float) - linkage.direction
-    found: Array = np.arccos(np.abs(linkage.offset - linkage.crank * np.sin(angle)) / linkage.rod)
+    cosine = np.abs(linkage.offset - linkage.crank * np.sin(angle)) / linkage.rod
+    found: Array = np.arccos(np.minimum(1.0, cosine))
     return found
 
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from mechwright import Array, KinematicsError
 from mechwright.mechanics.planar import BodyMotion, PointMotion, Turning
+from mechwright_slider_crank.limit_motion import at_limit, rod_at_limit
 
 
 def _rates(cos: Array, sin: Array, w: Array, crank: float, offset: float) -> tuple[Array, ...]:
@@ -25,9 +26,16 @@ def _rates(cos: Array, sin: Array, w: Array, crank: float, offset: float) -> tup
     x, y = crank * cos, crank * sin
     t = offset - y
     turn = -x / w
-    turned = t * turn
-    bend = (y + turned * turn) / w
+    bend = (y + t * turn * turn) / w
     third = (x + 3 * t * turn * bend + w * turn**3) / w
+    return _slide(x, y, t, w, turn, bend, third)
+
+
+def _slide(
+    x: Array, y: Array, t: Array, w: Array, turn: Array, bend: Array, third: Array
+) -> tuple[Array, ...]:
+    """The same from the crank pin's place, and the coupler's rates."""
+    turned = t * turn
     acceleration = -x - w * turn * turn - t * bend
     jerk = y + t * turn**3 - 3 * w * turn * bend - t * third
     return x + w, -y - turned, acceleration, jerk, turn, bend, third
@@ -84,8 +92,17 @@ class SliderCrank:
         s, v, acceleration, *_ = _rates(cos, sin, self._coupler_x(sin), self.crank, self.offset)
         return s, v, acceleration
 
-    def bodies(self, phi: ArrayLike, omega: float = 1.0) -> "Bodies":
-        """Motion of crank, coupler and slider at crank angles (n,), rad, at constant speed, rad/s.
+    @property
+    def at_limit(self) -> bool:
+        """Whether the crank only just turns, so that the assembly changes; not asked of a sweep."""
+        single = not any(np.ndim(size) for size in (self.crank, self.rod, self.offset))
+        return single and at_limit(self.crank, self.rod, self.offset)
+
+    def bodies(self, phi: ArrayLike, omega: float | Turning = 1.0) -> "Bodies":
+        """Motion of crank, coupler and slider at crank angles (n,), rad.
+
+        ``omega`` is the crank's constant speed, rad/s, or the crank itself at the same samples. A linkage at
+        its limit is in its assembly at the crank angle 0, and goes smoothly through its change points.
 
         Raises
         ------
@@ -95,6 +112,8 @@ class SliderCrank:
         phi = np.atleast_1d(np.asarray(phi, dtype=float))
         angle = phi - self.direction
         cos, sin = np.cos(angle), np.sin(angle)
+        if self.at_limit:
+            return self._smoothly(phi, angle, omega)
         w = self._coupler_x(sin)
         wrong = ~(np.abs(w) > 0)
         if wrong.any():
@@ -104,20 +123,32 @@ class SliderCrank:
                 f"the linkage cannot move at a crank angle of {math.degrees(phi[worst]):.6g}°: the rod of "
                 f"{np.broadcast_to(self.rod, phi.shape)[worst]:g} mm has to be longer than {reach:.6g} mm"
             )
-        s, v, acceleration, jerk, turn, bend, third = _rates(cos, sin, w, self.crank, self.offset)
+        rates = _rates(cos, sin, w, self.crank, self.offset)
         # The coupler never turns past ±90° of the slide, or of its opposite: the angle has no jumps.
         sigma = np.arctan((self.offset - self.crank * sin) / w) + np.where(self.branch > 0, 0.0, math.pi)
+        return self._moving(phi, omega, sigma, w, rates)
+
+    def _smoothly(self, phi: Array, angle: Array, omega: float | Turning) -> "Bodies":
+        w, turn, bend, third = rod_at_limit(self.crank, self.offset, self.branch, angle, -self.direction)
+        x, y = self.crank * np.cos(angle), self.crank * np.sin(angle)
+        t = self.offset - y
+        sigma = np.unwrap(np.arctan2(t, w))
+        return self._moving(phi, omega, sigma, w, _slide(x, y, t, w, turn, bend, third))
+
+    def _moving(
+        self, phi: Array, omega: float | Turning, sigma: Array, w: Array, rates: tuple[Array, ...]
+    ) -> "Bodies":
+        """The bodies over time, from what is known per crank radian."""
+        s, v, acceleration, jerk, turn, bend, third = rates
+        drive = omega if isinstance(omega, Turning) else Turning.of(phi, omega)
         along = np.exp(1j * self.direction)
-        crank = BodyMotion.about(0j, Turning.of(phi, omega))
+        crank = BodyMotion.about(0j, drive)
         rod = BodyMotion(
-            crank.point(self.crank),
-            Turning.of(sigma + self.direction, omega * turn, omega**2 * bend, omega**3 * third),
+            crank.point(self.crank), Turning(sigma + self.direction, *drive.carried(turn, bend, third))
         )
         pin = PointMotion(
             (s + 1j * self.offset) * along,
-            omega * v * along,
-            omega**2 * acceleration * along,
-            omega**3 * jerk * along,
+            *(rate * along for rate in drive.carried(v, acceleration, jerk)),
         )
         return Bodies(crank, rod, BodyMotion.sliding(pin, self.direction), s, w)
 

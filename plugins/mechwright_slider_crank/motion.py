@@ -5,25 +5,31 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright import Array, Channel, Motion, Scalar, Trace
+from mechwright import Array, Channel, KinematicsError, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
-from mechwright.contracts.motion import travelled
 from mechwright.mechanics.linkage import Mass, moving_figures
-from mechwright.mechanics.planar import acceleration_pole
+from mechwright.mechanics.planar import Turning, acceleration_pole
 from mechwright.mechanics.planar.channels import point_channels, pole_channels, turning_channels
 from mechwright.mechanics.planar.dynamics import Forces
-from mechwright_slider_crank.figures import least_transmission_angle, limits, transmission_angle
+from mechwright_slider_crank.checks import findings
+from mechwright_slider_crank.course import course_of, ends_of, least_of, reach, turns
+from mechwright_slider_crank.figures import Limits, limits, transmission_angle
 from mechwright_slider_crank.forces import MILLI, balance, joint_forces
 from mechwright_slider_crank.kinematics import Bodies, SliderCrank
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import body_poses, held_by, masses_of
+
+_LEVER_SAMPLES = 1441
+"""Samples of a lever's period for peaks: four a degree of the crank that would make it swing."""
 
 _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 """Half degrees find a peak; five rounds on eight times closer points find its value to 1e-9 of a turn."""
 
 
 def motion_of(params: SliderCrankParams, samples: int) -> Motion:
-    """Sample one turn of the crank at constant speed, both ends included.
+    """Sample one turn of the crank at constant speed, or a lever's swing there and back, both ends included.
+
+    At its limit, c = a + |e|, the linkage goes smoothly through both assemblies, in two turns of the crank.
 
     Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
 
@@ -32,26 +38,32 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     KinematicsError
         The crank cannot turn.
     """
-    from mechwright_slider_crank.checks import findings
-
-    linkage, omega = params.linkage, params.omega
-    phi = travelled(math.copysign(math.tau, omega), samples)
-    bodies = linkage.bodies(phi, omega)
-    masses = None if errors(findings(params)) else masses_of(params)
+    found = findings(params)
+    for finding in errors(found, Stage.MOTION):
+        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    linkage, course = params.linkage, course_of(params)
+    time, drive = course.period(samples, abs(params.omega))
+    phi, bodies = drive.theta, linkage.bodies(drive.theta, drive)
+    masses = None if errors(found) else masses_of(params)
     channels = {
-        "time": Channel(phi / omega, "s"),
+        "time": Channel(time, "s"),
         "phi": Channel(phi, "rad"),
-        "omega_a": Channel(np.full(samples, omega), "rad/s"),
+        "omega_a": Channel(drive.omega, "rad/s"),
+        **(
+            {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
+            if course.rocks
+            else {}
+        ),
         **_slider(linkage, bodies),
         **turning_channels(bodies.rod.turning, "sigma", "_c"),
         "transmission_angle": Channel(transmission_angle(linkage, phi), "rad"),
         **point_channels("P", bodies.rod.point(params.coupler_point)),
-        **_poles(linkage, phi, bodies),
+        **_poles(linkage, drive, bodies),
         **({} if masses is None else _forces(joint_forces(linkage, bodies, masses, params.load))),
     }
     point = params.coupler_point
     traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
-    figures = _figures(params, omega, masses)
+    figures = _figures(params, masses)
     return Motion("phi", channels, body_poses(params, phi), figures, traces, held_by(params))
 
 
@@ -67,11 +79,11 @@ def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:
     }
 
 
-def _poles(linkage: SliderCrank, phi: Array, bodies: Bodies) -> dict[str, Channel]:
+def _poles(linkage: SliderCrank, drive: Turning, bodies: Bodies) -> dict[str, Channel]:
     """The rod's acceleration pole on the ground and in the rod, for both assemblies."""
     other = SliderCrank(linkage.crank, linkage.rod, linkage.offset, linkage.direction, -linkage.branch)
     return pole_channels(acceleration_pole(bodies.rod)) | pole_channels(
-        acceleration_pole(other.bodies(phi).rod), suffix="_other"
+        acceleration_pole(other.bodies(drive.theta, drive).rod), suffix="_other"
     )
 
 
@@ -88,13 +100,13 @@ def _forces(carried: Forces) -> dict[str, Channel]:
     return found
 
 
-def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | None) -> dict[str, Scalar]:
+def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[str, Scalar]:
     """Figures of the motion, and with ``masses`` those of the forces."""
     linkage = params.linkage
-    ends = limits(linkage)
+    ends = ends_of(params)
 
-    def sizes(phi: Array) -> dict[str, Array]:
-        bodies = linkage.bodies(phi, omega)
+    def sizes(phi: Array, drive: Turning | None = None) -> dict[str, Array]:
+        bodies = linkage.bodies(phi, params.omega) if drive is None else linkage.bodies(drive.theta, drive)
         slider = bodies.slider.origin
         rates = {"v_max": np.abs(slider.velocity), "a_max": np.abs(slider.acceleration)}
         if masses is None:
@@ -103,7 +115,8 @@ def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | 
         forces = {f"{name}_max": size for name, size in _sizes(carried).items()}
         return rates | {"drive_torque_max": np.abs(carried.drive) * MILLI, **forces}
 
-    most = peaks(sizes)
+    most = _most(params, sizes)
+    kept = limits(linkage) if linkage.at_limit else None
     units = {"v_max": "mm/s", "a_max": "mm/s^2", "drive_torque_max": "N*m"}
     return {
         "stroke": Scalar(ends.stroke, "mm"),
@@ -112,12 +125,40 @@ def _figures(params: SliderCrankParams, omega: float, masses: dict[str, Mass] | 
         "phi_near": Scalar(ends.near, "rad"),
         "s_far": Scalar(ends.far_position, "mm"),
         "s_near": Scalar(ends.near_position, "mm"),
-        "least_transmission_angle": Scalar(
-            least_transmission_angle(params.crank, params.rod, params.offset), "rad"
-        ),
+        "least_transmission_angle": Scalar(least_of(params), "rad"),
+        **({} if turns(params) else _lever(params)),
+        **({} if kept is None else _in_one_assembly(kept)),
         **{name: Scalar(value, units.get(name, "N")) for name, value in most.items()},
         **({} if masses is None else _mass_figures(params, masses)),
     }
+
+
+def _most(params: SliderCrankParams, sizes: Callable[..., dict[str, Array]]) -> dict[str, float]:
+    """Greatest values over a period; of a lever among as many samples as its ends are sought in."""
+    course = course_of(params)
+    if course.rocks:
+        _, drive = course.period(_LEVER_SAMPLES, abs(params.omega))
+        return {name: float(size.max()) for name, size in sizes(drive.theta, drive).items()}
+    turned = abs(course.travel) / math.tau
+    return peaks(lambda angle: sizes(turned * angle))
+
+
+def _in_one_assembly(ends: Limits) -> dict[str, Scalar]:
+    """Stroke and time ratio of a linkage at its limit that something keeps in its assembly."""
+    return {
+        "assembly_stroke": Scalar(ends.stroke, "mm"),
+        "assembly_time_ratio": Scalar(ends.time_ratio, ""),
+    }
+
+
+def _lever(params: SliderCrankParams) -> dict[str, Scalar]:
+    """Where a lever turns back, and where the rod would stand across the slide: crank angles, in degrees."""
+    course, direction = course_of(params), params.linkage.direction
+    low, high = sorted((course.start, course.start + course.travel))
+    angles = {"swing_from": low, "swing_to": high, "input_range": high - low}
+    if (found := reach(params.crank, params.rod, params.offset)) is not None:
+        angles |= {"toggle_low": found[0] + direction, "toggle_high": found[1] + direction}
+    return {name: Scalar(math.degrees(angle), "deg") for name, angle in angles.items()}
 
 
 def _mass_figures(params: SliderCrankParams, masses: dict[str, Mass]) -> dict[str, Scalar]:

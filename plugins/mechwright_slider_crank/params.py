@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
 
@@ -24,22 +24,37 @@ class SliderCrankParams(Parameters):
     20.0
     """
 
-    crank: Millimetres = Field(30.0, ge=0.5, le=LONGEST, description="Length a of the crank, pivot to pin.")
-    rod: Millimetres = Field(100.0, ge=1, le=LONGEST, description="Length c of the rod, pin to pin.")
+    crank: Millimetres = Field(
+        30.0, ge=0.5, le=LONGEST, description="Length a of the crank, pivot to pin.", json_schema_extra=FIRST
+    )
+    rod: Millimetres = Field(
+        100.0, ge=1, le=LONGEST, description="Length c of the rod, pin to pin.", json_schema_extra=FIRST
+    )
     offset: Millimetres = Field(
-        10.0, ge=-LONGEST, le=LONGEST, description="Offset e of the slide line, to the left of its direction."
+        10.0,
+        ge=-LONGEST,
+        le=LONGEST,
+        description="Offset e of the slide line, to the left of its direction.",
+        json_schema_extra=FIRST,
     )
     slide_direction: Degrees = Field(0.0, ge=-360, le=360, description="Direction of the slide.")
     assembly: Literal["ahead", "behind"] = Field(
         "ahead", description="Whether the slider stands ahead of the crank pin along the slide, or behind it."
     )
-    speed: RevPerMin = Field(60.0, ge=0.001, le=20000, description="Constant speed of the crank.")
-    clockwise: bool = Field(False, description="Whether the crank turns clockwise.")
+    speed: RevPerMin = Field(
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+        json_schema_extra=FIRST,
+    )
+    clockwise: bool = Field(False, description="Whether the crank turns clockwise, or a lever begins so.")
     load: Newtons = Field(
         0.0,
         ge=-1e6,
         le=1e6,
         description="Force on the slider along the slide; negative against its direction.",
+        json_schema_extra=FIRST,
     )
     coupler_x: Annotated[float, Field(ge=-LONGEST, le=LONGEST), Unit("mm")] | None = Field(
         None, description="Coupler point along the rod from the crank pin; left out, the rod's middle."
@@ -53,8 +68,12 @@ class SliderCrankParams(Parameters):
         le=100,
         description="Bore in the coupler point, which the rod then reaches out to; 0: none.",
     )
-    thickness: Millimetres = Field(6.0, ge=0.5, le=100, description="Thickness of all plates.")
-    material: MaterialName = Field("aluminium", description="Material of the plates.")
+    thickness: Millimetres = Field(
+        6.0, ge=0.5, le=100, description="Thickness of all plates.", json_schema_extra=FIRST
+    )
+    material: MaterialName = Field(
+        "aluminium", description="Material of the plates.", json_schema_extra=FIRST
+    )
     crank_shape: Literal["disc", "arm"] = Field("disc", description="Whether the crank is a disc or an arm.")
     pin: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
         None, description="Diameter of both joint pins; left out, an eighth of the crank, 2 to 20."

@@ -32,7 +32,8 @@ from mechwright.mechanics.linkage import (
     web_link,
 )
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_slider_crank.figures import Limits, limits
+from mechwright_slider_crank.course import course_of, ends_of
+from mechwright_slider_crank.figures import Limits
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import CORNER, Sizes, sizes_of
 
@@ -132,7 +133,7 @@ def layout_of(params: SliderCrankParams) -> Layout:
     KinematicsError
         The crank cannot turn.
     """
-    sizes, ends = sizes_of(params), limits(params.linkage)
+    sizes, ends = sizes_of(params), ends_of(params)
     outlines = {"crank": crank_outline(params), "rod": rod_outline(params)}
     outlines["slider"] = _slider_outline(sizes)
     outlines["rail"], rails, dowels = _rails(params, sizes, ends)
@@ -217,7 +218,7 @@ def _stack(
     return stack(
         plates,
         spindles,
-        body_poses(params, np.linspace(0, 2 * np.pi, TURN_SAMPLES)),
+        body_poses(params, course_of(params).way(TURN_SAMPLES)),
         params.clearance,
         params.gap,
         neighbours=(("rail-1", "slider"), ("rail-2", "slider")),
@@ -229,7 +230,7 @@ def body_poses(params: SliderCrankParams, phi: Array) -> dict[str, Poses]:
     """Poses of all bodies at crank angles (n,), rad, and of the copies of parts that are fixed in them."""
     bodies, sizes = params.linkage.bodies(phi), sizes_of(params)
     base = BodyMotion.about(0j, Turning.of(np.full(phi.shape, params.linkage.direction)))
-    _, rails, dowels = _rails(params, sizes, limits(params.linkage))
+    _, rails, dowels = _rails(params, sizes, ends_of(params))
     fixed = {f"rail-{number}": (base, place) for number, place in enumerate(rails, start=1)}
     fixed |= {f"dowel-{number}": (base, place) for number, place in enumerate(dowels, start=1)}
     fixed["crank-pin"] = (bodies.crank, complex(params.crank))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright import Candidate, Finding, Progress, Scalar, Synthesis
+from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
@@ -56,7 +56,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         return Synthesis((), refused)
     lengths = lengths_of(wanted)
     candidates: list[Candidate[Design]] = []
-    why = ""
+    why, rejected = "", Rejected()
     for offset in (lengths.offset, -lengths.offset):
         params, why = buildable(
             {
@@ -67,6 +67,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
             }
         )
         if params is None:
+            rejected.because("slider-crank.not-buildable", why)
             continue
         stroke, ratio = simulated(params.linkage)
         figures = {
@@ -77,7 +78,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         }
         candidates.append(Candidate(params, Scalar(abs(stroke - wanted.stroke), "mm"), figures))
     if candidates:
-        return Synthesis(tuple(candidates))
+        return Synthesis(tuple(candidates), (), rejected.reasons)
     fault = Finding.error(
         "slider-crank.not-buildable",
         "crank",
@@ -85,7 +86,7 @@ def from_stroke(wanted: StrokeRequirement) -> Synthesis[Design]:
         f"stroke and time ratio, but cannot be built: {why}",
         remedy="choose another length inside its range, or a larger stroke",
     )
-    return Synthesis((), (fault,))
+    return Synthesis((), (fault,), rejected.reasons)
 
 
 def _lengths(params: Design) -> dict[str, Scalar]:
@@ -109,6 +110,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
     )
     candidates: list[Candidate[Design]] = []
     notes: list[Finding] = []
+    rejected = Rejected()
     for found in solutions:
         params, why = buildable(
             {
@@ -121,6 +123,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
         )
         if params is None:
             notes.append(_left_out(found, why))
+            rejected.because("slider-crank.not-buildable", why)
             continue
         if any(params == other.params for other in candidates):
             continue  # the same linkage meets the poles at other crank angles as well
@@ -136,7 +139,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
         candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
     if not candidates:
         notes.insert(0, _none_found(notes, best, wanted))
-    return Synthesis(tuple(candidates), tuple(notes))
+    return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
 
 
 def _side(found: Found) -> str:

@@ -19,8 +19,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechwright import Array, Output, ToleranceModel, Tolerances
+from mechwright import Array, DesignError, Output, ToleranceModel, Tolerances
 from mechwright.mechanics.planar import Plane
+from mechwright_slider_crank.course import course_of
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.sizes import sizes_of
 
@@ -36,7 +37,7 @@ GUIDE_WALLS = 4
 """Milled walls between which the slider has its play: two of the rails and its own."""
 
 _POSITIONS = 361
-"""Positions of the crank, both ends of the turn included."""
+"""Positions of the crank, both ends of the turn, or of a lever's swing, included."""
 
 _TOGGLE = 1e-6
 """Cosine of the rod's angle below which a first order says nothing: errors there go with the square root."""
@@ -51,7 +52,16 @@ class SliderCrankTolerances(ToleranceModel):
         self.link = params.linkage
         self.place = params.coupler_point
         sizes = sizes_of(params)
-        self.positions = self.link.direction + np.linspace(0, 2 * np.pi, _POSITIONS)
+        if self.link.at_limit:
+            raise DesignError(
+                "rod: where it stands across the slide, no error is of first order; make it longer"
+            )
+        course = course_of(params)
+        self.positions = (
+            np.sort(course.way(_POSITIONS))
+            if course.rocks
+            else self.link.direction + np.linspace(0, 2 * np.pi, _POSITIONS)
+        )
         lengths = [tolerances.length(name, getattr(params, name)) for name in ("crank", "rod", "offset")]
         diameters = (sizes.shaft, sizes.pin, sizes.pin)
         pins = [

@@ -17,6 +17,7 @@ from mechwright import (
     KinematicsError,
     MechwrightError,
     Progress,
+    Rejected,
     Scalar,
     Severity,
     Synthesis,
@@ -59,17 +60,19 @@ def from_poses(wanted: AdjustablePathRequirement, progress: Progress) -> Synthes
     notes = [_conditioning(planar)]
     candidates: list[Candidate[SphericalParams]] = []
     refused: list[Finding] = []
+    rejected = Rejected()
     for fit in _fits(wanted, mechanism, path, progress):
         params = _design(wanted, fit.mechanism, planar, flat, length, centre)
         found = errors(checks.findings(params))
-        if found:
+        if rejected.by(found):
             refused += found
         elif params not in [candidate.params for candidate in candidates]:
             candidates.append(_candidate(wanted, params, fit, length))
     progress(1.0, "done")
     if not candidates:
-        return Synthesis((), (*notes, *dict.fromkeys(refused)))
-    return Synthesis(tuple(sorted(candidates, key=lambda one: one.residual.value)), tuple(notes))
+        return Synthesis((), (*notes, *dict.fromkeys(refused)), rejected.reasons)
+    ranked = sorted(candidates, key=lambda one: one.residual.value)
+    return Synthesis(tuple(ranked), tuple(notes), rejected.reasons)
 
 
 def _fault(code: str, parameter: str, error: MechwrightError) -> Finding:

@@ -16,10 +16,11 @@ import numpy as np
 from mechwright import Array, AsMade, MadeCurve, MadeFigure, MadePart
 from mechwright.mechanics.linkage.made import Hole, Joint, MadeLink, joint, link, stuck
 from mechwright_spherical.flat import strip
+from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
 from mechwright_spherical.places import link_arcs, second_size
-from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.shells import Shells
 from mechwright_spherical.vectors import cross, dot, norm
 
 SAMPLES = 361
@@ -69,7 +70,7 @@ def as_made(params: SphericalParams, made: Mapping[str, Sequence[MadePart]]) -> 
     """Judge the linkage of flat strips, each bent as drawn."""
     linkage, shells, flat = linkage_of(params), shells_of(params), params.flat
     phase, hardware = linkage.shown, params.hardware
-    arcs, strips = _shown(linkage, shells)
+    arcs, strips = _shown(params, linkage, shells)
     if not set(strips.values()) <= set(made):
         return AsMade()
     strip_of = {name: made[part][0] for name, part in strips.items()}
@@ -84,8 +85,12 @@ def as_made(params: SphericalParams, made: Mapping[str, Sequence[MadePart]]) -> 
         stretch = _stretch(angle, radius, flat)
         links[name] = MadeLink(found.off / stretch, found.spread / stretch)
     pins = _pins(params, strip_of, arcs)
-    radii = {name: shells.arc(BORES[name][0])[0] for name in pins}
-    rates = output_rates(phase, arcs["ground"])
+    radii = {name: shells.arc(_bores(arcs)[name][0])[0] for name in pins}
+    if "ground-2" in links:
+        # Both strips begin at the bridge.
+        one, two = links["ground"], links.pop("ground-2")
+        links["ground"] = MadeLink(one.off - two.off, one.spread + two.spread)
+    rates = output_rates(phase, link_arcs(linkage)["ground"])
     still = np.abs(np.sum([rates[name] * one.off for name, one in links.items()], axis=0))
     off = still + rates["pin"] * sum(max(one.room, 0.0) / radii[name] for name, one in pins.items())
     more = np.sum([np.abs(rates[name]) * one.spread for name, one in links.items()], axis=0)
@@ -128,11 +133,19 @@ def as_made(params: SphericalParams, made: Mapping[str, Sequence[MadePart]]) -> 
     return AsMade(figures, (curve,), tuple(jammed))
 
 
-def _shown(linkage: Linkage, shells: Shells) -> tuple[dict[str, float], dict[str, str]]:
+def _bores(arcs: Mapping[str, float]) -> dict[str, tuple[str, int]]:
+    """As BORES; with a ground on both sides the strips of both begin at the bridge."""
+    return BORES | {"a0": ("ground-2", 1)} if "ground-2" in arcs else BORES
+
+
+def _shown(
+    params: SphericalParams, linkage: Linkage, shells: Shells
+) -> tuple[dict[str, float], dict[str, str]]:
     """Arc, rad, and flat part of every link in the phase that is shown."""
     phase = linkage.shown
     other = second_size(linkage, shells) if phase.number == 2 else {}
-    arcs = link_arcs(linkage) | other | {"coupler": float(np.arccos(float(phase.loop.ca)))}
+    arcs = link_arcs(linkage) | ground_arcs(params) | other
+    arcs |= {"coupler": float(np.arccos(float(phase.loop.ca)))}
     second = {*other, *(("coupler",) if phase.number == 2 else ())}
     return arcs, {name: f"flat-{name}{'-n' if name in second else ''}" for name in arcs}
 
@@ -152,7 +165,7 @@ def _pins(
     hardware, shells = params.hardware, shells_of(params)
     bore = hardware.pin_diameter + hardware.fit
     pins: dict[str, Joint] = {}
-    for name, (plate, end) in BORES.items():
+    for name, (plate, end) in _bores(arcs).items():
         if name == "b" and "arm" not in arcs:
             continue  # the output axis itself
         length = strip(arcs[plate], shells.arc(plate)[0], params.flat).length

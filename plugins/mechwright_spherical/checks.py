@@ -9,18 +9,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, kept, until_error
+from mechwright import Array, Finding, Severity, Stage, kept, until_error
 from mechwright.mechanics.planar import Turning
+from mechwright.tolerances import exceeds, falls_short
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.hardware_checks import hardware_findings
-from mechwright_spherical.linkage import Linkage, Phase, PinError, linkage_of
+from mechwright_spherical.linkage import TURN_BACK, Linkage, Phase, PinError, linkage_of
 from mechwright_spherical.mobility import input_range, kind
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import second_size
-from mechwright_spherical.shells import shells_of
 
-DEAD_CENTRE = 1.0
-"""Transmission angle, degrees, below which a linkage counts as standing in a dead centre: 57 times the torque
-of the output would have to come from the input, and friction blocks it long before."""
+DEAD_CENTRE = math.degrees(TURN_BACK)
+"""Transmission angle, degrees, below which a linkage counts as standing in a dead centre."""
 
 SAMPLES = 1441
 """Input angles at which a travel is looked at before the lowest one is looked at closely: each half degree of
@@ -93,9 +93,11 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
         where = f"at the input angle {math.degrees(at):.4g}°"
         if len(linkage.phases) > 1:
             where += f" of phase {phase.number}"
-        if sine <= math.sin(math.radians(DEAD_CENTRE)):
+        if phase.rocks:
+            yield _lever(phase)
+        if falls_short(sine, math.sin(math.radians(DEAD_CENTRE))):
             yield _apart(params, linkage, phase, at, sine, where)
-        elif (worst := math.degrees(math.asin(sine))) < params.least_transmission:
+        elif falls_short(worst := math.degrees(math.asin(sine)), params.least_transmission):
             yield Finding.warning(
                 "spherical.transmission",
                 travel_key(params, phase),
@@ -104,7 +106,21 @@ def _assembly(params: SphericalParams) -> Iterator[Finding]:
                 params.least_transmission,
                 "deg",
                 "shorten the travel, choose other arcs, or accept it with a smaller least_transmission",
+                Stage.PARTS,
             )
+
+
+def _lever(phase: Phase) -> Finding:
+    low, high = (math.degrees(end) for end in (phase.start, phase.start + phase.travel))
+    return Finding.warning(
+        "spherical.lever",
+        "four_bar.travel",
+        f"the input cannot turn fully: it is a lever that swings from {low:.3f}° to {high:.3f}° and back",
+        high - low,
+        360.0,
+        "deg",
+        "say how far it goes with start and travel inside these, or choose other arcs",
+    )
 
 
 _NO_FOUR_BAR = "make the longest arc shorter than the others together, and all four less than 360° together"
@@ -121,7 +137,7 @@ def _apart(
         said = ", ".join(
             f"{round(math.degrees(a), 2):g}° to {round(math.degrees(b), 2):g}°" for a, b in ranges
         )
-        remedy = f"keep start + travel inside {said}" if said else _NO_FOUR_BAR
+        remedy = f"leave travel out, or keep start + travel inside {said}" if said else _NO_FOUR_BAR
     else:
         remedy = f"end at less than {reach:.4g}°, or choose other pins"
     return Finding.error(
@@ -132,6 +148,7 @@ def _apart(
         reach,
         "deg",
         remedy,
+        Stage.MOTION if sine < 0 else Stage.PARTS,
     )
 
 
@@ -162,12 +179,13 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
                 _reach(phase),
                 "deg",
                 "take the point out, or choose other pins",
+                Stage.PARTS,
             )
             continue
         worst, rms = float(misses.max()), float(np.sqrt(np.mean(misses**2)))
         said = f"the path misses its points by up to {worst:.4g} mm, rms {rms:.4g} mm"
         tolerance = params.path_tolerance
-        if tolerance is not None and worst > tolerance:
+        if tolerance is not None and exceeds(worst, tolerance):
             yield Finding.warning(
                 "spherical.path",
                 key,
@@ -184,7 +202,7 @@ def _path(params: SphericalParams) -> Iterator[Finding]:
 def _order(phase: Phase, key: str) -> Iterator[Finding]:
     angles = phase.target_angles
     sense = math.copysign(1.0, phase.travel)
-    steps = sense * np.diff(angles)
+    steps = sense * np.diff(angles) * (not phase.rocks)  # a lever passes its points twice, in either order
     along = sense * (angles - phase.start)
     inside = (along >= -ON_TRAVEL) & (along <= abs(phase.travel) + ON_TRAVEL)
     if (steps < 0).any() or not inside.all():

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright import Array, Candidate, Finding, GeometryError, Progress, Scalar, Synthesis
+from mechwright import Array, Candidate, Finding, GeometryError, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.planar import Turning
 from mechwright_spherical import checks
@@ -61,28 +61,34 @@ def from_points(wanted: FourBarPathRequirement, progress: Progress) -> Synthesis
         )
     found: list[Candidate[SphericalParams]] = []
     refused: list[Finding] = []
+    rejected = Rejected()
     best = math.inf
     for number, start in enumerate(starts):
         progress((number + 1) / (len(starts) + 1), "fitting")
         params = problem.design(problem.fit(start))
         if params is None:
+            rejected.because("spherical.order", "the linkage does not run through the points in their order")
             continue
         best = min(best, _residual(params))
         faults = errors(checks.findings(params))
         refused += faults
-        if not faults and not any(_same(params, one.params) for one in found):
+        if not rejected.by(faults) and not any(_same(params, one.params) for one in found):
             found.append(_candidate(params))
     progress(1.0, "done")
     if not found:
         why = refused or [
             _fault("four_bar.path_angles", "no fitted linkage runs through the points in their order")
         ]
-        return Synthesis((), tuple(dict.fromkeys(why)))
+        return Synthesis((), tuple(dict.fromkeys(why)), rejected.reasons)
     found.sort(key=lambda one: one.residual.value)
     least = math.radians(wanted.least_transmission - _SLACK)
     # Where none keeps the bound, check warns of those that there are.
     bounded = [one for one in found if one.figures["transmission_min"].value >= least] or found
-    return Synthesis(tuple(bounded[: wanted.designs]))
+    for one in found:
+        if one not in bounded:
+            angle = math.degrees(one.figures["transmission_min"].value)
+            rejected.because("spherical.transmission", f"the transmission angle falls to {angle:.3g} degrees")
+    return Synthesis(tuple(bounded[: wanted.designs]), (), rejected.reasons)
 
 
 _SLACK = 0.5

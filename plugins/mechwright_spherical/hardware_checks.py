@@ -7,22 +7,20 @@ from itertools import combinations
 import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage, of_stage
+from mechwright.tolerances import exceeds, falls_short
 from mechwright_spherical.clearances import Approach, approaches
 from mechwright_spherical.drive import Train, internal, train_of
 from mechwright_spherical.flat import strip
+from mechwright_spherical.frame import AIR, bridge_rooms, frame_of, ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_span, link_arcs, second_size
-from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import MOUNTING_SCREWS, flange_diameter
 from mechwright_spherical.vectors import arc, rotate
 
 WALL = 1.0
 """Least material around a bore or between two, mm: less bulges when a pin goes in."""
-
-AIR = 0.5
-"""Least air between two links that pass each other, mm: what deflection and play of a hand-made linkage
-need."""
 
 
 def clear_radius(diameter: float, angle: float) -> float:
@@ -50,7 +48,7 @@ def hardware_findings(params: SphericalParams) -> Iterator[Finding]:
 def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
     hardware = params.hardware
     least = hardware.pin_diameter + hardware.fit + 2 * WALL
-    if hardware.boss_diameter < least:
+    if falls_short(hardware.boss_diameter, least):
         yield Finding.error(
             "spherical.boss",
             "hardware.boss_diameter",
@@ -62,7 +60,7 @@ def _bosses(params: SphericalParams, shells: Shells) -> Iterator[Finding]:
         )
     half = hardware.boss_diameter / 2
     # The flat end of a boss reaches further out at its rim than in its middle; outer shells matter less.
-    rise = math.hypot(shells.links["coupler"][1], half) - shells.links["coupler"][1]
+    rise = math.hypot(shells.inside[1], half) - shells.inside[1]
     if hardware.gap <= rise:
         yield Finding.error(
             "spherical.gap",
@@ -90,13 +88,20 @@ def _shafts(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
         "rocker": "the pins of the rocker",
     }
     names["arm"] = "the pins of the arm"
-    pairs += [(names[link], angle, bored, link) for link, angle in link_arcs(linkage).items()]
+    arcs = link_arcs(linkage)
+    if frame_of(params).bridge is not None:
+        del arcs["ground"]  # the fixed axes have shells of their own
+        pairs += [
+            ("a fixed axis and the bridge", angle, hardware.boss_diameter + AIR, link)
+            for link, angle in ground_arcs(params).items()
+        ]
+    pairs += [(names[link], angle, bored, link) for link, angle in arcs.items()]
     point = linkage.phases[0].at_reference.p[0][:, 0]
     for name, seat in _seats(linkage).items():
         pairs.append((f"tool and pin {name}", float(arc(point, seat)), bored, "coupler"))
     for said, angle, diameter, link in pairs:
         needed, there = clear_radius(diameter, angle), shells.links[link][0]
-        if needed > there:
+        if exceeds(needed, there):
             # The shells move outwards with the sphere.
             radius = math.ceil(10 * (params.radius + needed - there)) / 10
             yield Finding.error(
@@ -120,12 +125,16 @@ def _seats(linkage: Linkage) -> dict[str, Array]:
 
 
 def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
+    bridge = frame_of(params).bridge
+    if bridge is not None:
+        yield from _around(params, linkage, shells, bridge)
+        return
     found = list(approaches(params, linkage, shells))
     for near in found:
-        if near.room < AIR:
-            yield _collision(linkage, near)
+        if falls_short(near.room, AIR):
+            yield _collision(params, linkage, near)
     tightest = min(found, key=lambda near: near.room)
-    if tightest.room >= AIR:
+    if not falls_short(tightest.room, AIR):
         one, two = tightest.bodies
         yield Finding(
             "spherical.clearance",
@@ -138,13 +147,41 @@ def _sideways(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iter
         )
 
 
+def _around(params: SphericalParams, linkage: Linkage, shells: Shells, bridge: float) -> Iterator[Finding]:
+    """Of a ground on both sides: shells that come too near to the centre, and where the bridge stands."""
+    low = shells.pins["a0"][0]
+    least = params.hardware.boss_diameter
+    if low < least:
+        radius = math.ceil(10 * (params.radius + least - low)) / 10
+        yield Finding.error(
+            "spherical.centre",
+            "radius",
+            f"the ground's inner arc leaves {low:.4g} mm about the centre, where bosses and shaft meet",
+            params.radius,
+            radius,
+            "mm",
+            f"use a radius of {radius:g} mm or more, or thinner links",
+        )
+    rooms = bridge_rooms(params, linkage, shells, bridge)
+    name = min(rooms, key=lambda link: float(rooms[link].min()))
+    at = float(linkage.shown.sweep(rooms[name].size)[int(np.argmin(rooms[name]))])
+    yield Finding.note(
+        "spherical.clearance",
+        f"the ground is on both sides, its bridge {math.degrees(bridge):.4g}° from the input axis; the "
+        f"{name} comes nearest to it, {rooms[name].min():.3g} mm, at the input angle {math.degrees(at):.4g}°",
+        float(rooms[name].min()),
+        "mm",
+    )
+
+
 def _when(linkage: Linkage, near: Approach) -> str:
     phase = f" of phase {near.phase}" if len(linkage.phases) > 1 else ""
     return f", at the input angle {math.degrees(near.angle):.4g}°{phase}"
 
 
-def _collision(linkage: Linkage, near: Approach) -> Finding:
+def _collision(params: SphericalParams, linkage: Linkage, near: Approach) -> Finding:
     one, two = near.bodies
+    other = params.kind == "four-bar" and params.hardware.frame == "one"
     verb = (
         f"run into each other by {-near.room:.3g} mm"
         if near.room < 0
@@ -157,7 +194,8 @@ def _collision(linkage: Linkage, near: Approach) -> Finding:
         near.room,
         AIR,
         "mm",
-        "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
+        ('set hardware.frame = "auto", or ' if other else "")
+        + "use narrower links and bosses, a larger radius, a shorter travel, or other arcs",
     )
 
 
@@ -176,7 +214,7 @@ def _slots(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     for (one, here), (two, there) in combinations(slots.items(), 2):
         nearest = float(np.arccos(np.clip(np.einsum("in,im->nm", here, there), -1, 1)).min())
         apart = 2 * radius * math.tan(nearest / 2)
-        if apart < least:
+        if falls_short(apart, least):
             yield Finding.error(
                 "spherical.slot",
                 "five_bar.c1n",
@@ -235,7 +273,7 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
         cones["idler"] = train.idler
     for name, angle in cones.items():
         diameter = 2 * inner * math.sin(angle)
-        if diameter < least or angle >= math.pi / 2:
+        if falls_short(diameter, least) or angle >= math.pi / 2:
             yield Finding.error(
                 "spherical.drive",
                 "drive.idler" if name == "idler" else "drive.share",
@@ -249,8 +287,9 @@ def _cones(params: SphericalParams, shells: Shells, train: Train) -> Iterator[Fi
 
 def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Finding]:
     stand = params.stand
-    whole = math.degrees(link_arcs(linkage)["ground"]) + stand.arc
-    if whole > LONGEST_GROUND:
+    bridge = frame_of(params).bridge or 0.0
+    whole = math.degrees(link_arcs(linkage)["ground"] + max(math.radians(stand.arc), bridge))
+    if exceeds(whole, LONGEST_GROUND):
         yield Finding.error(
             "spherical.stand",
             "stand.arc",
@@ -263,7 +302,7 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     yield from _post(params, linkage, shells)
     # Mounting holes, a screw's head of material around them, and the flange must all fit on the plate.
     rim = (0.5 - abs(MOUNTING_SCREWS[0][0])) * stand.plate
-    if rim < stand.screw or flange_diameter(stand) > stand.plate:
+    if falls_short(rim, stand.screw) or exceeds(flange_diameter(stand), stand.plate):
         most = min(rim, (stand.plate / 2 - (flange_diameter(stand) / 2 - 1.5 * stand.screw)) / 1.5)
         yield Finding.error(
             "spherical.stand",
@@ -274,7 +313,7 @@ def _stand(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
             "mm",
             f"use at most {math.floor(100 * most) / 100:g} mm, or a larger plate",
         )
-    if stand.height < params.hardware.link_thickness:
+    if falls_short(stand.height, params.hardware.link_thickness):
         yield Finding.error(
             "spherical.stand",
             "stand.height",
@@ -300,7 +339,7 @@ def _post(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator
     needed = math.atan2(hardware.boss_diameter / 2 + AIR, radius)
     if train is not None:
         needed = max(needed, train.pinion)
-    if math.radians(stand.arc) < needed + half:
+    if falls_short(math.radians(stand.arc), needed + half):
         least = math.degrees(needed + half)
         yield Finding.error(
             "spherical.stand",
@@ -317,13 +356,13 @@ def _strips(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
     flat, hardware = params.flat, params.hardware
     if not flat.make:
         return
-    arcs = {**link_arcs(linkage), **second_size(linkage, shells)}
+    arcs = {**link_arcs(linkage), **ground_arcs(params), **second_size(linkage, shells)}
     arcs |= {f"coupler{phase.number}": math.acos(float(phase.loop.ca)) for phase in linkage.phases}
     shortest = hardware.boss_diameter / 2
     for name, angle in arcs.items():
         link = "coupler" if name.startswith("coupler") else name
         found = strip(angle, shells.arc(link)[0], flat)
-        if found.leg < shortest:
+        if falls_short(found.leg, shortest):
             yield Finding.error(
                 "spherical.strip",
                 "flat.bend_radius",

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechwright import Array, DesignError, GeometryError, kept
-from mechwright.contracts.motion import travelled
-from mechwright.mechanics.planar import Turning
+from mechwright.mechanics.planar import Course, Turning
 from mechwright_spherical.fivebar import AdjustableFiveBar
 from mechwright_spherical.fourbar import FourBar
 from mechwright_spherical.loop import Loop, State
+from mechwright_spherical.mobility import input_range
 from mechwright_spherical.params import FiveBarTable, FourBarTable, SphericalParams
 from mechwright_spherical.projection import project
 from mechwright_spherical.vectors import arc, cross, dot, norm, vector
@@ -31,6 +31,8 @@ class Phase:
         Input angle at which bodies are measured, rad: 0, the adjustment, or a four-bar's start.
     start, travel
         Input angle at which it starts, and how far it goes from there, rad.
+    rocks
+        Whether the input is a lever that goes back to its start, as it cannot turn fully.
     targets
         Prescribed path points (3, n), unit vectors.
     target_angles
@@ -44,10 +46,16 @@ class Phase:
     travel: float
     targets: Array
     target_angles: Array
+    rocks: bool = False
+
+    @property
+    def course(self) -> Course:
+        """One period of the input."""
+        return Course(self.start, self.travel, self.rocks)
 
     def sweep(self, samples: int) -> Array:
-        """Input angles (samples,) over the whole travel, rad."""
-        return travelled(self.travel, samples, self.start)
+        """Input angles (samples,) once over the whole travel, rad."""
+        return self.course.way(samples)
 
     def state(self, samples: int) -> State:
         """The linkage over the whole travel."""
@@ -194,19 +202,48 @@ def _four_bar(table: FourBarTable) -> Linkage:
     own = four_bar.loop()
     turned = {name: axes @ getattr(own, name) for name in ("a0", "a1", "b0", "b1")}
     loop = replace(own, **turned)
-    start = math.radians(table.start)
+    course, zero = _course(table, four_bar)
     found = [_vector(pin, "four_bar.path") for pin in table.path]
     targets = np.array(found).T.reshape(3, len(found))
     phase = Phase(
         1,
         loop,
-        start,
-        start,
-        math.radians(table.travel),
+        zero,
+        course.start,
+        course.travel,
         targets,
-        start + np.radians(np.array(table.path_angles, dtype=float)),
+        zero + np.radians(np.array(table.path_angles, dtype=float)),
+        course.rocks,
     )
     return Linkage((phase,), phase, four_bar=four_bar)
+
+
+TURN_BACK = math.radians(1.0)
+"""Transmission angle at which a lever turns back before its dead centre: 57 times the torque of the output
+would have to come from the input there, and friction blocks it long before."""
+
+
+def _course(table: FourBarTable, four_bar: FourBar) -> tuple[Course, float]:
+    """One period of the input, and the input angle from which path angles count, rad.
+
+    What cannot be assembled is left as the design says it, for the checks to find.
+    """
+    start = math.radians(table.start or 0.0)
+    if table.travel is not None:
+        return Course(start, math.radians(table.travel)), start
+    ways = input_range(*four_bar.arcs, TURN_BACK)
+    if not ways or ways == ((0.0, math.tau),):
+        return Course(start, math.tau), start
+    if len(ways) == 2 and ways[0][0] == 0.0:  # one way through 0
+        ways = ((-ways[0][1], ways[0][1]),)
+    for low, high in ways:
+        turn = math.tau * math.floor((start - low) / math.tau)
+        if table.start is not None and low + turn <= start <= high + turn:
+            return Course(low + turn, high - low, rocks=True), start
+    if table.start is not None:
+        return Course(start, math.tau), start
+    low, high = ways[0]
+    return Course(low, high - low, rocks=True), low
 
 
 def _frame(table: FourBarTable) -> Array:

@@ -10,10 +10,11 @@ from mechwright import Array
 from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.chain import orientation
 from mechwright_spherical.drive import Train, train_of
+from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size
-from mechwright_spherical.shells import Shells, Span, shells_of
+from mechwright_spherical.shells import Shells, Span
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
 from mechwright_spherical.vectors import arc
@@ -129,12 +130,21 @@ def coupler_slots(linkage: Linkage, frame: Array) -> tuple[Slot, Slot]:
 
 
 def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Train | None) -> cq.Solid:
-    """The frame: both fixed axes on one arc, the idler's on another, and the post with its flange."""
+    """The frame: both fixed axes, the idler's on an arc of its own, and the post with its flange."""
     hardware, stand = params.hardware, params.stand
-    loop = linkage.shown.loop
+    loop, bridge = linkage.shown.loop, frame_of(params).bridge
     axes = [X, direction(float(arc(loop.a0, loop.b0)))]
     span, arcs = shells.links["ground"], shells.arc("ground")
-    bodies = [_arc(params, axes[0], axes[1], arcs, start=-math.radians(stand.arc))]
+    beyond = max(math.radians(stand.arc), bridge or 0.0)
+    bodies = [_arc(params, axes[0], axes[1], arcs, start=-beyond)]
+    holes: list[cq.Solid] = []
+    if bridge is not None:
+        # The input axis has an arc of its own inside the links, and a radial piece joins both arcs.
+        inner, at = shells.links["ground-2"], direction(-bridge)
+        bodies.append(_arc(params, at, X, shells.arc("ground-2")))
+        bodies.append(cylinder(at, (inner[0], span[1]), hardware.boss_diameter))
+        bodies.append(cylinder(axes.pop(0), inner, hardware.boss_diameter))
+        holes.append(bore(params, X, inner))
     if train is not None and train.idler_axis is not None:
         axes.append(_in_ground(linkage, train.idler_axis))
         bodies.append(_arc(params, axes[0], axes[2], arcs))
@@ -146,7 +156,7 @@ def ground(params: SphericalParams, shells: Shells, linkage: Linkage, train: Tra
     bodies.append(cylinder(post, (span[0], top), hardware.boss_diameter))
     bodies.append(cylinder(post, flange, flange_diameter(stand)))
     side, up = np.array([0.0, 0.0, 1.0]), np.cross(post, [0.0, 0.0, 1.0])
-    holes = [bore(params, axis, span) for axis in axes]
+    holes += [bore(params, axis, span) for axis in axes]
     for one, two in FLANGE_SCREWS:
         at = stand.plate * (one * side + two * up)
         holes.append(

@@ -91,22 +91,24 @@ def _signs(values: Array) -> tuple[int, int, int]:
 
 
 def input_range(
-    ground: float, input_: float, coupler: float, output: float
+    ground: float, input_: float, coupler: float, output: float, least: float = 0.0
 ) -> tuple[tuple[float, float], ...]:
     """Input angles, rad, at which the linkage can be assembled: intervals inside 0 to 2π, in order.
 
-    The diagonal D from a to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ, and the far links reach
-    |α3 - α4| ≤ D ≤ min(α3 + α4, 2π - α3 - α4). No interval: it cannot be assembled at all.
+    Its transmission angle μ is at least ``least`` there, rad, and at most π less that. The diagonal D from a
+    to c has cos D = cos α1 cos α2 + sin α1 sin α2 cos θ = cos α3 cos α4 + sin α3 sin α4 cos μ. No interval:
+    it cannot be assembled at all.
 
     >>> arcs = np.radians([80, 30, 70, 60])
     >>> [(round(math.degrees(low), 6), round(math.degrees(high), 6)) for low, high in input_range(*arcs)]
     [(0.0, 360.0)]
     """
-    reach = min(coupler + output, 2 * math.pi - coupler - output)
     level, swing = math.cos(ground) * math.cos(input_), math.sin(ground) * math.sin(input_)
-    highest = (math.cos(coupler - output) - level) / swing
-    lowest = (math.cos(reach) - level) / swing
-    if highest < -1 or lowest > 1:
+    # cos α3 cos α4 ± sin α3 sin α4 cos μ, in a form that does not cancel.
+    less = 2 * math.sin(coupler) * math.sin(output) * math.sin(least / 2) ** 2
+    highest = (math.cos(coupler - output) - less - level) / swing
+    lowest = (math.cos(coupler + output) + less - level) / swing
+    if highest < -1 or lowest > 1 or lowest >= highest:
         return ()
     near = math.acos(highest) if highest < 1 else 0.0
     far = math.acos(lowest) if lowest > -1 else math.pi

@@ -11,13 +11,13 @@ from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_spherical.bodies import coupler_frame, pins_of_phase, poses, quaternions
 from mechwright_spherical.drive import train_of
 from mechwright_spherical.fourbar import FourBar
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.held import held_by
 from mechwright_spherical.jets import Jet, turning_about
 from mechwright_spherical.linkage import Linkage, Phase, linkage_of
 from mechwright_spherical.loop import State
-from mechwright_spherical.mobility import mobility
+from mechwright_spherical.mobility import input_range, mobility
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import shells_of
 from mechwright_spherical.stand import base_pose
 from mechwright_spherical.vectors import norm
 
@@ -27,6 +27,8 @@ _RATES = ("", "/s", "/s^2", "/s^3")
 def motion_of(params: SphericalParams, samples: int) -> Motion:
     """Sample the travel of the phase that is shown at constant input speed, both ends included.
 
+    An input that is a lever goes there and back.
+
     Raises
     ------
     KinematicsError
@@ -34,9 +36,8 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
     """
     linkage = linkage_of(params)
     phase = linkage.shown
-    angles = phase.sweep(samples)
-    omega = math.copysign(params.speed * math.tau / 60, phase.travel)
-    turning = Turning.of(angles, omega)
+    time, turning = phase.course.period(samples, params.speed * math.tau / 60)
+    angles = turning.theta
     with np.errstate(over="ignore", invalid="ignore"):
         state = phase.loop.at(turning, 3)
     if not all(np.isfinite(rate).all() for rate in (*state.c, *state.p)):
@@ -47,7 +48,7 @@ def motion_of(params: SphericalParams, samples: int) -> Motion:
             f"{phase.number}; shorten the travel, or choose other arcs"
         )
     channels = {
-        "time": Channel(np.abs((angles - angles[0]) / omega), "s"),
+        "time": Channel(time, "s"),
         **turning_channels(turning, "theta", ""),
         **_driven(linkage, phase, state, turning),
         "transmission_angle": Channel(state.transmission, "rad"),
@@ -112,12 +113,14 @@ def _figures(params: SphericalParams, linkage: Linkage) -> dict[str, Scalar]:
         found[f"transmission_max{mark}"] = Scalar(float(np.nanmax(mu)), "rad")
         if phase.target_angles.size:
             errors = params.radius * phase.path_errors
+            errors = errors[np.isfinite(errors)]
+        if phase.target_angles.size and errors.size:
             found[f"path_error_max{mark}"] = Scalar(float(errors.max()), "mm")
             found[f"path_error_rms{mark}"] = Scalar(float(np.sqrt(np.mean(errors**2))), "mm")
     if linkage.five_bar is not None:
         found |= _arcs(linkage)
     else:
-        found |= _mobility(linkage.four_bar)
+        found |= _mobility(linkage.four_bar) | _lever(linkage)
     return found
 
 
@@ -128,6 +131,28 @@ def _arcs(linkage: Linkage) -> dict[str, Scalar]:
     values = {"R1": r1, "R1n": r1n, "R3": r3, "R3n": r3n}
     values |= {"crank_setting": mechanism.crank_setting, "rocker_setting": mechanism.rocker_setting}
     return {name: Scalar(float(value), "rad") for name, value in values.items()}
+
+
+def _lever(linkage: Linkage) -> dict[str, Scalar]:
+    """Where an input that is a lever turns back, and its dead centres: input angles, in degrees."""
+    phase, four_bar = linkage.shown, linkage.four_bar
+    if four_bar is None or not phase.rocks:
+        return {}
+    low, high = phase.start, phase.start + phase.travel
+    middle = (low + high) / 2
+    ways = input_range(*four_bar.arcs)
+    if len(ways) == 2 and ways[0][0] == 0.0:  # one way through 0
+        ways = ((-ways[0][1], ways[0][1]),)
+    gaps = [(abs(math.remainder(middle - (a + b) / 2, math.tau)), (b - a) / 2) for a, b in ways]
+    half = min(gaps)[1]
+    angles = {
+        "swing_from": low,
+        "swing_to": high,
+        "input_range": high - low,
+        "toggle_low": middle - half,
+        "toggle_high": middle + half,
+    }
+    return {name: Scalar(math.degrees(angle), "deg") for name, angle in angles.items()}
 
 
 def _mobility(four_bar: FourBar | None) -> dict[str, Scalar]:

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mechwright import MaterialName, Parameters
+from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 from mechwright_spherical import printed
 
@@ -34,12 +34,22 @@ class FourBarTable(Parameters):
     ``output_towards``.
     """
 
-    ground: Degrees = Field(80.0, gt=0, lt=180, description="Arc α1 between the fixed axes.")
-    input: Degrees = Field(30.0, gt=0, lt=180, description="Arc α2 of the input link.")
-    coupler: Degrees = Field(70.0, gt=0, lt=180, description="Arc α3 of the coupler.")
-    output: Degrees = Field(60.0, gt=0, lt=180, description="Arc α4 of the output link.")
+    ground: Degrees = Field(
+        80.0, gt=0, lt=180, description="Arc α1 between the fixed axes.", json_schema_extra=FIRST
+    )
+    input: Degrees = Field(
+        30.0, gt=0, lt=180, description="Arc α2 of the input link.", json_schema_extra=FIRST
+    )
+    coupler: Degrees = Field(
+        70.0, gt=0, lt=180, description="Arc α3 of the coupler.", json_schema_extra=FIRST
+    )
+    output: Degrees = Field(
+        60.0, gt=0, lt=180, description="Arc α4 of the output link.", json_schema_extra=FIRST
+    )
     branch: Literal[1, -1] = Field(
-        1, description="1 or -1: which of the two ways to assemble it, the sign of c.(a x b)."
+        1,
+        description="1 or -1: which of the two ways to assemble it, the sign of c.(a x b).",
+        json_schema_extra=FIRST,
     )
     point_azimuth: Degrees = Field(
         35.0, ge=-180, le=180, description="Path point: angle κ along the coupler from the input pin."
@@ -47,13 +57,17 @@ class FourBarTable(Parameters):
     point_elevation: Degrees = Field(
         15.0, ge=-90, le=90, description="Path point: angle η out of the coupler's great circle, to its left."
     )
-    start: Degrees = Field(
-        0.0,
-        ge=-360,
-        le=360,
-        description="Input angle at the start; 0 where the input link points at the output axis.",
+    start: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
+        None,
+        description="Input angle at the start; 0 where the input link points at the output axis. Left out, "
+        "0, or where the swing of an input begins that cannot turn fully.",
+        json_schema_extra=FIRST,
     )
-    travel: Degrees = Field(360.0, ge=-720, le=720, description="How far the input turns from there.")
+    travel: Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None = Field(
+        None,
+        description="How far the input turns from there; left out, a turn, or as far as it can and back.",
+        json_schema_extra=FIRST,
+    )
     input_axis: Direction = Field((0.0, 0.0, 1.0), description="Direction of the input axis.")
     output_towards: Direction = Field(
         (1.0, 0.0, 0.0), description="Direction to which the output axis lies from the input axis."
@@ -79,20 +93,33 @@ class FiveBarTable(Parameters):
     """An adjustable spherical five-bar by its pins in the position of adjustment; ``n`` marks phase 2."""
 
     a0: Pin = Field(
-        printed.PINS["a0"], description="Axis of the crank: x, y in the plane, or a direction x, y, z."
+        printed.PINS["a0"],
+        description="Axis of the crank: x, y in the plane, or a direction x, y, z.",
+        json_schema_extra=FIRST,
     )
-    a1: Pin = Field(printed.PINS["a1"], description="Pin of crank and coupler in phase 1.")
-    a1n: Pin = Field(printed.PINS["a1n"], description="The same in phase 2.")
-    b0: Pin = Field(printed.PINS["b0"], description="Axis of the arm.")
-    b1: Pin = Field(tuple(round(x, 6) for x in printed.PINS["b1"]), description="Pin of arm and rocker.")
-    c1: Pin = Field(printed.PINS["c1"], description="Pin of coupler and rocker in phase 1.")
-    c1n: Pin = Field(printed.PINS["c1n"], description="The same in phase 2.")
-    point: Pin = Field(printed.TABLE_2[0], description="Path point, the same in both phases.")
+    a1: Pin = Field(
+        printed.PINS["a1"], description="Pin of crank and coupler in phase 1.", json_schema_extra=FIRST
+    )
+    a1n: Pin = Field(printed.PINS["a1n"], description="The same in phase 2.", json_schema_extra=FIRST)
+    b0: Pin = Field(printed.PINS["b0"], description="Axis of the arm.", json_schema_extra=FIRST)
+    b1: Pin = Field(
+        tuple(round(x, 6) for x in printed.PINS["b1"]),
+        description="Pin of arm and rocker.",
+        json_schema_extra=FIRST,
+    )
+    c1: Pin = Field(
+        printed.PINS["c1"], description="Pin of coupler and rocker in phase 1.", json_schema_extra=FIRST
+    )
+    c1n: Pin = Field(printed.PINS["c1n"], description="The same in phase 2.", json_schema_extra=FIRST)
+    point: Pin = Field(
+        printed.TABLE_2[0], description="Path point, the same in both phases.", json_schema_extra=FIRST
+    )
     projection_length: Ratio = Field(
         printed.LENGTH,
         gt=0,
         le=1000,
         description="Distance of the plane from the centre, in the plane's unit; for pins of two numbers.",
+        json_schema_extra=FIRST,
     )
     projection_centre: Point = Field(
         (0.0, 0.0), description="Point of the plane that the z axis meets; for pins of two numbers."
@@ -101,8 +128,16 @@ class FiveBarTable(Parameters):
         False,
         description="Bring the pins to the mean arcs, so that one crank and one rocker serve both phases.",
     )
-    ratio: Ratio = Field(printed.RATIO, ge=-10, le=10, description="Turns of the arm per turn of the crank.")
-    phase: Literal[1, 2] = Field(1, description="Phase that motion and assembly show.")
+    ratio: Ratio = Field(
+        printed.RATIO,
+        ge=-10,
+        le=10,
+        description="Turns of the arm per turn of the crank.",
+        json_schema_extra=FIRST,
+    )
+    phase: Literal[1, 2] = Field(
+        1, description="Phase that motion and assembly show.", json_schema_extra=FIRST
+    )
     start: Degrees = Field(
         0.0, ge=-360, le=360, description="Crank angle, from the adjustment, at which phase 1 starts."
     )
@@ -112,8 +147,11 @@ class FiveBarTable(Parameters):
         ge=-720,
         le=720,
         description="How far the crank turns in phase 1, from its start.",
+        json_schema_extra=FIRST,
     )
-    travel_n: Degrees = Field(printed.ANGLES_N[-1], ge=-720, le=720, description="The same in phase 2.")
+    travel_n: Degrees = Field(
+        printed.ANGLES_N[-1], ge=-720, le=720, description="The same in phase 2.", json_schema_extra=FIRST
+    )
     path: tuple[Pin, ...] = Field(
         (),
         max_length=MOST_POSITIONS,
@@ -151,8 +189,12 @@ class HardwareTable(Parameters):
     """Sizes of the links. They lie on concentric shells, the coupler on the innermost one."""
 
     standoff: Millimetres = Field(5.0, ge=0, le=200, description="From the sphere to the coupler's shell.")
-    link_thickness: Millimetres = Field(5.0, ge=0.5, le=100, description="Thickness of the links, radially.")
-    link_width: Millimetres = Field(8.0, ge=1, le=200, description="Width of the links, across.")
+    link_thickness: Millimetres = Field(
+        5.0, ge=0.5, le=100, description="Thickness of the links, radially.", json_schema_extra=FIRST
+    )
+    link_width: Millimetres = Field(
+        8.0, ge=1, le=200, description="Width of the links, across.", json_schema_extra=FIRST
+    )
     section: Literal["rectangle", "shell"] = Field(
         "rectangle",
         description="Section of the arcs: flat to both sides, or a true strip of a spherical shell.",
@@ -163,12 +205,20 @@ class HardwareTable(Parameters):
     boss_height: Millimetres = Field(
         0.5, ge=0, le=50, description="How far bosses rise over the link, each side."
     )
-    pin_diameter: Millimetres = Field(6.0, ge=1, le=100, description="Diameter of pins and shafts.")
+    pin_diameter: Millimetres = Field(
+        6.0, ge=1, le=100, description="Diameter of pins and shafts.", json_schema_extra=FIRST
+    )
     fit: Millimetres = Field(
         0.05, ge=0, le=1, description="How much wider bores and slots are than their pins."
     )
     gap: Millimetres = Field(1.5, ge=0.05, le=50, description="Between the shells, radially.")
-    material: MaterialName = Field("aluminium", description="Material of links and base.")
+    frame: Literal["auto", "one", "two"] = Field(
+        "auto",
+        description="Ground of a four-bar: outside the links, on both sides, or outside where that goes.",
+    )
+    material: MaterialName = Field(
+        "aluminium", description="Material of links and base.", json_schema_extra=FIRST
+    )
     pin_material: MaterialName = Field("steel", description="Material of pins and drive.")
 
 
@@ -224,14 +274,22 @@ class SphericalParams(Parameters):
     kind: Literal["five-bar", "four-bar"] = Field(
         "five-bar",
         description="Which of the tables five_bar and four_bar counts; the other one stays as it is.",
+        json_schema_extra=FIRST,
     )
     radius: Millimetres = Field(
-        100.0, ge=5, le=2000, description="Radius of the sphere on which the path point moves."
+        100.0,
+        ge=5,
+        le=2000,
+        description="Radius of the sphere on which the path point moves.",
+        json_schema_extra=FIRST,
     )
-    speed: RevPerMin = Field(10.0, ge=0.001, le=3000, description="Constant speed of the input.")
+    speed: RevPerMin = Field(
+        10.0, ge=0.001, le=3000, description="Constant speed of the input.", json_schema_extra=FIRST
+    )
     path_tolerance: Annotated[float, Field(gt=0, le=100), Unit("mm")] | None = Field(
         None,
         description="Allowed distance of the path from its prescribed points; left out, it is only reported.",
+        json_schema_extra=FIRST,
     )
     least_transmission: Degrees = Field(
         40.0, ge=0, le=89, description="Transmission angle that neither side may go below without a warning."
@@ -251,6 +309,8 @@ class SphericalParams(Parameters):
             raise ValueError(f'{name} is not looked at with kind = "{self.kind}"; set kind, or leave it out')
         if self.kind == "four-bar" and self.drive != DriveTable():
             raise ValueError("drive is the bevel drive of a five-bar; leave it out with a four-bar")
+        if self.kind == "five-bar" and self.hardware.frame == "two":
+            raise ValueError('hardware.frame = "two" is for a four-bar; leave it out with a five-bar')
         if self.path_tolerance is not None and not self._has_path:
             raise ValueError("path_tolerance needs a path; give path and path_angles, or leave it out")
         return self

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 from mechwright import Colour, Instance, Part
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
+from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
 from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size
-from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import base_outline
 
 if TYPE_CHECKING:
@@ -108,7 +109,8 @@ def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterat
     )
     if not flat.make:
         return
-    arcs = link_arcs(linkage) | {f"{n}-n": a for n, a in second_size(linkage, shells).items()}
+    arcs = link_arcs(linkage) | ground_arcs(params)
+    arcs |= {f"{n}-n": a for n, a in second_size(linkage, shells).items()}
     arcs |= {
         f"coupler{'-n' if phase.number == 2 else ''}": math.acos(float(phase.loop.ca))
         for phase in linkage.phases

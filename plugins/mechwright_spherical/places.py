@@ -3,9 +3,10 @@
 import math
 
 from mechwright_spherical.drive import Train
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import Shells, shells_of
+from mechwright_spherical.shells import Shells
 from mechwright_spherical.vectors import arc
 
 ONE_SIZE = 0.02

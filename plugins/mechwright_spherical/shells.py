@@ -1,10 +1,11 @@
 """Concentric shells: which link lies between which radii.
 
 From the sphere outwards: the coupler, crank and rocker, the arm of a five-bar, the ground link. Links that
-share a shell must keep clear of each other sideways; a pin crosses the shells between its two links.
+share a shell must keep clear of each other sideways; a pin crosses the shells between its two links. A
+four-bar whose links do not may stand between two arcs of the ground instead.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mechwright_spherical.params import SphericalParams
@@ -37,6 +38,11 @@ class Shells:
         return inner + self.recess, outer - self.recess
 
     @property
+    def inside(self) -> Span:
+        """Span of the innermost shell, mm."""
+        return min(self.links.values())
+
+    @property
     def outside(self) -> float:
         """Outer radius of the outermost shell, mm."""
         return self.links["ground"][1]
@@ -46,18 +52,13 @@ SHAFT_END = 2.0
 """How far shafts stick out of the ground link, mm, where they carry nothing: room for a clip."""
 
 
-def shells_of(params: SphericalParams) -> Shells:
-    """The shells of a design."""
+def one_side(params: SphericalParams) -> Shells:
+    """The shells with the ground link outside all others."""
     hardware = params.hardware
     order = [("coupler",), ("crank", "rocker"), ("ground",)]
     if params.kind == "five-bar":
         order.insert(2, ("arm",))
-    thickness = hardware.link_thickness + 2 * hardware.boss_height
-    links: dict[str, Span] = {}
-    at = params.radius + hardware.standoff
-    for names in order:
-        links |= dict.fromkeys(names, (at, at + thickness))
-        at += thickness + hardware.gap
+    links = _stacked(params, order, params.radius + hardware.standoff)
     ground, coupler, crank = links["ground"], links["coupler"], links["crank"]
     end = ground[1] + SHAFT_END
     if params.kind == "five-bar" and params.drive.gears:
@@ -74,3 +75,36 @@ def shells_of(params: SphericalParams) -> Shells:
     else:
         pins["b0"] = (crank[0], end)
     return Shells(links, hardware.boss_height, pins)
+
+
+def two_sides(params: SphericalParams) -> Shells:
+    """The shells of a four-bar between two arcs of the ground, so that no pin crosses another link.
+
+    From the centre: ``ground-2`` with the input axis, crank, the sphere of the path point, coupler, rocker,
+    and ``ground`` with the output axis.
+    """
+    hardware = params.hardware
+    thickness = hardware.link_thickness + 2 * hardware.boss_height
+    inside = params.radius - 2 * (hardware.gap + thickness)
+    links = _stacked(params, [("ground-2",), ("crank",)], inside)
+    links |= _stacked(params, [("coupler",), ("rocker",), ("ground",)], params.radius + hardware.standoff)
+    crank, coupler, rocker = links["crank"], links["coupler"], links["rocker"]
+    pins = {
+        "a": (crank[0], coupler[1]),
+        "c": (coupler[0], rocker[1]),
+        "a0": (inside - SHAFT_END, crank[1]),
+        "b0": (rocker[0], links["ground"][1] + SHAFT_END),
+        "tool": (params.radius, coupler[1]),
+    }
+    return Shells(links, hardware.boss_height, pins)
+
+
+def _stacked(params: SphericalParams, order: Sequence[tuple[str, ...]], start: float) -> dict[str, Span]:
+    """Links to their spans, from an inner radius outwards; those of one group share a shell."""
+    hardware = params.hardware
+    thickness = hardware.link_thickness + 2 * hardware.boss_height
+    links: dict[str, Span] = {}
+    for names in order:
+        links |= dict.fromkeys(names, (start, start + thickness))
+        start += thickness + hardware.gap
+    return links

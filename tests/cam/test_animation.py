@@ -90,7 +90,7 @@ def test_every_example_has_a_page_that_agrees_with_its_motion(path):
         np.testing.assert_allclose(points, motion.path(name)[:, : len(points[0])], atol=1e-3)
     solids = {part.name for part in parts if part.outline is None and part.instances}
     assert {name.partition(" ")[0] for name in found["missing"]} == solids
-    assert found["round"] == (abs(motion.channels[motion.input_name].values[-1]) > 6)
+    assert found["round"] == (motion.rocks or abs(motion.channels[motion.input_name].values[-1]) > 6)
 
 
 def test_families_name_the_points_whose_paths_are_drawn():

@@ -206,3 +206,14 @@ def test_a_plot_of_an_input_that_turns_backwards():
     backwards = plot(MadeCurve("Error", "input, degrees", "µrad", turned, {"as made": off}))
     assert '"M170,-15.5L117.69,-62L0,-31"' in backwards
     assert {"-100", "-50", "0"} <= set(re.findall(r">([-\d]+)<", backwards))
+
+
+def test_an_input_that_turns_backwards_is_plotted_as_one_that_turns_forwards():
+    x, y = np.linspace(-30.0, 0.0, 31), np.linspace(0.0, 2.0, 31)
+    there, back = (
+        plot(MadeCurve("play", "angle, deg", "mm", x[::way], {"drawn": y[::way]})) for way in (1, -1)
+    )
+    assert sorted(re.findall(r"<text[^>]*>([^<]*)<", there)) == sorted(
+        re.findall(r"<text[^>]*>([^<]*)<", back)
+    )
+    assert ">-30<" in back

@@ -262,7 +262,7 @@ WIDE_CLAMP = {
 }
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @known_design(**WEDGES)
 @known_design(**WIDE_CLAMP)
 @given(parameters=DESIGNS, cam=SETTINGS)

@@ -49,12 +49,23 @@ def witness_of(family, params, samples=73, sample=0):
         with_params(
             "crank-rocker-three-poles", branch="crossed", direction="cw", ground_angle=33.0, pivot_x=7.0
         ),
+        design("double-crank"),
         design("slider-crank-quick-return"),
         with_params("slider-crank-quick-return", clockwise=True, slide_direction=-20.0),
         design("spherical-crank-rocker"),
+        design("spherical-double-crank"),
         design("spherical-five-bar-refined"),
     ],
-    ids=["four-bar", "four-bar-crossed", "slider-crank", "slider-crank-turned", "spherical", "five-bar"],
+    ids=[
+        "four-bar",
+        "four-bar-crossed",
+        "double-crank",
+        "slider-crank",
+        "slider-crank-turned",
+        "spherical",
+        "spherical-double-crank",
+        "five-bar",
+    ],
 )
 def test_poses_are_those_of_the_motion(family, params):
     witness, motion = witness_of(family, params)

@@ -32,7 +32,9 @@ TABLES = {
         "entry_radius": 80,
         "roller_radius": 4,
         "lock_radius": 30,
+        "bore": 12,
         "driver_bore": 6,
+        "pin_diameter": 6,
         "fixing": 2.2,
     },
 }

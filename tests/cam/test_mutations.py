@@ -135,7 +135,7 @@ def test_edges_do_not_run_too_fast() -> None:
 
 
 @pytest.mark.parametrize(
-    ("control", "old", "new"), [("linuxcnc", "G83", "G81"), ("mach3", "Q3", "Q30"), ("haas", "Q3.", "Q30.")]
+    ("control", "old", "new"), [("linuxcnc", "Q3", "Q30"), ("mach3", "Q3", "Q30"), ("haas", "Q3.", "Q30.")]
 )
 def test_drills_come_out_of_deep_holes(control: str, old: str, new: str) -> None:
     found = refused(made("peck", control), old, new, "pecks", control)

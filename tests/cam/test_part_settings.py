@@ -164,5 +164,5 @@ def test_the_program_is_that_of_the_part(tmp_path):
 
 
 def test_a_new_design_file_shows_the_table():
-    done = CliRunner().invoke(make_app(), ["new", "elliptic-gears"])
+    done = CliRunner().invoke(make_app(), ["new", "elliptic-gears", "--all"])
     assert "# [cam.part.NAME]" in done.output

@@ -74,7 +74,7 @@ def test_the_template_is_a_design_file_with_the_defaults(tmp_path: Path, host: H
     text = template(Disc(), "disc", [CamTable()])
     design = load(write(tmp_path, text), host)
     assert design.params == DiscParams()
-    assert "Diameter of the disc. (mm, 1 to 500)" in text
+    assert "Diameter of the disc. (mm, above 1, at most 500)" in text
     tables = tomllib.loads(text)
     assert set(tables["cam"]) >= {"machine", "stock", "hold"}
 

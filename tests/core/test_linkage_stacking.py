@@ -8,7 +8,7 @@ import shapely
 
 from mechwright.contracts.motion import Poses
 from mechwright.errors import GeometryError
-from mechwright.mechanics.linkage import Boss, Plate, Spindle, disc, hull_link, rectangle, stack
+from mechwright.mechanics.linkage import Boss, Closeness, Plate, Spindle, disc, hull_link, rectangle, stack
 
 ANGLES = np.linspace(0, math.tau, 181)
 STILL = Poses.planar(0.0, 0.0, np.zeros(181))
@@ -77,6 +77,16 @@ def test_neighbours_may_touch():
     base = [GROUND, rail, block]
     assert stack(base, [], poses, 0.5, 0.3, [("block", "rail")]).layer == {"base": 0, "rail": 1, "block": 1}
     assert max(stack(base, [], poses, 0.5, 0.3).layer.values()) == 2
+
+
+def test_nothing_comes_near_outside_of_what_is_swept():
+    """Twelve samples see the arm's end at 26 mm only in some directions; the bounds hold it everywhere."""
+    angle = np.linspace(0.1, 0.1 + math.tau, 13)
+    poses = {"crank": crank(angle=angle)}
+    bounds = Closeness([ARM], [], poses, 0.5).swept(["arm"])
+    assert all(26.5 < abs(edge) < 26.5 + 8.0 for edge in bounds)
+    fine = Closeness([ARM], [], {"crank": crank(angle=np.linspace(0, math.tau, 3601))}, 0.5).swept(["arm"])
+    assert np.abs(fine) == pytest.approx(26.5, abs=0.2)
 
 
 def test_no_way_names_the_pairs():

@@ -206,7 +206,19 @@ def test_findings_may_be_about_the_cam_table():
         ("x", lambda n: np.zeros(n, dtype=int), "mm", "values are int64, not float64"),
         ("x", lambda n: np.where(np.arange(n) == 7, np.nan, 0.0), "mm", "channel x: not finite at sample 7"),
         ("x [mm]", lambda n: np.zeros(n), "mm", "a name is letters"),
-        ("theta", lambda n: np.sin(np.linspace(0, 3, n)), "rad", "input theta: neither rising nor falling"),
+        (
+            "theta",
+            lambda n: np.sin(np.linspace(0, 3, n)),
+            "rad",
+            "input theta: goes there and back, which needs a channel time [s]",
+        ),
+        ("theta", lambda n: np.sin(np.linspace(0, 6, n)), "rad", "input theta: goes back more than once"),
+        (
+            "theta",
+            lambda n: np.maximum(np.linspace(0, 3, n), 1.0),
+            "rad",
+            "input theta: neither rising nor falling",
+        ),
     ],
 )
 def test_channels(name, values, unit, words):

@@ -85,7 +85,7 @@ def test_build_refuses_it_and_check_says_so_before(command_line, tight, tmp_path
     code, out, _ = command_line("check", str(tight))
     assert code == 1
     assert "error [gear.backlash]" in out
-    assert "at least 0.067" in out
+    assert "; set backlash = 0.067 (now 0.0" in out
     code, _, err = command_line("build", str(tight), "-o", str(tmp_path / "out"))
     assert code == 1
     assert "0.067" in err

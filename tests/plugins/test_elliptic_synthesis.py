@@ -66,7 +66,7 @@ def test_designs_are_distinct_and_the_best_comes_first():
 
 @pytest.mark.parametrize(("kind", "rate"), [("least-acceleration", "acceleration"), ("least-jerk", "jerk")])
 def test_the_least_peak_with_the_wanted_window(kind, rate):
-    result, _ = synthesis(kind, designs=1, starts=1, window=2.4)
+    result, _ = synthesis(kind, designs=1, starts=1, window="2.4 rad")
     (best,) = result.candidates
     assert best.residual.value == 0
     assert point_window(best.params).length >= 2.4
@@ -96,12 +96,12 @@ def test_values_that_stand_are_not_searched():
 
 
 def test_a_window_that_cannot_be_had_is_refused_with_the_longest_one():
-    table = {"window": 3.0, "eccentricity_min": 0.38, "eccentricity_max": 0.42, "designs": 1, "starts": 1}
+    table = {"window": 172.0, "eccentricity_min": 0.38, "eccentricity_max": 0.42, "designs": 1, "starts": 1}
     result, _ = synthesis("least-jerk", **table)
     assert result.candidates == ()
     (fault,) = errors(result.findings)
     assert (fault.code, fault.parameter) == ("synthesis.window", "window")
-    again, _ = synthesis("least-jerk", **table | {"window": math.floor(fault.limit * 100) / 100})
+    again, _ = synthesis("least-jerk", **table | {"window": math.floor(fault.limit * 10) / 10})
     assert again.candidates
 
 

@@ -13,15 +13,19 @@ class TestFourBars(FamilyContract):
     family = FourBars
     examples = (
         {},
+        {"crank": 70, "coupler": 70, "follower": 75, "ground": 20},
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
+        {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
     )
     refused = (
-        ({"crank": 70}, "crank"),
+        ({"crank": 70, "coupler": 60, "swing_from": -60, "swing_to": 150}, "swing_to"),
+        ({"swing_from": 10}, "swing_to"),
         ({"crank": 60}, "ground"),
         ({"coupler": 400}, "coupler"),
         ({"crank": 50, "coupler": 60, "follower": 80, "ground": 90}, "ground"),
         ({"crank": 8}, "crank"),
         ({"coupler_point_x": 3, "coupler_point_y": 0}, "coupler_point_x"),
+        ({"crank": 70, "coupler": 60, "follower": 75, "ground": 30, "frame": "one"}, "frame"),
         ({"coupler_bend": 20, "web_width": 17}, "coupler_bend"),
         ({"coupler_point_x": 3}, "coupler_point_y"),
     )

@@ -13,7 +13,8 @@ from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.path_kernels import linear, polish, screen
 from mechwright_four_bar.path_search import path, search
-from mechwright_four_bar.plates import bar_of, pivot_of
+from mechwright_four_bar.plates import pivot_of
+from mechwright_four_bar.reach import bar_of
 from mechwright_four_bar.requirements import PathRequirement
 
 CLOSED = np.array(

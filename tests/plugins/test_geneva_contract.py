@@ -64,15 +64,18 @@ class TestGeneva(FamilyContract):
     refused = (
         ({"crank_half_angle": 80}, "crank_half_angle"),
         ({"offset_angle": 0}, "offset_angle"),
-        ({"roller_radius": 7}, "roller_radius"),
-        ({"bore": 60}, "roller_radius"),
+        (
+            {"roller_radius": 7, "crank_half_angle": 50, "offset_angle": 5, "entry_radius": 100},
+            "roller_radius",
+        ),
+        ({"bore": 60, "crank_half_angle": 50, "offset_angle": 5}, "crank_half_angle"),
         ({"construction": "through"}, "construction"),
         ({"law": "polynomial", "polynomial": [0, 1]}, "polynomial"),
         ({"law": "table", "table": [[0, 0], [1, 1]]}, "table"),
         ({"law": "table"}, "table"),
         ({"lock_radius": 90}, "lock_radius"),
         ({"floor": 9.8}, "floor"),
-        ({"rollers": 4}, "rollers"),
+        ({"rollers": 4, "crank_half_angle": 50}, "rollers"),
     )
     variations: ClassVar = {
         "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],

@@ -34,7 +34,14 @@ NAMES = {
     "modified_trapezoid": "modified-trapezoid",
 }
 
-BARE = {"groove_clearance": 0, "bore": 0, "driver_bore": 0, "least_wall": 0.2, "fixing": 0}
+BARE = {
+    "roller_radius": 5,
+    "groove_clearance": 0,
+    "bore": 0,
+    "driver_bore": 0,
+    "least_wall": 0.2,
+    "fixing": 0,
+}
 """The facts know no clearance of the groove."""
 REFERENCE = GenevaParams(**BARE, crank_half_angle=50, offset_angle=5, lock_radius=70, thickness=13.5)
 FIGURE_6 = Frame.of(math.pi / 4, math.radians(60), 0.0, 100.0)

@@ -112,8 +112,10 @@ def test_worst_case_of_the_spherical_output(name, arcs):
 def test_the_plates_of_the_examples_are_judged():
     names = {
         "crank-rocker-three-poles": {"follower.error", "pin.room"},
+        "double-crank": {"follower.error", "pin.room"},
         "slider-crank-quick-return": {"slider.error", "slider.play"},
         "spherical-crank-rocker": {"output.error", "pin.room"},
+        "spherical-double-crank": {"output.error", "pin.room"},
         "spherical-five-bar-refined": {"output.error", "pin.room"},
     }
     for name, figures in names.items():

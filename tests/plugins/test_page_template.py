@@ -8,7 +8,7 @@ import pytest
 from templates import EXAMPLES, copied, installed_into, passed, run
 
 NAMES = {"bill-of-materials.csv", "bill-of-materials.html"}
-DESIGN = EXAMPLES / "slider-crank-quick-return.toml"
+DESIGN = EXAMPLES / "elliptic-pair.toml"
 
 
 @pytest.fixture(scope="module")

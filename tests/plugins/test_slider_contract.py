@@ -21,7 +21,8 @@ class TestSliderCrank(FamilyContract):
         },
     )
     refused = (
-        ({"rod": 39}, "rod"),
+        ({"rod": 40.01}, "rod"),
+        ({"rod": 30, "crank": 20, "offset": 60}, "offset"),
         ({"crank": 6, "rod": 60, "pin": 8}, "crank"),
         ({"rod": 110, "rod_width": 30}, "rod_width"),
         ({"rod_bend": 60}, "rod_bend"),

@@ -12,10 +12,9 @@ from mechwright.errors import MechwrightError
 from mechwright_spherical.checks import findings, weakest
 from mechwright_spherical.clearances import approaches, arcs_apart, point_to_arc
 from mechwright_spherical.family import Spherical
-from mechwright_spherical.hardware_checks import AIR
+from mechwright_spherical.frame import AIR, shells_of
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.shells import shells_of
 from mechwright_spherical.vectors import rotate, vector
 
 FOUR_BAR = {"kind": "four-bar", "radius": 60}
@@ -43,9 +42,10 @@ CASES = [
     ("spherical.pins", four(output_towards=[0, 0, 3]), "four_bar.output_towards"),
     ("spherical.assembly", {"five_bar": {"travel": 100}}, "five_bar.travel"),
     ("spherical.assembly", {"five_bar": {"start": 60}}, "five_bar.travel"),
-    ("spherical.assembly", four(input=100), "four_bar.travel"),
+    ("spherical.assembly", four(input=100, travel=360), "four_bar.travel"),
+    ("spherical.lever", four(input=100), "four_bar.travel"),
     ("spherical.assembly", four(ground=100, input=20, coupler=30, output=20), "four_bar.travel"),
-    ("spherical.assembly", four(ground=60, input=60, coupler=60, output=60), "four_bar.travel"),
+    ("spherical.assembly", four(ground=60, input=60, coupler=60, output=60, travel=360), "four_bar.travel"),
     ("spherical.assembly", {"five_bar": {"path": [[0, 2]], "path_angles": [100]}}, "five_bar.path_angles"),
     ("spherical.transmission", {"least_transmission": 85}, "five_bar.travel"),
     ("spherical.transmission", {**FOUR_BAR, "least_transmission": 60}, "four_bar.travel"),
@@ -70,7 +70,12 @@ CASES = [
     ("spherical.boss", {"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
     ("spherical.gap", {"hardware": {"gap": 0.1}}, "hardware.gap"),
     ("spherical.clearance", {"hardware": {"boss_diameter": 19, "gap": 3}}, "hardware.boss_diameter"),
-    ("spherical.clearance", four(ground=30, input=80, coupler=70, output=60), "hardware.boss_diameter"),
+    (
+        "spherical.clearance",
+        {**four(ground=30, input=80, coupler=70, output=60), "hardware": {"frame": "one"}},
+        "hardware.boss_diameter",
+    ),
+    ("spherical.centre", {**four(ground=20, input=60, coupler=50, output=70), "radius": 25}, "radius"),
     (
         "spherical.slot",
         {"five_bar": {"a1n": [0.766, 0.643], "c1n": [0.891, -0.039], "travel_n": -1}},
@@ -157,7 +162,7 @@ def test_the_travel_that_is_named_can_be_travelled():
 
 
 def test_the_input_range_that_is_named_can_be_travelled():
-    (apart,) = found("spherical.assembly", **four(input=100))
+    (apart,) = found("spherical.assembly", **four(input=100, travel=360))
     low, high = map(float, re.findall(r"([\d.]+)° to ([\d.]+)°", apart.remedy)[0])
     table = four(input=100, start=low + 1, travel=high - low - 2)
     assert [one for one in found("spherical.assembly", **table) if "dead centre" not in one.message] == []
@@ -341,7 +346,8 @@ def test_every_key_of_every_table_changes_a_result(table, key):
 def test_the_tables_above_have_every_key():
     for table, keys in NESTED.items():
         fields = set(SphericalParams.model_fields[table].annotation.model_fields)
-        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n"}
+        # The frame is that of a four-bar.
+        assert fields - set(keys) <= {"path", "path_n", "path_angles", "path_angles_n", "frame"}
     assert set(FOUR_BAR_KEYS) == set(SphericalParams.model_fields["four_bar"].annotation.model_fields)
 
 

@@ -16,6 +16,7 @@ class TestSpherical(FamilyContract):
         PATH,
         {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}, "flat": {"make": False}},
         FOUR_BAR,
+        {**FOUR_BAR, "four_bar": {"ground": 20, "input": 60, "coupler": 50, "output": 70}},
     )
     refused: ClassVar = (
         ({"radius": 40}, "radius"),
@@ -28,10 +29,11 @@ class TestSpherical(FamilyContract):
         ({"five_bar": {"projection_length": 0}}, "five_bar.projection_length"),
         ({"four_bar": {"ground": 70}}, "four_bar"),
         ({**FOUR_BAR, "four_bar": {"ground": 180}}, "four_bar.ground"),
-        ({**FOUR_BAR, "four_bar": {"ground": 20}}, "four_bar.travel"),
-        ({**FOUR_BAR, "four_bar": {"input": 100}}, "four_bar.travel"),
+        ({**FOUR_BAR, "four_bar": {"input": 100, "travel": 360}}, "four_bar.travel"),
+        ({**FOUR_BAR, "four_bar": {"ground": 170, "input": 20, "output": 20}}, "four_bar.travel"),
         ({**FOUR_BAR, "drive": {"gears": False}, "flat": {"make": False}}, "drive"),
         ({"path_tolerance": 1}, "path_tolerance"),
+        ({"hardware": {"frame": "two"}}, "hardware.frame"),
         ({"hardware": {"boss_diameter": 7}}, "hardware.boss_diameter"),
         ({"hardware": {"gap": 0.1}}, "hardware.gap"),
         ({"hardware": {"boss_diameter": 24, "gap": 3}}, "hardware.boss_diameter"),

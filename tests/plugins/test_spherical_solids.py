@@ -15,10 +15,10 @@ from mechwright_spherical.bodies import pins_of_phase
 from mechwright_spherical.drive import external, internal, train_of
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.flat import strip, strip_outline
+from mechwright_spherical.frame import shells_of
 from mechwright_spherical.linkage import linkage_of
 from mechwright_spherical.params import FlatTable, SphericalParams
 from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places
-from mechwright_spherical.shells import shells_of
 from mechwright_spherical.vectors import arc, dot, rotate, vector
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

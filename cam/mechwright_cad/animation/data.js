@@ -1,6 +1,7 @@
 // The data of the page, and its values between two samples.
 const data = JSON.parse(document.getElementById("data").textContent);
 const input = data.channels[data.input];
+const along = data.channels[data.over]; // over which plots are drawn: it goes one way
 const last = input.values.length - 1;
 const degrees = (unit) => unit === "rad" ? ["°", 180 / Math.PI]
   : [unit.replace("^2", "²").replace("^3", "³").replace("*", "·"), 1];

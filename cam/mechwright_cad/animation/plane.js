@@ -5,7 +5,8 @@ function planePicture(place) {
     "aria-label": "The mechanism seen from above" }, place);
   const turned = element("g", { transform: "scale(1 -1)" }, svg);
   const groups = data.layers.map((layer) => {
-    const drawn = element("path", { class: "part", d: layer.path, fill: layer.colour }, turned);
+    const drawn = element("path", layer.bones
+      ? { class: "bone", d: layer.path, stroke: layer.colour } : { class: "part", d: layer.path, fill: layer.colour }, turned);
     element("title", { text: layer.name }, drawn);
     const show = shown.get(layer.name) || { colour: layer.colour, parts: [] };
     show.parts.push((on) => { drawn.style.display = on ? "" : "none"; });

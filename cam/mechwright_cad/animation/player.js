@@ -40,7 +40,7 @@ function play(on) {
   before = on ? performance.now() : null;
   if (on) requestAnimationFrame(run);
 }
-document.getElementById("way").textContent = data.round ? "once round" : "one way";
+document.getElementById("way").textContent = data.over !== data.input ? "there and back" : data.round ? "once round" : "one way";
 slider.max = last;
 slider.setAttribute("aria-label", `Input ${data.input}`);
 slider.addEventListener("input", () => seek(Number(slider.value)));
@@ -67,9 +67,11 @@ for (const [name, show_] of shown) {
   label.append(name);
 }
 if (!shown.size) legend.remove();
-if (data.missing.length) {
+if (data.bare || data.missing.length) {
   const note = document.getElementById("note");
   note.hidden = false;
+  if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
+  else
   note.textContent = `Not drawn, because they are no plates: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }
 firstChoice();
@@ -77,7 +79,10 @@ table(seek, show);
 plots(seek);
 const wanted = /^#at=(-?[\d.]+)$/.exec(location.hash);
 if (wanted) {
-  const value = Number(wanted[1]) / factorOfInput, span = input.values[last] - input.values[0];
-  time = Math.min(last, Math.max(0, (value - input.values[0]) / span * last)) || 0;
+  // The first place at which the input has the value, or the end that is nearer to it.
+  const value = Number(wanted[1]) / factorOfInput, off = input.values.map((one) => one - value);
+  const after = off.findIndex((one, k) => k > 0 && one * off[k - 1] <= 0);
+  time = after > 0 ? after - 1 + off[after - 1] / (off[after - 1] - off[after] || 1)
+    : off.reduce((best, one, k) => Math.abs(one) < Math.abs(off[best]) ? k : best, 0);
 }
 show();

@@ -33,18 +33,18 @@ function firstChoice() {
   }
 }
 function plot(unit, chosen, place, seek) {
-  const [label, factor] = degrees(unit), [across, stretch] = degrees(input.unit);
+  const [label, factor] = degrees(unit), [across, stretch] = degrees(along.unit);
   let low = Math.min(...chosen.map(least)) * factor, high = Math.max(...chosen.map(most)) * factor;
   if (!(high - low > 1e-9 * Math.max(1, Math.abs(high)))) [low, high] = [low - 1, high + 1];
   const room = 0.04 * (high - low);
   [low, high] = [low - room, high + room];
-  const start = input.values[0] * stretch, end = input.values[last] * stretch;
+  const start = along.values[0] * stretch, end = along.values[last] * stretch;
   const x = (value) => LEFT + (value - start) / (end - start) * (WIDE - LEFT - RIGHT);
   const y = (value) => TALL - BOTTOM - (value - low) / (high - low) * (TALL - TOP - BOTTOM);
   const figure = element("figure", { class: "plot" }, place);
   const caption = element("figcaption", {}, figure);
   const svg = element("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img",
-    "aria-label": `${chosen.join(", ")} over ${data.input}, in ${label || "no unit"}` }, figure);
+    "aria-label": `${chosen.join(", ")} over ${data.over}, in ${label || "no unit"}` }, figure);
   element("rect", { class: "frame", x: LEFT, y: TOP, width: WIDE - LEFT - RIGHT, height: TALL - TOP - BOTTOM }, svg);
   for (const value of ticks(low, high, 4)) {
     element("line", { class: "grid", x1: LEFT, x2: WIDE - RIGHT, y1: y(value), y2: y(value) }, svg);
@@ -59,14 +59,14 @@ function plot(unit, chosen, place, seek) {
     let path = "", pen = "M";
     values.forEach((value, k) => {
       if (value === null) { pen = "M"; return; }
-      path += `${pen}${x(input.values[k] * stretch).toFixed(1)} ${y(value * factor).toFixed(2)}`;
+      path += `${pen}${x(along.values[k] * stretch).toFixed(1)} ${y(value * factor).toFixed(2)}`;
       pen = "L";
     });
     element("path", { class: "curve " + colour, d: path }, svg);
     element("span", { class: "key " + colour, text: name }, caption);
     return values;
   });
-  element("span", { class: "unit", text: `${label ? label + " " : ""}over ${data.input}${across ? ", " + across : ""}` }, caption);
+  element("span", { class: "unit", text: `${label ? label + " " : ""}over ${data.over}${across ? ", " + across : ""}` }, caption);
   const cursor = element("line", { class: "cursor", y1: TOP, y2: TALL - BOTTOM }, svg);
   const dots = marks.map((_, place_) => element("circle", { class: "c" + place_ % COLOURS, r: 3.2, fill: "currentColor" }, svg));
   const point = (event) => {
@@ -76,7 +76,7 @@ function plot(unit, chosen, place, seek) {
   svg.addEventListener("pointerdown", (event) => { svg.setPointerCapture(event.pointerId); point(event); });
   svg.addEventListener("pointermove", (event) => { if (event.buttons & 1) point(event); });
   return (time) => {
-    const here = x(at(input.values, time) * stretch);
+    const here = x(at(along.values, time) * stretch);
     cursor.setAttribute("x1", here);
     cursor.setAttribute("x2", here);
     dots.forEach((dot, k) => {
@@ -116,6 +116,11 @@ function table(seek, again) {
     element("td", { text: unit }, row);
     element("td", { class: "n", text: round(least(name) * factor) }, row);
     element("td", { class: "n", text: round(most(name) * factor) }, row);
-    cells.set(name, (time) => { now.textContent = round(at(data.channels[name].values, time) * factor); });
+    // What is far below the channel's own size is rounding.
+    const nothing = 1e-9 * Math.max(Math.abs(least(name)), Math.abs(most(name)));
+    cells.set(name, (time) => {
+      const value = at(data.channels[name].values, time);
+      now.textContent = round((Math.abs(value) < nothing ? 0 : value) * factor);
+    });
   }
 }

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright_cad.animation.figures import MICRON, poses_of, rounded, significant
@@ -23,16 +24,21 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
     """The content of the page, of parts with their instances and of a motion with any number of samples.
 
     With ``solids`` parts that are no plates are drawn, which takes the CAD kernel; else the page names them.
+    Without parts the skeleton is shown, as far as the motion says how its bodies are joined.
     Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
     bodies = bodies_of(parts, motion)
     plane = all(flat(one.rotation, one.position) is not None for one in motion.poses.values())
     paths = {name: motion.path(name) for name in motion.traces}
-    # Where no bodies are known, the points whose paths are drawn still move.
-    used = {body.instance.body for body in bodies} or {trace.body for trace in motion.traces.values()}
+    bare = not bodies and bool(motion.joints)
+    # Where no bodies are known, joints and the points whose paths are drawn still move.
+    used = {body.instance.body for body in bodies} or (
+        set(motion.poses) if bare else {trace.body for trace in motion.traces.values()}
+    )
     unmade = [] if solids else [label_of(body) for body in bodies if not body.is_plate]
     found: dict[str, Any] = {
         "input": motion.input_name,
+        "over": motion.over,
         "round": _goes_round(motion),
         "channels": {
             name: {"unit": channel.unit, "values": significant(channel.values)}
@@ -42,7 +48,9 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
         "traces": {name: rounded(path[:, : 2 if plane else 3], MICRON) for name, path in paths.items()},
         "missing": list(dict.fromkeys(unmade)),
     }
-    if plane:
+    if bare:
+        found |= _skeleton(motion, plane=plane)
+    elif plane:
         from mechwright_cad.animation.plane import layers_of, window
 
         layers = [layer for body in bodies for layer in layers_of(body, solids=solids)]
@@ -54,6 +62,29 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
         found["meshes"], found["ball"] = meshes_of(bodies, solids=solids, paths=list(paths.values()))
         found["up"] = upwards(bodies, found["ball"]["centre"])
     return found
+
+
+def _skeleton(motion: Motion, *, plane: bool) -> dict[str, Any]:
+    """What is drawn of a mechanism without parts."""
+    from mechwright_cad.animation.plane import window
+    from mechwright_cad.animation.skeleton import plane_layers, reach_of, space_meshes
+    from mechwright_cad.animation.space import ball, upwards
+
+    still = {"columns": [[0]] * 3 if plane else [[0], [0], [0], [1], [0], [0], [0]]}
+    pictured: dict[str, Any]
+    if plane:
+        pictured = {
+            "layers": plane_layers(motion),
+            "window": window((), solids=False, paths=reach_of(motion)),
+        }
+        drawn = pictured["layers"]
+    else:
+        sphere = ball(reach_of(motion))
+        pictured = {"meshes": space_meshes(motion), "ball": sphere, "up": upwards((), sphere["centre"])}
+        drawn = pictured["meshes"]
+    bodies = {one["body"] for one in drawn}
+    poses = {name: poses_of(motion.poses[name], plane=plane) for name in sorted(bodies - {GROUND})}
+    return pictured | {"poses": {GROUND: still, **poses}, "bare": True}
 
 
 def _goes_round(motion: Motion) -> bool:

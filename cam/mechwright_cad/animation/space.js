@@ -1,4 +1,5 @@
 // Bodies in space: triangles through WebGL, turned by dragging or by the arrow keys.
+const BOLD = [[0, 0], [2, 0], [0, 2]]; // lines are one pixel wide: three make a bold one
 const CREASE = Math.cos(35 * Math.PI / 180); // a sharper edge is drawn, and not shaded round
 
 // Corners with normals, and the sharp edges, of a mesh.
@@ -81,7 +82,8 @@ function spacePicture(place) {
   const rgb = (text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16) / 255);
   const things = data.meshes.map((mesh) => {
     const [corners, edges] = shaded(mesh);
-    const thing = { faces: stored(corners), edges: stored(edges), colour: rgb(mesh.colour), pose: data.poses[mesh.body], on: true };
+    for (let k = 0; mesh.lines && k < mesh.lines.length; k += 3) edges.push(...mesh.lines.slice(k, k + 3), 0, 0, 0);
+    const thing = { faces: stored(corners), edges: stored(edges), colour: rgb(mesh.colour), bold: Boolean(mesh.lines), pose: data.poses[mesh.body], on: true };
     const show = shown.get(mesh.name) || { colour: mesh.colour, parts: [] };
     show.parts.push((on) => { thing.on = on; paint(now); });
     shown.set(mesh.name, show);
@@ -130,11 +132,15 @@ function spacePicture(place) {
       gl.uniform3fv(colour, thing.colour);
       gl.uniform1f(lit, 1);
       gl.uniform1f(nearer, 0);
-      draw(gl.TRIANGLES, thing.faces);
-      gl.uniform3fv(colour, thing.colour.map((part) => part * 0.35));
+      if (!thing.bold) draw(gl.TRIANGLES, thing.faces);
+      gl.uniform3fv(colour, thing.colour.map((part) => part * (thing.bold ? 0.9 : 0.35)));
       gl.uniform1f(lit, 0);
       gl.uniform1f(nearer, 0.0015);
-      draw(gl.LINES, thing.edges);
+      for (const [right, high] of thing.bold ? BOLD : [[0, 0]]) {
+        gl.uniform2f(nudge, right / wide, high / tall);
+        draw(gl.LINES, thing.edges);
+      }
+      gl.uniform2f(nudge, 0, 0);
     }
     gl.uniformMatrix3fv(turn, false, IDENTITY);
     gl.uniform3fv(colour, rgb("#c4302b"));
@@ -142,7 +148,7 @@ function spacePicture(place) {
     gl.disable(gl.DEPTH_TEST); // a path is seen through what hides it
     for (const path of paths) {
       if (!path.on) continue;
-      for (const [right, high] of [[0, 0], [2, 0], [0, 2]]) { // lines are one pixel wide: three make a bold one
+      for (const [right, high] of BOLD) {
         gl.uniform2f(nudge, right / wide, high / tall);
         gl.uniform3f(shift, 0, 0, 0);
         draw(gl.LINE_STRIP, path.line);

@@ -94,6 +94,8 @@ class Dialect:
     """The control refuses an arc of no larger radius, mm."""
     arc_chord: float | None = None
     """By so much half the distance of the ends may be larger than R, mm; None for ``arc_absolute``."""
+    arc_turns: bool = False
+    """Whether P of an arc is the number of its turns."""
     arc_entry: bool = True
     """Whether cutter compensation may be turned on along an arc."""
     line_length: int = 255
@@ -110,6 +112,8 @@ class Dialect:
     """Whether a line number may have decimals."""
     one_m: bool = False
     """Whether a line may hold one M code only, as the control would drop the others."""
+    mode_ends_feed: bool = False
+    """Whether G94 takes the feed back, though it was in force, so that F has to be stated anew."""
     both_coolants: bool = True
     """Whether M7 and M8 may stand in one line."""
     one_use_of_axes: bool = False

@@ -12,7 +12,7 @@ from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.stock import TOUCH
+from mechwright_cam.proof.stock import TOUCH, UNEVEN
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 STEEPEST = 15.0
@@ -99,8 +99,8 @@ def _down_a_tab(scene: Scene, steps: Ints, drop: Array, flat: Array) -> NDArray[
     return found
 
 
-ABOVE = 0.2
-"""Rapids down end at least so far above the stock, mm: plates are uneven, and tools are set, to tenths."""
+ABOVE = UNEVEN
+"""Rapids down end at least so far above the stock, mm."""
 
 
 def rapid_height(scene: Scene) -> Check:
@@ -127,6 +127,10 @@ def rapids_in_stock(scene: Scene) -> Check:
         if scene.stock.meets(step, lift=-z - TOUCH, radius=float(scene.paths.radius[step])):
             message = f"a rapid ends {z:g} mm above the stock, less than {ABOVE:g} mm; feed the rest"
             return scene.bad(step, message, z, ABOVE, "mm")
+    beside = None if found else scene.stock.beside
+    if beside is not None:
+        message = f"a rapid goes down less than {UNEVEN:g} mm beside the stock; feed there, or keep off more"
+        return scene.bad(beside, message, 0.0, UNEVEN, "mm")
     if found:
         message = f"a rapid into the stock ({len(found)} in all); feed there"
         return scene.bad(found[0], message, float(len(found)), 0.0)
@@ -139,4 +143,4 @@ def _onto_stock(scene: Scene) -> Ints:
     rapid = paths.rapids
     z = paths.end[rapid, 2]
     onto: Ints = rapid[(z < ABOVE - NEAR) & (z >= -NEAR) & (z < paths.start[rapid, 2])]
-    return onto
+    return onto[~scene.stock.in_own_hole(onto, np.full(onto.size, -TOUCH))]

@@ -23,6 +23,10 @@ from mechwright_cam.setup.holding import Tab
 
 DEAR = 12
 """To grow a shape by one corner takes about a twelfth of the time of one question about nearness."""
+FIRST_ASKED = 500
+"""So many of the lowest moves are asked first; if none of them cuts deep, all others are."""
+MOST_CORNERS = 1_000_000
+"""Corners of lines that are looked at together."""
 GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 """2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
 
@@ -42,30 +46,60 @@ def worst_of(cuts: Iterable[Gouge | None]) -> Gouge | None:
 
 
 def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
-    """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it."""
+    """The deepest cut of any move into ``keep`` below the height ``top``; None if nothing touches it.
+
+    No cut is deeper than the tip goes below ``top``. So the lowest moves are asked first, and others only as
+    long as they may be deeper: a program that gouges all over takes no longer than any.
+    """
     if keep.is_empty:
         return None
     pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
-    if len(pieces) == 0:
+    edge, most = Boundary(keep), np.round((top - pieces.low) / NEAR)
+    todo: Ints = np.lexsort((pieces.step, -most))
+    worst, deepest, asked = -1, 0.0, FIRST_ASKED
+    while todo.size:
+        # Arcs have corners, and memory must not go with their number.
+        count = np.searchsorted(np.cumsum(paths.corners(pieces.only(todo))[:asked]), MOST_CORNERS)
+        now, todo = np.split(todo, [max(int(count), 1)])
+        asked = len(pieces)
+        depth = _depths(paths, pieces.only(now), edge, top)
+        alike = now[depth >= max(depth.max(), deepest) - NEAR]
+        if depth.max() > 0 and alike.size:
+            first = int(alike[np.argmin(pieces.step[alike])])  # of those that cut equally deep
+            if depth.max() > deepest + NEAR or pieces.step[first] < pieces.step[worst]:
+                worst = first
+            deepest = max(deepest, float(depth.max()))
+        # Of moves that cut equally deep the first is to blame.
+        enough = deepest / NEAR
+        todo = todo[
+            (most[todo] > enough + 1) | (most[todo] > enough - 1) & (pieces.step[todo] < pieces.step[worst])
+        ]
+    if worst < 0:
         return None
-    radius = paths.radius_at(pieces, top)
+    one = pieces.only(np.array([worst]))
+    x, y = edge.nearest(paths.lines(one)[0])
+    depth = _depths(paths, one, edge, top)
+    return Gouge(float(depth[0]), int(one.step[0]), (x, y, float(one.low[0])))
+
+
+def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:
+    """How deep each piece cuts into a shape below a height, mm; 0 or less where it does not."""
+    radius, deep = paths.radius_at(pieces, top), top - pieces.low
     lines = paths.lines(pieces)
-    edge = Boundary(keep)
-    near = near_ones(edge.shape, lines, radius)
     gap = np.full(len(pieces), np.inf)
-    gap[near] = edge.distance(lines[near], within=float(radius.max()))
     inside = edge.inside(lines)
-    if inside.size:
-        gap[inside] = -_depth_inside(paths, pieces.only(inside), edge)
+    gap[inside] = 0.0
+    # Where a cutter is wider than it goes deep it does not matter how far inside its axis is.
+    inner = inside[radius[inside] < deep[inside]]
+    if inner.size:
+        gap[inner] = -_depth_inside(paths, pieces.only(inner), edge)
+    beside = np.setdiff1d(near_ones(edge.shape, lines, radius), inside, assume_unique=True)
+    if beside.size:
+        gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
     shape = paths.cutters(pieces.step)
     end = np.where(shape.nose > 0, shape.height_at(np.maximum(gap, 0.0)), 0.0)
-    depth = np.minimum(radius - gap, top - pieces.low - end)
-    if depth.max() <= 0:
-        return None
-    alike = np.flatnonzero(depth >= depth.max() - NEAR)
-    worst = int(alike[np.argmin(pieces.step[alike])])  # of moves that cut equally deep, blame the first
-    x, y = edge.nearest(lines[worst])
-    return Gouge(float(depth[worst]), int(pieces.step[worst]), (x, y, float(pieces.low[worst])))
+    depth: Array = np.minimum(radius - gap, deep - end)
+    return depth
 
 
 def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:

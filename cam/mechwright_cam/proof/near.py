@@ -13,6 +13,12 @@ from mechwright_cam.controls.reading.run import Ints
 
 CELL = 0.3
 """Width of a cell of the grid, mm, if there are not too many."""
+CROWD = 100.0
+"""If more lines than this are near a place in the mean, they are divided before they are sorted."""
+MOST_DIVIDED = 8
+"""Into so many pieces at most, in the mean."""
+DIVIDED = 4
+"""A long line is divided into so many pieces at a time."""
 MOST_CELLS = 1_000_000
 """Cells of a grid, of which the memory has to hold a number each."""
 
@@ -32,9 +38,15 @@ class Chords:
     @cached_property
     def tree(self) -> shapely.STRtree:
         """For questions without a hint; a line without length is a point there, as GEOS wants it."""
-        lines = shapely.linestrings(np.stack((self.first, self.last), axis=1))
-        still = np.flatnonzero((self.first == self.last).all(axis=1))
-        lines[still] = shapely.points(self.first[still])
+        first, last = self.first, self.last
+        size, spread = np.abs(last - first), np.ptp(np.concatenate((first, last)), axis=0).prod()
+        crowd = float(size.prod(axis=1).sum()) / max(float(spread), CELL**2)
+        if crowd > CROWD:  # rectangles around long lines: so many of them are around every place
+            longest = float(size.max(axis=1).mean()) / min(crowd / CROWD, MOST_DIVIDED)
+            _, first, last = _divided(first, last, max(longest, CELL))
+        lines = shapely.linestrings(np.stack((first, last), axis=1))
+        still = np.flatnonzero((first == last).all(axis=1))
+        lines[still] = shapely.points(first[still])
         return shapely.STRtree(lines)
 
     def distance(self, places: Array) -> Array:
@@ -123,8 +135,17 @@ class _Grid:
 
     def pairs(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints]:
         """Line and place, by index, of all pairs within ``reach`` of each other, and some more."""
-        some = self._filled(*self._cells(first, last, reach))
-        line, first, last = _divided(first[some], last[some], self.cell)
+        line, longest = np.arange(len(first)), max(float(np.abs(last - first).max(initial=0.0)), self.cell)
+        while (
+            True
+        ):  # a long line would fill a wide rectangle of cells: pieces that pass no place are left out
+            some = self._filled(*self._cells(first, last, reach))
+            line, first, last = line[some], first[some], last[some]
+            if longest <= self.cell:
+                break
+            longest = max(longest / DIVIDED, self.cell)
+            piece, first, last = _divided(first, last, longest)
+            line = line[piece]
         x0, y0, x1, y1 = self._cells(first, last, reach)
         # The cells of one row follow on each other, and so do the places in them.
         rows = np.where(x1 > x0, np.maximum(y1 - y0, 0), 0)
@@ -133,7 +154,7 @@ class _Grid:
         begin, end = self.start[base + x0[owner]], self.start[base + x1[owner]]
         count = end - begin
         place = self.order[np.repeat(begin, count) + _counted(count)]
-        return some[np.repeat(line[owner], count)], place
+        return np.repeat(line[owner], count), place
 
     def _cells(self, first: Array, last: Array, reach: float) -> tuple[Ints, Ints, Ints, Ints]:
         """First column and row (k,) of the cells near each line, and the column and row after the last."""

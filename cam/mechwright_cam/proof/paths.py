@@ -141,15 +141,20 @@ class Paths:
         last = np.where(z1 > height, crossing, 1.0)
         return Pieces(steps, first, last, np.minimum(z0, z1))
 
+    def corners(self, pieces: Pieces, chord: float = PATH_CHORD) -> Ints:
+        """How many corners (m,) the line of each piece has."""
+        run, step = self.run, pieces.step
+        arc = run.kind[step] == Kind.ARC
+        turn = run.sweep[step] * (pieces.last - pieces.first)
+        radius = np.where(arc, run.radius[step], 1.0)
+        largest = 2 * np.arccos(np.maximum(1 - chord / np.maximum(radius, chord), 0.0))
+        count: Ints = np.where(arc, np.ceil(np.abs(turn) / largest), 1).astype(np.int64) + 1
+        return np.maximum(count, 2)
+
     def points(self, pieces: Pieces, chord: float = PATH_CHORD) -> tuple[Array, Ints]:
         """Corners (k, 2) of all pieces, mm, and the piece (k,) that each belongs to."""
         run, step = self.run, pieces.step
-        turn = run.sweep[step] * (pieces.last - pieces.first)
-        arc = run.kind[step] == Kind.ARC
-        radius = np.where(arc, run.radius[step], 1.0)
-        largest = 2 * np.arccos(np.maximum(1 - chord / np.maximum(radius, chord), 0.0))
-        count = np.where(arc, np.ceil(np.abs(turn) / largest), 1).astype(np.int64) + 1
-        count = np.maximum(count, 2)
+        arc, count = run.kind[step] == Kind.ARC, self.corners(pieces, chord)
         owner, share = _spread(count)
         t = pieces.first[owner] + (pieces.last - pieces.first)[owner] * share
         start = self.start[step, :2]

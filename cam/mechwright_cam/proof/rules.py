@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from mechwright.contracts.plugin import Plugin
-from mechwright.errors import PluginError
+from mechwright.errors import PluginError, ProgramError
 from mechwright_cam.proof.report import Check
 
 if TYPE_CHECKING:
@@ -32,9 +32,14 @@ class Rule(Plugin):
 
 
 def ask(rule: Rule, scene: "Scene") -> Check:
-    """The check of a rule, under the rule's name; raises PluginError if the rule fails or gives no check."""
+    """The check of a rule, under the rule's name; raises PluginError if the rule fails or gives no check.
+
+    ProgramError is raised if the program is more than it has time for.
+    """
     try:
         found = rule.check(scene)
+    except ProgramError:  # more than a proof has time for
+        raise
     except (Exception, SystemExit) as error:  # a rule that cannot tell must not end as a pass
         reason = " ".join(f"{type(error).__name__}: {error}".split())
         raise PluginError(

@@ -12,6 +12,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.controls.reading.run import Ints
@@ -30,6 +32,10 @@ FINEST = 0.05
 MOST_PLACES = 40_000
 """Places along the path at which the cutter is set onto the grid, about 50 µs each: where there would be
 more, the cells are wider, up to a share of the finest cutter's radius."""
+MOST_LOWERED = 100_000_000
+"""Cells under the cutter at all of these places, about 10 ns each: the same holds."""
+MOST_TRIED = 200_000
+"""Places at which a cutter may take something, beyond which a program is refused: two seconds."""
 COARSEST = 1 / 3
 """That share: with wider cells a cutter has no shape."""
 
@@ -95,8 +101,10 @@ def _cell_for(paths: Paths, steps: Ints) -> float:
     radius, length = paths.radius[steps], np.nan_to_num(paths.run.length[steps])
     if not steps.size:
         return 0.0
-    wanted = float((length / np.sqrt(8 * radius)).sum())  # places are this over the root of a cell
-    return min((wanted / MOST_PLACES) ** 2, COARSEST * float(radius.min()))
+    wanted = length / np.sqrt(8 * radius)  # places are this over the root of a cell
+    under = wanted * 4 * radius**2  # and cells this over its square, and that root
+    cell = max((float(wanted.sum()) / MOST_PLACES) ** 2, (float(under.sum()) / MOST_LOWERED) ** 0.4)
+    return float(min(cell, COARSEST * float(radius.min())))
 
 
 def _runs_of_one_tool(run: Run, steps: Ints) -> list[tuple[int, Ints]]:
@@ -121,7 +129,15 @@ def _cut(
     columns = np.floor((taken.places[:, 0] - x0) / cell).astype(np.int64)
     rows = np.floor((taken.places[:, 1] - y0) / cell).astype(np.int64)
     ny, nx = heights.shape
-    low = np.flatnonzero((taken.z < -NEAR) & (rows > -half - 1) & (rows < ny + half + 1))
+    met = (rows >= -half) & (rows < ny + half) & (columns >= -half) & (columns < nx + half)
+    low = np.flatnonzero((taken.z < -NEAR) & met)
+    low = low[_deeper(rows[low] * (nx + 2 * half) + columns[low], taken.z[low])]
+    if low.size > MOST_TRIED:
+        line = int(paths.run.line[taken.step[low[MOST_TRIED]]])
+        raise ProgramError(
+            f"line {line}: so long a path in material, each time deeper, is set onto the stock at more than "
+            f"{MOST_TRIED:,} places; split the program"
+        )
     at = (np.arange(-half, half + 1) * cell).astype(np.float32)
     # A loop, place by place: each cut depends on what the one before has left.
     for index, row, column, height in zip(
@@ -129,8 +145,6 @@ def _cut(
     ):
         a, b = max(row - half, 0), min(row + half + 1, ny)
         c, d = max(column - half, 0), min(column + half + 1, nx)
-        if a >= b or c >= d:
-            continue
         stock = heights[a:b, c:d]
         i, j = a - row + half, c - column + half
         tip = disc[i : i + b - a, j : j + d - c] + np.float32(height)
@@ -146,6 +160,17 @@ def _cut(
             taken.moment[index, 1] = float(more.sum(axis=1) @ at[i : i + b - a]) * cell * cell
             np.minimum(stock, tip, out=stock)
     return taken
+
+
+def _deeper(cell: Ints, z: Array) -> Ints:
+    """Those of the places (n,) in whose cell the tool has not been as deep before: others take nothing."""
+    order = np.argsort(cell, kind="stable")
+    z = z[order]
+    group = np.concatenate(([0], np.cumsum(np.diff(cell[order]) != 0)))[: z.size]
+    drop = float(z.max() - z.min()) + 1.0 if z.size else 0.0
+    least = np.minimum.accumulate(z - drop * group)  # every group begins below all that come before it
+    fresh = np.append(True, least[1:] < least[:-1])[: z.size]
+    return np.sort(order[fresh])
 
 
 def _disc(tool: Tool, cell: float) -> NDArray[np.float32]:

@@ -2,25 +2,39 @@
 
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints, Kind
+from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
-from mechwright_cam.proof.paths import NEAR, Geometries, Paths
+from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.views import quarter
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
 MOST_TOLD = 100
 """So many rapids that meet material are enough to know of."""
+UNEVEN = 0.2
+"""Plates are uneven and are set up to tenths, mm: a rapid keeps so far off a side or a face not yet cut."""
 TOGETHER = 32
 """Cuts that follow on each other and are looked for together."""
+LAST = 2000
+"""So many of the last cuts are asked before all others whether they have cleared the way."""
+FEW = 16
+"""So many cuts are taken off at first, and then twice as many each time, until nothing is left."""
+ASKED, COMPARED, GROWN = 500, 20, 25
+"""What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs."""
+MOST_WORK = 10_000_000
+"""What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
 ACCURACY = 0.001
 """Accuracy of the shapes compared, mm: a tenth of ``TOUCH``."""
 
@@ -31,7 +45,14 @@ class Stock:
     def __init__(self, paths: Paths, job: Job) -> None:
         self.paths = paths
         self.plate = shapely.difference(stock_shape(job), job.air_below(0.0))
+        edge = stock_shape(job)
+        around = shapely.buffer(edge, UNEVEN, join_style="mitre")
+        self.rough = shapely.union(self.plate, shapely.difference(around, edge))
+        """The plate, and the margin that its outside may be larger by."""
         self.air = [air for air in job.gone if air.top < -NEAR]
+        self._work = self._asked = 0
+        self._free: dict[tuple[Any, ...], int] = {}
+        """Moves that have met nothing, and when: material does not come back."""
         self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
 
     @cached_property
@@ -47,19 +68,30 @@ class Stock:
         low, high = np.minimum.reduceat(least, first), np.maximum.reduceat(most, first)
         return shapely.STRtree(shapely.box(*low.T, *high.T))
 
-    def _cuts_near(self, body: Shape, reach: float, before: int) -> Ints:
-        """The steps that cut before a step, within ``reach`` of a shape."""
+    def _cuts_near(self, body: Shape, reach: float, before: int, since: int = 0) -> Ints:
+        """The steps that cut before a step, and not before another, within ``reach`` of a shape."""
         least, most = self.extents
+        self._count(before, ASKED)
         group = np.sort(self._tree.query(body, predicate="dwithin", distance=reach + NEAR))
         index = (group[:, None] * TOGETHER + np.arange(TOGETHER)).ravel()
-        index = index[index < np.searchsorted(self.cuts, before)]
+        index = index[slice(*np.searchsorted(index, np.searchsorted(self.cuts, (since, before))))]
         x0, y0, x1, y1 = shapely.bounds(body)
         apart = (least[index] > (x1 + reach, y1 + reach)) | (most[index] < (x0 - reach, y0 - reach))
         steps = self.cuts[index[~apart.any(axis=1)]]
+        self._count(before, index.size // COMPARED + steps.size)
         lines: Geometries = self.paths.lines(self.paths.whole(steps))
         body = prepared(body)
         near: Ints = steps[shapely.dwithin(body, lines, reach)]
         return near
+
+    def _count(self, step: int, more: int) -> None:
+        """Raise ProgramError if all that has been asked takes longer than any proof should."""
+        self._work += more
+        if self._work > MOST_WORK:
+            raise ProgramError(
+                f"line {int(self.paths.run.line[step])}: {self._asked} moves go where earlier cuts may have "
+                "left something, and that takes too long to work out; split the program before this line"
+            )
 
     @cached_property
     def rapids(self) -> list[int]:
@@ -67,7 +99,36 @@ class Stock:
         paths, rapid = self.paths, self.paths.rapids
         way = (paths.end - paths.start)[rapid]
         low = rapid[(paths.low[rapid] < -NEAR) & ((np.hypot(*way[:, :2].T) > NEAR) | (way[:, 2] < 0))]
+        low = low[~self.in_own_hole(low, paths.low[low])]
         return list(islice((step for step in low.tolist() if self.meets(step)), MOST_TOLD))
+
+    def in_own_hole(self, rapids: Ints, z: Array) -> NDArray[np.bool_]:
+        """(n,) whether a rapid is straight down, where the same tool was fed to ``z`` (n,), as pecks do."""
+        paths, steps = self.paths, np.concatenate((self.cuts, rapids))
+        fed = np.arange(steps.size) < self.cuts.size
+        upright = np.hypot(*(paths.end - paths.start)[steps, :2].T) <= NEAR
+        steps, fed, wanted = steps[upright], fed[upright], np.flatnonzero(upright & ~fed) - self.cuts.size
+        place = np.column_stack((paths.run.tool[steps], np.round(paths.end[steps, :2] / NEAR)))
+        hole = np.unique(place, axis=0, return_inverse=True)[1].ravel()
+        order = np.lexsort((steps, hole))
+        low, hole = np.concatenate((paths.low[self.cuts], z))[upright][order], hole[order]
+        drop = float(np.ptp(low)) + 1.0 if low.size else 0.0
+        deepest = np.minimum.accumulate(np.where(fed[order], low, np.inf) - drop * hole)
+        free = np.zeros(steps.size, dtype=np.bool_)
+        free[order] = deepest <= low - drop * hole + NEAR
+        found = np.zeros(rapids.size, dtype=np.bool_)
+        found[wanted] = free[~fed]
+        return found
+
+    @cached_property
+    def beside(self) -> int | None:
+        """The first rapid that goes so near to a side of the plate that it may meet it; None if none does."""
+        paths, rapid = self.paths, self.paths.rapids
+        low = rapid[(paths.low[rapid] < -NEAR) & (paths.end[rapid, 2] <= paths.start[rapid, 2])]
+        low = low[~self.in_own_hole(low, paths.low[low])]
+        sides = shapely.boundary(shapely.convex_hull(self.rough))
+        low = low[shapely.dwithin(sides, paths.room(paths.whole(low)), paths.radius[low])]
+        return next((step for step in low.tolist() if self.meets(step, rough=True)), None)
 
     @cached_property
     def _cut_lines(self) -> tuple[Ints, shapely.STRtree]:
@@ -97,11 +158,13 @@ class Stock:
         found[at[place[shapely.dwithin(tree.geometries[line], middles[place], spare)]]] = True
         return found
 
-    def meets(self, step: int, *, lift: float = 0.0, radius: float | None = None) -> bool:
+    def meets(
+        self, step: int, *, lift: float = 0.0, radius: float | None = None, rough: bool = False
+    ) -> bool:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
-        which begins so far above the cutter's tip: shank or holder.
+        which begins so far above the cutter's tip: shank or holder. A ``rough`` plate has its margin.
         """
         paths = self.paths
         z = float(paths.low[step]) + lift
@@ -109,29 +172,70 @@ class Stock:
             return False
         pieces = paths.below(-NEAR - lift, steps=np.array([step]))
         reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
-        shape = grow(paths.room(pieces)[0], reach, ACCURACY)
-        body = shapely.intersection(shape, self.plate)
+        move = (*paths.start[step, :2], *paths.end[step, :2], *paths.run.centre[step], paths.run.sweep[step])
+        key = (
+            rough,
+            paths.run.tool[step],
+            lift,
+            reach,
+            paths.start[step, 2],
+            paths.end[step, 2],
+            *map(repr, move),
+        )
+        if self._free.get(key, step) < step:
+            return False
+        self._asked += 1
+        plate = self.rough if rough else self.plate
+        body = shapely.intersection(grow(paths.room(pieces)[0], reach, ACCURACY), plate)
+        if self._meets(step, z, body):
+            return True
+        self._free[key] = step
+        return False
+
+    def _meets(self, step: int, z: float, body: Shape) -> bool:
+        """Whether material is left in some of the plate, above a height, when a step begins."""
         if body.is_empty:
             return False
-        rest = shapely.difference(body, self._gone(step, z, body))
+        rest = self._left(step, z, body)
         for air in self.air:  # over a recess of the other side it is enough to have cut down to that
             if air.top > z + NEAR and shapely.intersects(rest, air.shape):
-                opened = shapely.intersection(air.shape, self._gone(step, air.top, body))
-                rest = shapely.difference(rest, opened)
+                over = self._left(step, air.top, shapely.intersection(rest, air.shape))
+                rest = shapely.union(shapely.difference(rest, air.shape), over)
         return not shapely.is_empty(shapely.buffer(rest, -TOUCH / 2, quad_segs=2))
 
-    def _gone(self, step: int, z: float, body: Shape) -> Shape:
-        """What earlier steps have cut down to z, near ``body``."""
+    def _left(self, step: int, z: float, body: Shape) -> Shape:
+        """What earlier steps have left of a shape, not having cut it down to z; the last cuts come first."""
+        paths, last = self.paths, step
+        reach = float(np.nanmax(paths.radius)) if self.cuts.size else 0.0
+        first = int(np.searchsorted(self.cuts, step))
+        while first > 0 and not body.is_empty:
+            first = max(first - LAST, 0) if last == step else 0
+            since = int(self.cuts[first])
+            pieces = paths.below(z + NEAR, steps=self._cuts_near(body, reach, last, since)[::-1])
+            body = self._without(body, pieces, step, z)
+            last = since
+        return body
+
+    def _without(self, body: Shape, pieces: Pieces, step: int, z: float) -> Shape:
+        """What some pieces leave of a shape at a height."""
         paths = self.paths
-        if self.cuts.size == 0:
-            return shapely.Polygon()
-        reach = float(np.nanmax(paths.radius))
-        pieces = paths.below(z + NEAR, steps=self._cuts_near(body, reach, step))
-        radius = paths.radius_at(pieces, z)
         # A drill that stops at z exactly is pointed there, but its own hole is no material for it again.
         own = paths.run.tool[pieces.step] == paths.run.tool[step]
-        radius = np.where(own, paths.radius[pieces.step], radius)
-        shapes = [
-            grow(line, r, ACCURACY) for line, r in zip(paths.lines(pieces), radius, strict=True) if r > 0
-        ]
-        return shapely.union_all(shapes)
+        radius = np.where(own, paths.radius[pieces.step], paths.radius_at(pieces, z))
+        pieces, radius = pieces.only(radius > 0), radius[radius > 0]
+        lines, first, count = paths.lines(pieces), 0, FEW
+        while first < len(pieces) and not body.is_empty:
+            some = slice(first, first + count)
+            self._count(step, GROWN * lines[some].size)
+            body = shapely.difference(body, shapely.union_all(_discs(lines[some], radius[some])))
+            first, count = first + count, 2 * count
+        return body
+
+
+def _discs(lines: Geometries, radius: Array) -> Geometries:
+    """What discs of radii (m,) sweep along lines (m,)."""
+    grown = np.empty_like(lines)
+    for one in np.unique(radius).tolist():
+        mine = radius == one
+        grown[mine] = buffered(lines[mine], one, quarter(one, ACCURACY))
+    return grown

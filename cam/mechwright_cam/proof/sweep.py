@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from mechwright.arrays import Array
+from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading.run import Ints
@@ -20,6 +21,9 @@ ROUNDING = 1e-4
 """A path that should reach the underside may be short by the last decimal of the program, mm."""
 SWEEP_CHORD = 0.0005
 """Chord error of arcs in a sweep, mm: a twentieth of the leftover limit."""
+
+MOST_CHORDS = 2_000_000
+"""Chords of all cuts that reach a height, beyond which a program is refused: three seconds, and 500 MB."""
 
 BRIDGE = 0.02
 """Accuracy of the areas of :func:`taken`, mm: a bridge thinner than that holds nothing."""
@@ -103,6 +107,14 @@ class Sweeps:
         paths = self.paths
         pieces = distinct(paths, _settled(paths, paths.below(height, steps=paths.cuts), level))
         pieces = pieces.only(np.argsort(pieces.step, kind="stable"))
+        chords = np.cumsum(paths.corners(pieces, SWEEP_CHORD))
+        beyond = int(np.searchsorted(chords, MOST_CHORDS, side="right"))
+        if beyond < len(pieces):
+            line = int(paths.run.line[pieces.step[beyond]])
+            raise ProgramError(
+                f"line {line}: the cuts down to Z{height:g} have over {MOST_CHORDS:,} chords up to here, "
+                "most of them in arcs; split the program"
+            )
         radius = np.round(paths.radius_at(pieces, level), 6)
         return [
             Sweep(float(one), paths, pieces.only(radius == one)) for one in np.unique(radius[radius > NEAR])

@@ -17,6 +17,17 @@ from mechwright_cam.setup.vice import CLAMP_GAP, lay_jaws
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, widest_mill
 
+_TALL = 0.7
+"""In plates of which tabs of the usual height would take more than this share, they are half as high."""
+
+
+def _with_usual_tabs(settings: CamSettings, thickness: float) -> CamSettings:
+    """The settings with tabs that a thin plate has room for, unless the design file says their height."""
+    hold = settings.hold
+    if "tab_height" in hold.model_fields_set or hold.tab_height <= _TALL * thickness:
+        return settings
+    return settings.model_copy(update={"hold": hold.model_copy(update={"tab_height": thickness / 2})})
+
 
 def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Sequence[Feature] = ()) -> Job:
     """Lay a plate part into its stock and decide how it is held.
@@ -25,6 +36,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
     them. Raises GeometryError for a part that is no plate; DesignError where the stock is too small, or
     nothing of the part can be held as the settings say.
     """
+    settings = _with_usual_tabs(settings, part.thickness)
     widest = widest_mill(tools)
     # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
     stock = plate_box(part, settings, widest + 3.0)

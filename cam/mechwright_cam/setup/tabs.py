@@ -46,7 +46,8 @@ def lay_tabs(job: "Job", reach: float, below: Sequence[Feature] = ()) -> tuple[T
     hold = job.settings.hold
     if hold.tab_height >= job.thickness:
         raise DesignError(
-            f"cam.hold.tab_height: {hold.tab_height:g} mm is not below the thickness of {job.thickness:g} mm"
+            f"cam.hold.tab_height: {hold.tab_height:g} mm is not below the thickness of {job.thickness:g} "
+            f"mm; set it to {job.thickness / 2:.2g}, or leave it out"
         )
     slope = math.inf if hold.tab_shape == "rectangular" else _slope(job)
     outsides = filter(is_outside, job.features)

@@ -76,7 +76,12 @@ class Hold(Parameters):
     tab_width: Millimetres | None = Field(
         None, gt=0, le=50, description="Width of a tab along the contour; by default 2, or less if it must."
     )
-    tab_height: Millimetres = Field(1.0, gt=0, le=20, description="Height of a tab above the underside.")
+    tab_height: Millimetres = Field(
+        1.0,
+        gt=0,
+        le=20,
+        description="Height of a tab above the underside; left out, half of the plate where it is thin.",
+    )
     tab_shape: Literal["rectangular", "ramped"] = Field(
         "rectangular", description="Upright sides, or slopes that the cutter goes up and down without a stop."
     )

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import FIRST, Parameters
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
@@ -25,6 +25,7 @@ class Machine(Parameters):
         "",
         max_length=200,
         description="A known machine, or a machine file (.toml) beside the design; its figures come first.",
+        json_schema_extra=FIRST,
     )
     name: str = Field("three-axis mill", max_length=60, description="Its name on the setup sheet.")
     travel_x: Millimetres = Field(500.0, gt=0, le=10000, description="Travel of X.")

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from mechwright.contracts.fits import HoleClass
 from mechwright.contracts.marking import LEAST_HEIGHT
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import FIRST, Parameters
 from mechwright.tolerances import TOLERANCES
 from mechwright.units import Degrees, Millimetres, Ratio
 from mechwright_cam.shop.holding import Hold, Nesting, SecondSide, Stock
@@ -64,16 +64,26 @@ class CamSettings(Parameters):
     """The table ``[cam]`` of a design file."""
 
     control: str = Field(
-        "linuxcnc", min_length=1, max_length=40, description="Control that reads the program."
+        "linuxcnc",
+        min_length=1,
+        max_length=40,
+        description="Control that reads the program.",
+        json_schema_extra=FIRST,
     )
     work_offset: WorkOffset = Field(
-        "G54", description="Work offset: G54 to G59; G59.3, G54.1 P48 or G154 P99 where the control has it."
+        "G54",
+        description="Work offset: G54 to G59; G59.3, G54.1 P48 or G154 P99 where the control has it.",
+        json_schema_extra=FIRST,
     )
     origin: Literal["axis", "corner", "centre"] = Field(
-        "axis", description="X and Y zero: the part's axis, the stock's lower left corner, or its centre."
+        "axis",
+        description="X and Y zero: the part's axis, the stock's lower left corner, or its centre.",
+        json_schema_extra=FIRST,
     )
     tools: tuple[str, ...] = Field(
-        (), description="Names of the cutters to use; empty: chosen from the library."
+        (),
+        description="Names of the cutters to use; empty: chosen from the library.",
+        json_schema_extra=FIRST,
     )
     operations: tuple[str, ...] = Field(
         (), description="Names of operations that are asked before the built-in ones."

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
@@ -53,6 +53,7 @@ class CamTable(Table[JobSettings]):
     """Reads and writes ``[cam]``."""
 
     name = "cam"
+    settings = CamSettings
 
     def read(self, content: object, path: Path) -> JobSettings:
         """The settings, with the machine that they name."""
@@ -70,6 +71,24 @@ class CamTable(Table[JobSettings]):
     def text(self, value: JobSettings | None = None) -> list[str]:
         """The table ``[cam]``; the tables of single parts are for each design by itself."""
         return [*table_lines(CamSettings, "cam", None if value is None else value.cam), *_OF_ONE_PART]
+
+    def first(self) -> list[str]:
+        """Control, work offset, cutters and machine."""
+        return table_lines(CamSettings, "cam", first=True)
+
+    def schema(self) -> dict[str, Any]:
+        """The table with those of single parts; a machine may also be given by its name alone."""
+        whole, part = CamSettings.model_json_schema(), PartSettings.model_json_schema()
+        known = whole["properties"]["machine"]
+        for table in (whole, part):
+            table["properties"]["machine"] = {"anyOf": [known, {"type": "string"}]}
+        defs = {**part.pop("$defs", {}), **whole.pop("$defs", {}), "part": part}
+        whole["properties"]["part"] = {
+            "type": "object",
+            "additionalProperties": {"$ref": "#/$defs/part"},
+            "description": "Tables of single parts, by name.",
+        }
+        return {**whole, "$defs": defs}
 
     def parts(self, value: JobSettings, parts: Sequence[Part], path: Path) -> Sequence[Part]:
         """The parts with their holes, broken edges and marks, see :mod:`mechwright_cam.shop.asked`."""

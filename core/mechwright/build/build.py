@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
+    from mechwright.errors import MechwrightError
     from mechwright.plugins.host import Host
 
 T = TypeVar("T")
@@ -68,6 +69,8 @@ class Build:
         self.path = design if isinstance(design, Path) else design.path
         self.faults: list[str] = []
         """What could not be done and stops nothing, in whole sentences; a command tells it at its end."""
+        self.missing: list[str] = []
+        """What is left out because of findings or faults that are told, each in a few words."""
         self._given = design
         self._kept: dict[Callable[[Build], Any], Any] = {}
         self._closing = ExitStack()
@@ -93,6 +96,13 @@ class Build:
     def parts(self) -> "Sequence[Part]":
         """The parts, with what the design file asks of them; raises what :meth:`Design.parts` does."""
         return self.design.parts()
+
+    def leave_out(self, what: str, error: "MechwrightError") -> None:
+        """Note in a few words what there cannot be; the reason is told once, and not if a finding told it."""
+        self.missing.append(what)
+        known = [f"{one.parameter}: {one.message}; {one.remedy}" for one in self.findings]
+        if str(error) not in (*known, *self.faults):
+            self.faults.append(str(error))
 
     @cached_property
     def pose(self) -> "tuple[Motion, int]":

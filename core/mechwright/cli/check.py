@@ -8,7 +8,9 @@ import typer
 from mechwright.build import Build, Inspection, Wanted
 from mechwright.build.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.cli.hosting import open_host
+from mechwright.cli.telling import tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
+from mechwright.remedies import proposed_tried, tried
 
 
 def findings_of(build: Build) -> list[Finding]:
@@ -18,7 +20,7 @@ def findings_of(build: Build) -> list[Finding]:
         asked = sorted(build.host.all(Inspection), key=lambda one: one.order)
         for one in asked:
             if build.wanted.command in one.commands:
-                found += one.findings(build)
+                found += proposed_tried(build, one, one.findings(build))
     return found
 
 
@@ -32,6 +34,8 @@ def check(path: Path, as_json: bool, tolerances: bool = False) -> None:
     """
     with Build(path, open_host(), Wanted("check")) as build:
         findings = findings_of(build)
+        family = len(build.findings)
+        findings[:family] = tried(build.design, findings[:family])
         name = build.design.name
         # A mechanism that does not move has no errors of its motion.
         moves = not errors(findings, Stage.MOTION) and not any(f.code == KEYS for f in findings)
@@ -45,7 +49,7 @@ def check(path: Path, as_json: bool, tolerances: bool = False) -> None:
     else:
         order = list(Severity)
         for finding in sorted(findings, key=lambda finding: order.index(finding.severity)):
-            typer.echo(str(finding))
+            tell(finding)
         if analysis is not None:
             typer.echo("\n".join(as_text(analysis)))
         typer.echo(f"{path}: " + ("cannot be built" if failed else "can be built"))

@@ -50,12 +50,42 @@ class New(Command):
         requirement: Annotated[
             str, typer.Option(metavar="KIND", help="A requirement file instead, for `synthesize`.")
         ] = "",
+        everything: Annotated[
+            bool, typer.Option("--all", help="Every key, not only those that one sets first.")
+        ] = False,
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
         """Write a commented design file that builds as it is."""
         from mechwright.cli import listing
 
-        listing.new(family, requirement, output, force)
+        listing.new(family, requirement, output, force, everything)
+
+
+class Schema(Command):
+    """``mechwright schema``."""
+
+    name = "schema"
+    order = 25
+
+    def run(
+        self,
+        family: Annotated[str, typer.Argument(help="A family's name; all families if not given.")] = "",
+        output: Annotated[
+            Path | None,
+            typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
+        ] = None,
+        requirement: Annotated[
+            bool, typer.Option("--requirement", help="Of requirement files instead of design files.")
+        ] = False,
+        force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
+    ) -> None:
+        """Write a JSON schema of design files.
+
+        Editors complete and check a file by it whose first line is: #:schema ./FILE
+        """
+        from mechwright.cli import listing
+
+        listing.schema(family, requirement, output, force)
 
 
 class Check(Command):
@@ -79,6 +109,33 @@ class Check(Command):
         from mechwright.cli import check
 
         check.check(design, as_json, tolerances)
+
+
+class Fix(Command):
+    """``mechwright fix``."""
+
+    name = "fix"
+    order = 35
+
+    def run(
+        self,
+        design: DesignFile,
+        to: Annotated[
+            str, typer.Option("--to", metavar="STAGE", help="How far it has to build: parts or machining.")
+        ] = "machining",
+        output: Annotated[
+            Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
+        ] = None,
+        write: Annotated[bool, typer.Option("--write", help="Change the design file itself.")] = False,
+        as_json: AsJson = False,
+    ) -> None:
+        """Find the smallest change with which a design builds.
+
+        It is shown, and written where that is asked for. The exit code is 1 if none is found.
+        """
+        from mechwright.cli import fixing
+
+        fixing.fix(design, to, output, write, as_json)
 
 
 class Solve(Command):
@@ -148,4 +205,4 @@ class Synthesize(Command):
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Families, New, Check, Solve, Build, Synthesize]
+    return [Families, New, Schema, Check, Fix, Solve, Build, Synthesize]

@@ -10,6 +10,7 @@ from mechwright.cli.hosting import open_host
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
 from mechwright.designs.requirement import require_synthesis
+from mechwright.designs.schema import file_schema, schema_name
 from mechwright.designs.tables import unknown
 from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
@@ -57,19 +58,38 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
     }
 
 
-def new(name: str, kind: str, output: Path | None, force: bool) -> None:
-    """Write or print a design file, or a requirement file of the kind that is asked for."""
+def new(name: str, kind: str, output: Path | None, force: bool, whole: bool) -> None:
+    """Write or print a design file, or a requirement file of a kind; all keys if ``whole``."""
     found = open_host()
     family = found.family(name)
     if kind:
         require_synthesis(family, "--requirement")
         if kind not in family.requirements:
             raise DesignError(f"--requirement: {unknown(kind, tuple(family.requirements), 'kind')}")
-        text, command = requirement_template(family, kind, name, found.all(Table)), "mechwright synthesize"
+        text = requirement_template(family, kind, name, found.all(Table), short=not whole)
+        command = "mechwright synthesize"
     else:
-        text, command = template(family, name, found.all(Table)), "mechwright build"
+        text, command = template(family, name, found.all(Table), short=not whole), "mechwright build"
     if output is None:
         typer.echo(text, nl=False)
     else:
         write_new(output, text, replace=force)
         typer.echo(f"{output}: written; go on with: {command} {output} -o out")
+        option = " --requirement" if kind else ""
+        file = output.with_name(schema_name(name, requirement=bool(kind)))
+        if not file.exists():
+            typer.echo(
+                f"for an editor that completes and checks it: mechwright schema {name}{option} -o {file}"
+            )
+
+
+def schema(name: str, requirement: bool, output: Path | None, force: bool) -> None:
+    """Write or print the JSON schema of design or requirement files."""
+    text = json.dumps(file_schema(open_host(), name, requirement=requirement), indent=2) + "\n"
+    if output is None:
+        typer.echo(text, nl=False)
+    else:
+        write_new(output, text, replace=force)
+        typer.echo(
+            f"{output}: written; editors look for it where the first line of a file says: #:schema FILE"
+        )

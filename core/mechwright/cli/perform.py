@@ -7,6 +7,7 @@ from typing import NoReturn
 import typer
 
 from mechwright.build import Build, Inspection, Page, Wanted
+from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import Step, progress
 from mechwright.cli.provenance import facts
@@ -58,10 +59,15 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
     for finding in told:
         if finding.severity is not Severity.NOTE:
             tell(path, finding)
-    if errors(told):
-        tell(path, f"written up to the {stage}; the errors above forbid what follows")
     for fault in build.faults:
         tell(path, fault)
+    if errors(told) or build.missing:
+        said = ", ".join(build.missing)
+        tell(
+            path,
+            f"written up to the {stage}; the errors above forbid what follows"
+            + (f": {said}" if said else ""),
+        )
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
 
@@ -74,7 +80,9 @@ def _make(
     step("checking")
     told: dict[str, list[Finding]] = {"": list(build.findings)}
     if stopping := errors(build.findings, stage):
-        raise Refused(stopping)
+        from mechwright.remedies import tried
+
+        raise Refused(tried(build.design, stopping))
     for page in pages:
         page.begin(build)
     asked = sorted(asked, key=lambda one: one.order)
@@ -88,7 +96,7 @@ def _make(
             except MechwrightError as error:
                 if not _later(one.stage, stage):
                     raise
-                build.faults.append(f"it is not known what {one.doing} there is: {error}")
+                build.leave_out(f"{one.doing} is not looked for", error)
                 continue
             if _later(one.stage, stage):
                 told[one.name] = errors(told[one.name])
@@ -137,4 +145,7 @@ def refuse(findings: Iterable[Finding], path: Path) -> NoReturn:
 
 def tell(path: Path, words: object) -> None:
     """Say something of a design on standard error."""
-    typer.echo(f"mechwright: {path}: {words}", err=True)
+    if isinstance(words, Finding):
+        telling.tell(words, err=True, path=path)
+    else:
+        typer.echo(f"mechwright: {path}: {words}", err=True)

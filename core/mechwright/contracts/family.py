@@ -59,7 +59,16 @@ class Family(Plugin, Generic[P]):
 
     @abstractmethod
     def solve(self, params: P, samples: int) -> "Motion":
-        """The motion over one period of the input, ``samples`` of them, both ends included."""
+        """The motion over one period of the input, ``samples`` of them, both ends included.
+
+        Motion needs closure, nothing else: it is asked for wherever ``check`` finds no error of the stage
+        ``motion``, and whether parts can be made is no matter. What a period is, :class:`Motion` says.
+
+        Raises
+        ------
+        MechwrightError
+            ``check`` has an error of the motion.
+        """
 
     @abstractmethod
     def parts(self, params: P) -> "Sequence[Part]":

@@ -1,7 +1,7 @@
 """What a check has to say about a design."""
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from functools import wraps
 from typing import Any, TypeVar
@@ -9,6 +9,9 @@ from typing import Any, TypeVar
 from mechwright.errors import DesignError
 
 S = TypeVar("S")
+
+Change = Mapping[str, Any]
+"""A change of a design file: dotted key, such as ``"parameters.ground"``, to its value (None: left out)."""
 
 
 class Severity(StrEnum):
@@ -55,6 +58,12 @@ class Finding:
         What to do, in words; empty for a note.
     stage
         What it is about; by default the motion, whose errors stop everything.
+    proposed
+        Changes that should help, best first, from whoever knows the number. They are promises to nobody:
+        the host tries them (:mod:`mechwright.remedies`) and looks on where none of them helps.
+    fix
+        The change that was tried: with it this finding is gone and no new error stands. None as long as
+        nothing was tried, or where nothing helped; a check leaves it to the host.
     """
 
     code: str
@@ -66,6 +75,8 @@ class Finding:
     unit: str = ""
     remedy: str = ""
     stage: Stage = Stage.MOTION
+    proposed: tuple[Change, ...] = field(default=(), hash=False)
+    fix: Change | None = field(default=None, hash=False)
 
     @classmethod
     def error(
@@ -78,9 +89,10 @@ class Finding:
         unit: str = "",
         remedy: str = "",
         stage: Stage = Stage.MOTION,
+        proposed: tuple[Change, ...] = (),
     ) -> "Finding":
         """An error; the arguments are those of the class."""
-        return cls(code, Severity.ERROR, parameter, message, value, limit, unit, remedy, stage)
+        return cls(code, Severity.ERROR, parameter, message, value, limit, unit, remedy, stage, proposed)
 
     @classmethod
     def warning(
@@ -93,9 +105,10 @@ class Finding:
         unit: str = "",
         remedy: str = "",
         stage: Stage = Stage.MOTION,
+        proposed: tuple[Change, ...] = (),
     ) -> "Finding":
         """A warning; the arguments are those of the class."""
-        return cls(code, Severity.WARNING, parameter, message, value, limit, unit, remedy, stage)
+        return cls(code, Severity.WARNING, parameter, message, value, limit, unit, remedy, stage, proposed)
 
     @classmethod
     def note(cls, code: str, message: str, value: float | None = None, unit: str = "") -> "Finding":
@@ -108,8 +121,10 @@ class Finding:
         return f"{self.severity} [{self.code}] {where}{self.message}{cure}"
 
     def as_dict(self) -> dict[str, Any]:
-        """Give the finding as plain data for JSON."""
-        return asdict(self)
+        """Give the finding as plain data for JSON; what was proposed and not tried is left out."""
+        data = asdict(self)
+        del data["proposed"]
+        return data
 
 
 def errors(findings: Iterable[Finding], stage: Stage = Stage.MACHINING) -> list[Finding]:

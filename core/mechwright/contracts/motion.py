@@ -4,10 +4,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint, check_bodies
 from mechwright.errors import DesignError, KinematicsError
+
+TIME = "time"
+"""Name of the channel of time, s, of a motion whose input goes there and back."""
 
 
 def travelled(travel: float, samples: int, start: float = 0.0) -> Array:
@@ -82,13 +86,34 @@ class Trace:
 
 
 @dataclass(frozen=True, slots=True)
+class Curve:
+    """A line that belongs to a ``body``, in its coordinates: the pitch curve of a gear, the wall of a slot.
+
+    ``points`` are (n, 3) float, mm; a page shows it where there are no parts to show.
+    """
+
+    body: str
+    points: Array
+
+    @classmethod
+    def planar(cls, body: str, points: NDArray[np.complex128]) -> "Curve":
+        """A curve through points (n,) of the plane, x + i y, mm."""
+        return cls(body, np.column_stack([points.real, points.imag, np.zeros(points.size)]))
+
+
+@dataclass(frozen=True, slots=True)
 class Motion:
-    """The motion of a mechanism.
+    """The motion of a mechanism over one period of its input.
+
+    A period is one turn of a crank, or as many turns as bring the mechanism back; the travel that a design
+    asks for; or the way there and back of a lever, an input that cannot turn fully. Then there is a channel
+    ``time`` [s], along which all else is drawn.
 
     Parameters
     ----------
     input_name
-        Name of the channel that drives (``"theta2"``); it is one of ``channels``.
+        Name of the channel that drives (``"theta2"``); it is one of ``channels``, and goes one way, or one
+        way and back.
     channels
         Name to channel; all of one length n, in the order they are printed.
     poses
@@ -99,12 +124,14 @@ class Motion:
         Points whose paths are drawn, by name: the coupler point of a linkage.
     joints
         How the bodies hold each other, by name; empty where the family does not say.
+    curves
+        Lines fixed to bodies, by name.
 
     Raises
     ------
     KinematicsError
-        The input is no channel, a channel or body has another number of samples than the input, or a trace
-        or joint is that of no body.
+        The input is no channel, a channel or body has another number of samples than the input, or a trace,
+        joint or curve is that of no body.
     """
 
     input_name: str
@@ -113,6 +140,7 @@ class Motion:
     scalars: Mapping[str, Scalar] = field(default_factory=dict)
     traces: Mapping[str, Trace] = field(default_factory=dict)
     joints: Mapping[str, Joint] = field(default_factory=dict)
+    curves: Mapping[str, Curve] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.input_name not in self.channels:
@@ -132,6 +160,12 @@ class Motion:
                 raise KinematicsError(
                     f"the trace {name!r} is a point of body {trace.body!r}, which has no poses"
                 )
+        for name, curve in self.curves.items():
+            if curve.body not in self.poses or curve.points.ndim != 2 or curve.points.shape[1] != 3:
+                raise KinematicsError(
+                    f"the curve {name!r} has points of shape {curve.points.shape} in body {curve.body!r}; it "
+                    "needs (n, 3) in a body that has poses"
+                )
         check_bodies(self.joints, self.poses.keys())
 
     def path(self, name: str) -> Array:
@@ -139,6 +173,18 @@ class Motion:
         trace = self.traces[name]
         path: Array = self.poses[trace.body].transform(np.array([trace.point]))[:, 0]
         return path
+
+    @property
+    def rocks(self) -> bool:
+        """Whether the input goes there and back."""
+        values = self.channels[self.input_name].values
+        steps = np.sign(np.diff(values))
+        return bool(steps.size > 1 and (steps > 0).any() and (steps < 0).any())
+
+    @property
+    def over(self) -> str:
+        """The channel that goes one way all along: the input, or the time of one that goes there and back."""
+        return TIME if self.rocks and TIME in self.channels else self.input_name
 
     @property
     def samples(self) -> int:

@@ -2,14 +2,18 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator
+from pydantic.config import JsonDict
 
 if TYPE_CHECKING:
     from functools import _lru_cache_wrapper
 
 T = TypeVar("T")
+
+FIRST: JsonDict = {"first": True}
+"""``json_schema_extra`` of a field that one sets first: without ``--all``, ``new`` writes these."""
 
 KEPT = 32
 """Designs of which a function's result is kept: checks, motion and parts ask for the same one."""
@@ -18,6 +22,41 @@ KEPT = 32
 def kept(function: Callable[..., T]) -> "_lru_cache_wrapper[T]":
     """Compute what a function says of a design once."""
     return lru_cache(KEPT)(function)
+
+
+SHORT = 10
+"""Fields that ``new`` writes of a table in which none is marked."""
+
+
+def first_fields(model: type[BaseModel]) -> tuple[str, ...]:
+    """Names of the fields of a model, tables included, that one sets first.
+
+    They are those that are marked with :data:`FIRST` and the tables that hold such; where none is marked, the
+    first ten that have a value and are no table.
+    """
+    marked = _marked(model)
+    if marked:
+        return marked
+    plain = [
+        name
+        for name, field in model.model_fields.items()
+        if not _is_table(field.annotation) and field.get_default(call_default_factory=True) is not None
+    ]
+    return tuple(plain[:SHORT])
+
+
+def _marked(model: type[BaseModel]) -> tuple[str, ...]:
+    found = []
+    for name, field in model.model_fields.items():
+        extra = field.json_schema_extra
+        table = field.annotation
+        if (isinstance(extra, dict) and extra.get("first")) or (_is_table(table) and _marked(table)):
+            found.append(name)
+    return tuple(found)
+
+
+def _is_table(annotation: object) -> TypeGuard[type[BaseModel]]:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)
 
 
 class Parameters(BaseModel):

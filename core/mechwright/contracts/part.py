@@ -21,7 +21,10 @@ if TYPE_CHECKING:
     import cadquery as cq
 
 Colour = tuple[float, float, float]
-_NAME = re.compile(r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?")
+NAME_PATTERN = r"[a-z0-9](?:[a-z0-9_-]{0,62}[a-z0-9])?"
+"""What can be a file name anywhere."""
+
+_NAME = re.compile(NAME_PATTERN)
 
 
 def check_name(name: str, what: str = "name") -> str:

@@ -1,10 +1,11 @@
 """What a synthesis gives: designs that meet a requirement, best first."""
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.parameters import Parameters
 
@@ -32,10 +33,73 @@ class Candidate(Generic[P]):
     residual: Scalar
     figures: Mapping[str, Scalar] = field(default_factory=dict)
 
+    @property
+    def shown(self) -> dict[str, Scalar]:
+        """Residual and figures as they are told to people: angles in degrees."""
+        told = {"residual": self.residual, **self.figures}
+        return {name: _in_degrees(one) for name, one in told.items()}
+
     def as_dict(self) -> dict[str, Any]:
-        """Residual and figures as plain data for JSON."""
-        figures = {name: {"value": one.value, "unit": one.unit} for name, one in self.figures.items()}
-        return {"residual": {"value": self.residual.value, "unit": self.residual.unit}, "figures": figures}
+        """Residual and figures as plain data for JSON; angles in degrees."""
+        told = {name: {"value": one.value, "unit": one.unit} for name, one in self.shown.items()}
+        return {"residual": told.pop("residual"), "figures": told}
+
+
+def _in_degrees(figure: Scalar) -> Scalar:
+    return Scalar(math.degrees(figure.value), "deg") if figure.unit == "rad" else figure
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why designs that a search has found are not given.
+
+    Parameters
+    ----------
+    code
+        Of the finding that speaks against them.
+    count
+        How many of them.
+    message
+        What it says of the first.
+    """
+
+    code: str
+    count: int
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.count} {self.code.rpartition('.')[2].replace('-', ' ')}"
+
+
+class Rejected:
+    """Counts the designs that a search has found and does not give.
+
+    >>> rejected = Rejected()
+    >>> rejected.by([Finding.error("geneva.undercut", "roller_radius", "too large")]), rejected.by([])
+    (True, False)
+    >>> [str(reason) for reason in rejected.reasons]
+    ['1 undercut']
+    """
+
+    def __init__(self, reasons: Iterable[Reason] = ()) -> None:
+        self._reasons = {reason.code: reason for reason in reasons}
+
+    def by(self, findings: Iterable[Finding]) -> bool:
+        """Whether a finding speaks against a design; it is then counted under the first that does."""
+        faults = errors(findings)
+        if faults:
+            self.because(faults[0].code, str(faults[0]))
+        return bool(faults)
+
+    def because(self, code: str, message: str) -> None:
+        """Count one design."""
+        before = self._reasons.get(code, Reason(code, 0, message))
+        self._reasons[code] = Reason(code, before.count + 1, before.message)
+
+    @property
+    def reasons(self) -> tuple[Reason, ...]:
+        """All of them, the most frequent first."""
+        return tuple(sorted(self._reasons.values(), key=lambda one: -one.count))
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +113,10 @@ class Synthesis(Generic[P]):
     findings
         What there is to say of the requirement: an error, with the nearest feasible value or the best
         residual found, where no candidate meets it.
+    rejected
+        Why designs that were found are not among the candidates.
     """
 
     candidates: tuple[Candidate[P], ...]
     findings: tuple[Finding, ...] = ()
+    rejected: tuple[Reason, ...] = ()

@@ -3,8 +3,9 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
+from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 
@@ -20,6 +21,8 @@ class Table(Plugin, Generic[V]):
 
     kind = "table"
     plural = "tables"
+    settings: ClassVar[type[Parameters] | None] = None
+    """The model of its keys, whose bounds and choices a search for remedies keeps to; None if it has none."""
 
     @abstractmethod
     def read(self, content: object, path: Path) -> V:
@@ -36,6 +39,14 @@ class Table(Plugin, Generic[V]):
     @abstractmethod
     def text(self, value: V | None = None) -> list[str]:
         """The lines of the table with a comment for each key; None stands for the defaults."""
+
+    def first(self) -> list[str]:
+        """The lines of the keys that one sets first, for the short form of a new file; none by default."""
+        return []
+
+    def schema(self) -> dict[str, Any]:
+        """The JSON schema of the table, for editors; by default any table will do."""
+        return {"type": "object"}
 
     def parts(self, value: V, parts: Sequence[Part], path: Path) -> Sequence[Part]:  # noqa: ARG002
         """The parts of the design with what the table asks of them, such as broken edges.

@@ -13,27 +13,26 @@ A design file is data. It names a family, gives its parameters and says how the 
     work_offset = "G54"
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Change
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
-from mechwright.designs.files import read_toml
+from mechwright.designs.change import changed
+from mechwright.designs.files import read_text, read_toml
+from mechwright.designs.hints import homes, placed
+from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 
 V = TypeVar("V")
-
-FORMAT = 1
-"""Version of the design file's own layout."""
-
-HEAD = ("format", "family", "name")
-"""Keys of every file; what else it may hold are tables."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +49,8 @@ class Design:
         Name to value of every table that is registered; see :meth:`table`.
     readers
         Those tables.
+    content
+        What the file says, as plain data.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Design:
     digest: str
     tables: Mapping[str, Any] = field(default_factory=dict)
     readers: tuple[Table[Any], ...] = ()
+    content: Mapping[str, Any] = field(default_factory=dict)
 
     def table(self, contract: type[Table[V]]) -> V:
         """The value of a registered table, by the class that reads it."""
@@ -75,6 +77,18 @@ class Design:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts
 
+    def changed(self, change: Change) -> "Design":
+        """The design that the file would hold with a change; raises as :func:`load` does."""
+        content = changed(self.content, change)
+        params = read_table(self.family.Params, content.get("parameters", {}), str(self.path), "parameters")
+        touched = {key.partition(".")[0] for key in change}
+        tables = {
+            reader.name: reader.read(content.get(reader.name, {}), self.path)
+            for reader in self.readers
+            if reader.name in touched
+        }
+        return replace(self, params=params, tables={**self.tables, **tables}, content=content)
+
 
 def load(path: Path, host: Host) -> Design:
     """Read a design file.
@@ -83,11 +97,30 @@ def load(path: Path, host: Host) -> Design:
     PluginError where its family is not installed.
     """
     content, digest = read_toml(path)
+    with telling_places(path, content, host, "parameters"):
+        return design_of(content, path, digest, host)
+
+
+@contextmanager
+def telling_places(path: Path, content: Mapping[str, Any], host: Host, own: str) -> Iterator[None]:
+    """Tell of every unknown key on which line it stands, and to which table it belongs.
+
+    ``own`` is the table of the family: ``parameters`` or ``requirement``.
+    """
+    try:
+        yield
+    except DesignError as error:
+        said = placed(str(error), read_text(path)[0], homes(host, content, own))
+        raise DesignError(said) from error
+
+
+def design_of(content: Mapping[str, Any], path: Path, digest: str, host: Host) -> Design:
+    """The design that a file ``path`` with this content holds; raises as :func:`load` does."""
     tables = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "parameters", *tables))
     params = read_table(family.Params, content.get("parameters", {}), str(path), "parameters")
     readers = tuple(entry.item for entry in tables.values())
-    return Design(name, family, params, path, digest, read_tables(content, path, host), readers)
+    return Design(name, family, params, path, digest, read_tables(content, path, host), readers, content)
 
 
 def read_tables(content: Mapping[str, Any], path: Path, host: Host) -> dict[str, Any]:

@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from mechwright.designs.toml_hints import toml_hint
 from mechwright.errors import DesignError, OutputError
 
 SIZE_LIMIT = 1_000_000
@@ -55,5 +56,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     try:
         return tomllib.loads(text), digest
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        reason = str(error) if isinstance(error, tomllib.TOMLDecodeError) else "nested too deep"
-        raise DesignError(f"{path}: is no valid TOML: {reason}") from error
+        if isinstance(error, RecursionError):
+            raise DesignError(f"{path}: is no valid TOML: nested too deep") from error
+        hint = toml_hint(text, str(error))
+        raise DesignError(f"{path}: is no valid TOML: {error}" + (f"; {hint}" if hint else "")) from error

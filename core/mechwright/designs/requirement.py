@@ -25,8 +25,9 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
-from mechwright.designs.design import HEAD, read_head, read_tables
+from mechwright.designs.design import Design, read_head, read_tables, telling_places
 from mechwright.designs.files import read_toml
+from mechwright.designs.schema import HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
@@ -46,6 +47,8 @@ class Requirement:
         The table ``[requirement]``, of the kind's model.
     tables
         Each registered table with its value for the designs.
+    given
+        Name to value of the same tables as the requirement file has them.
     files
         Name to the file that goes along with the designs.
     inputs
@@ -59,15 +62,26 @@ class Requirement:
     kind: str
     table: Parameters
     tables: tuple[tuple[Table[Any], Any], ...]
+    given: Mapping[str, Any]
     files: Mapping[str, Path]
     inputs: Mapping[str, Path]
     path: Path
     digest: str
 
+    def design(self, name: str, params: Parameters) -> Design:
+        """A design that meets it, as its file will be read."""
+        readers = tuple(reader for reader, _ in self.tables)
+        return Design(name, self.family, params, self.path, self.digest, self.given, readers)
+
 
 def load_requirement(path: Path, host: Host) -> Requirement:
     """Read a requirement file; raises as ``load`` does, and DesignError for a family without synthesis."""
     content, digest = read_toml(path)
+    with telling_places(path, content, host, "requirement"):
+        return _load(path, content, digest, host)
+
+
+def _load(path: Path, content: Mapping[str, Any], digest: str, host: Host) -> Requirement:
     registered = host.of(Table)
     name, family = read_head(content, path, host, (*HEAD, "requirement", *registered))
     require_synthesis(family, str(path))
@@ -85,7 +99,8 @@ def load_requirement(path: Path, host: Host) -> Requirement:
     tables: list[tuple[Table[Any], Any]] = []
     files: dict[str, Path] = {}
     inputs: dict[str, Path] = {}
-    for key, value in read_tables(content, path, host).items():
+    given = read_tables(content, path, host)
+    for key, value in given.items():
         reader = registered[key].item
         inputs |= reader.inputs(value, path)
         carried, along = reader.carried(value, path)
@@ -97,6 +112,7 @@ def load_requirement(path: Path, host: Host) -> Requirement:
         kind,
         read_table(family.requirements[kind], rest, str(path), "requirement"),
         tuple(tables),
+        given,
         files,
         inputs,
         path,

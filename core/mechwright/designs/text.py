@@ -7,21 +7,45 @@ from typing import Any
 from pydantic import BaseModel
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.parameters import Parameters, first_fields
 from mechwright.contracts.table import Table
-from mechwright.designs.design import FORMAT
+from mechwright.designs.schema import FORMAT, schema_line
 
 
-def template(family: Family[Any], name: str, tables: Iterable[Table[Any]]) -> str:
-    """A commented design file of a family that builds as it is, with the defaults of the ``tables``."""
-    return _file(family, name, table_lines(family.Params, "parameters"), *(table.text() for table in tables))
+def template(family: Family[Any], name: str, tables: Iterable[Table[Any]], *, short: bool = False) -> str:
+    """A commented design file of a family that builds as it is, with the defaults of the ``tables``.
+
+    The ``short`` form has the keys that one sets first.
+    """
+    own = table_lines(family.Params, "parameters", first=short)
+    rest = [table.first() if short else table.text() for table in tables]
+    return _new(family, name, own, rest, f"new {family.name}", short=short)
 
 
-def requirement_template(family: Family[Any], kind: str, name: str, tables: Iterable[Table[Any]]) -> str:
+def requirement_template(
+    family: Family[Any], kind: str, name: str, tables: Iterable[Table[Any]], *, short: bool = False
+) -> str:
     """A commented requirement file of a family; what it asks for can be met."""
-    asked = table_lines(family.requirements[kind], "requirement")
+    asked = table_lines(family.requirements[kind], "requirement", first=short)
     head = [asked[0], f"kind = {toml(kind)}", *asked[1:]]
-    return _file(family, name, head, *(table.text() for table in tables))
+    rest = [table.first() if short else table.text() for table in tables]
+    command = f"new {family.name} --requirement {kind}"
+    return _new(family, name, head, rest, command, short=short, requirement=True)
+
+
+def _new(
+    family: Family[Any],
+    name: str,
+    own: list[str],
+    rest: list[list[str]],
+    command: str,
+    *,
+    short: bool,
+    requirement: bool = False,
+) -> str:
+    text = _file(family, name, own, *rest)
+    more = f"\n# These are the keys that one sets first; mechwright {command} --all writes all of them.\n"
+    return f"{schema_line(family.name, requirement=requirement)}\n{text}{more if short else ''}"
 
 
 def design_text(
@@ -45,14 +69,18 @@ def _file(family: Family[Any], name: str, *tables: list[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def table_lines(model: type[BaseModel], where: str, values: BaseModel | None = None) -> list[str]:
-    """A table with the values of an instance, or with the defaults of its fields."""
+def table_lines(
+    model: type[BaseModel], where: str, values: BaseModel | None = None, *, first: bool = False
+) -> list[str]:
+    """A table with the values of an instance, or with the defaults of its fields; or just the ``first``."""
     lines, tables = [f"[{where}]"], []
     schema = model.model_json_schema()["properties"]
-    for key, field in model.model_fields.items():
+    chosen = first_fields(model) if first else tuple(model.model_fields)
+    for key in chosen:
+        field = model.model_fields[key]
         value = getattr(values, key) if values is not None else field.get_default(call_default_factory=True)
         if isinstance(value, BaseModel):
-            tables += ["", *table_lines(type(value), f"{where}.{key}", value)]
+            tables += ["", *table_lines(type(value), f"{where}.{key}", value, first=first)]
             continue
         text = f"{field.description or ''}{_limits(schema[key])}"
         if value is None:
@@ -68,13 +96,25 @@ def _limits(schema: dict[str, Any]) -> str:
     for option in options:
         facts = {**option, **facts}
     said = [facts["unit"]] if facts.get("unit") else []
-    low = facts.get("minimum", facts.get("exclusiveMinimum"))
-    high = facts.get("maximum", facts.get("exclusiveMaximum"))
-    if low is not None and high is not None:
-        said.append(f"{low:g} to {high:g}")
+    said += _bounds(facts)
     if "enum" in facts:
         said.append(" | ".join(str(value) for value in facts["enum"]))
     return f" ({', '.join(said)})" if said else ""
+
+
+def _bounds(facts: Mapping[str, Any]) -> list[str]:
+    """The bounds of a field in words; one that is excluded is printed as such.
+
+    >>> _bounds({"minimum": 0, "maximum": 5}), _bounds({"exclusiveMinimum": 0, "exclusiveMaximum": 180})
+    (['0 to 5'], ['above 0, below 180'])
+    """
+    low, over = facts.get("minimum", facts.get("ge")), facts.get("exclusiveMinimum", facts.get("gt"))
+    high, under = facts.get("maximum", facts.get("le")), facts.get("exclusiveMaximum", facts.get("lt"))
+    if low is not None and high is not None:
+        return [f"{low:g} to {high:g}"]
+    words = (("at least", low), ("above", over), ("at most", high), ("below", under))
+    said = ", ".join(f"{word} {value:g}" for word, value in words if value is not None)
+    return [said] if said else []
 
 
 def toml(value: Any) -> str:

@@ -37,6 +37,7 @@ def keyway_findings(
             "mm",
             f"make {width} smaller than {bore}; "
             + (f"the standard is {fitting.width:g}" if fitting else "0 for none"),
+            proposed=({f"parameters.{width}": fitting.width if fitting else 0},),
         )
         return
     if fitting is None or fitting.width != opening.width:
@@ -49,6 +50,7 @@ def keyway_findings(
             fitting.width if fitting else None,
             "mm",
             f"use {width} = {fitting.width:g}" if fitting else "make sure that such a key is at hand",
+            proposed=({f"parameters.{width}": fitting.width},) if fitting else (),
         )
     most = opening.greatest_relief - math.sqrt(2) * SMALLEST_EDGE
     if opening.relief > max(0.0, most):

@@ -34,7 +34,8 @@ from mechwright.designs.text import toml
 from mechwright.errors import MechwrightError, PluginError
 from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
-from mechwright.testing.compare import assert_derivative, assert_monotone, assert_rotations
+from mechwright.testing.compare import assert_derivative, assert_rotations
+from mechwright.testing.fixes import FixTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.results import difference
 from mechwright.testing.tolerances import ToleranceTests
@@ -45,7 +46,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests):
+class FamilyContract(ToleranceTests, FixTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples
@@ -73,7 +74,8 @@ class FamilyContract(ToleranceTests):
     derivatives: ClassVar[Sequence[tuple[str, str]]] = ()
     """Channel and the channel of its rate over time, for each rate that the motion gives."""
     input_rate: ClassVar[str] = ""
-    """Channel of the input's own rate over time; empty where the input is the time."""
+    """Channel of the input's own rate over time; empty where the input is the time. Rates of a motion whose
+    input goes there and back are compared over its channel ``time``."""
     requirements: ClassVar[Mapping[str, Sequence[Mapping[str, Any]]]] = {}
     """Kind of synthesis to tables ``[requirement]`` that can be met; of a kind not named, its defaults."""
     samples: ClassVar[int] = 361
@@ -137,10 +139,8 @@ class FamilyContract(ToleranceTests):
         _none(self._finding_faults(self.family().check(self.params(design))))
 
     def test_channels(self, design: Mapping[str, Any]) -> None:
-        """Channels are finite, in known units, and driven by an input that goes one way."""
+        """Channels are finite, in known units, and driven by an input that goes one way, or also back."""
         _none(rules.motion_faults(self._motion(design)))
-        motion = self._motion(design)
-        assert_monotone(motion.channels[motion.input_name].values, f"input {motion.input_name}")
 
     def test_samples(self, design: Mapping[str, Any]) -> None:
         """As many samples as asked for, both ends included: twice as fine meets the coarse ones."""
@@ -171,8 +171,9 @@ class FamilyContract(ToleranceTests):
         if not self.derivatives:
             pytest.skip("the attribute derivatives is empty")
         motion = self._motion(design)
-        drive = motion.channels[motion.input_name].values
-        factor = motion.channels[self.input_rate].values if self.input_rate else 1.0
+        drive = motion.channels[motion.over].values
+        one_way = self.input_rate and motion.over == motion.input_name
+        factor = motion.channels[self.input_rate].values if one_way else 1.0
         for name, rate in self.derivatives:
             one, two = motion.channels[name], motion.channels[rate]
             assert_derivative(two.values, one.values, drive, factor, what=f"channel {rate}")

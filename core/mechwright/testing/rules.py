@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.finding import Finding, Severity, Stage
-from mechwright.contracts.motion import Motion
+from mechwright.contracts.motion import TIME, Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Bore, Part, Pocket, Profile, is_outside
 from mechwright.geometry import Outline
@@ -118,7 +118,7 @@ def finding_faults(finding: Finding, params: type[Parameters]) -> list[str]:
 
 def motion_faults(motion: Motion) -> list[str]:
     """Channels and scalars that cannot be printed or computed with."""
-    found = []
+    found = _input_faults(motion)
     for name, channel in motion.channels.items():
         where = f"channel {name}"
         if not _CHANNEL.fullmatch(name):
@@ -135,6 +135,24 @@ def motion_faults(motion: Motion) -> list[str]:
             found.append(f"scalar {name}: {scalar.value}")
         found += unit_faults(scalar.unit, f"scalar {name}")
     return found
+
+
+def _input_faults(motion: Motion) -> list[str]:
+    """An input that goes neither one way nor there and back, or a lever's without a time that goes on."""
+    where, values = f"input {motion.input_name}", motion.channels[motion.input_name].values
+    steps = np.sign(np.diff(values))
+    if not motion.rocks:
+        still = np.flatnonzero(steps == 0)
+        return [f"{where}: neither rising nor falling from sample {still[0]} on"] if still.size else []
+    turns = np.flatnonzero(np.diff(steps[steps != 0]))
+    if turns.size > 1:
+        return [
+            f"{where}: goes back more than once, first after sample {turns[0]}; one way and back is a period"
+        ]
+    time = motion.channels.get(TIME)
+    if time is None or time.unit != "s" or not (np.diff(time.values) > 0).all():
+        return [f"{where}: goes there and back, which needs a channel {TIME} [s] that goes on all along"]
+    return []
 
 
 def outline_faults(part: Part) -> list[str]:

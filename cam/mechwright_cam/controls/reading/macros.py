@@ -7,18 +7,15 @@ Glossary
 --------
 O-word
     A line such as ``O100 while [#1 lt 5]``; the label ties the lines of one structure together.
-frame
-    What a running subroutine has of its own: parameters 1 to 30, names without a leading underscore.
 """
 
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.expressions import Reader
-from mechwright_cam.controls.reading.parameters import check_writable
+from mechwright_cam.controls.reading.values import COMMENT, OWN, Frame, Values, whole
 
 _USES = re.compile(
     r"^(?:[^(;\n]|\([^)\n]*\))*?[#\[]|^\s*(?:n[0-9]+\s*)?/?(?:o\s*[0-9<\[#]|m\s*0*9\s*[89](?![0-9]))",
@@ -35,27 +32,10 @@ def uses_macros(text: str) -> bool:
     return _USES.search(text) is not None
 
 
-class Lines:
-    """The lines of a program, one after the other; whoever has run some more of them moves ``at`` on."""
-
-    def __init__(self, lines: list[str]) -> None:
-        self.lines = lines
-        self.at = 0
-
-    def run(self) -> Iterator[tuple[int, str]]:
-        """Index and text of each line that the machine has to obey, in the order of running."""
-        while self.at < len(self.lines):
-            self.at += 1
-            yield self.at - 1, self.lines[self.at - 1]
-
-
 MOST_LINES = 500_000
 """A program that runs more lines than this is taken for an endless loop: ten seconds."""
 DEEPEST = 10
 """Depth of calls, as LinuxCNC has it."""
-OWN = 30
-"""So many numbered parameters belong to a subroutine."""
-_COMMENT = re.compile(r"\([^)]*\)|;.*")
 _O_WORD = re.compile(
     r"(?:n[0-9]+)?o([0-9]+|<[^<>]+>)"
     r"(sub|endsub|return|call|do|while|endwhile|if|elseif|else|endif|repeat|endrepeat|break|continue|$)(.*)"
@@ -63,23 +43,9 @@ _O_WORD = re.compile(
 _WORKED_OUT = re.compile(r"(?:n[0-9]+)?o((?:#|\[).*)call(.*)")
 """A call whose label is a value."""
 _M98 = re.compile(r"(?:n[0-9]+)?m0*9([89])(?![0-9.])(.*)")
-_LETTER = re.compile(r"[a-z@^]")
 
 
-@dataclass(slots=True)
-class _Frame:
-    back: int
-    start: int
-    """Line of its first word, -1 for the main program."""
-    by_m98: bool = False
-    rounds: int = 1
-    """How often it is still to be run, this time included."""
-    own: dict[int, float] = field(default_factory=dict)
-    names: dict[str, float] = field(default_factory=dict)
-    repeats: dict[int, int] = field(default_factory=dict)
-
-
-class Macros(Lines):
+class Macros(Values):
     """The same, of a program that works out its values and its way.
 
     ``system`` gives the value of a parameter that the machine keeps, and raises ValueError if it keeps none
@@ -89,17 +55,14 @@ class Macros(Lines):
     def __init__(
         self, lines: list[str], system: Callable[[float | str], float], returned: Callable[[], None]
     ) -> None:
-        super().__init__(lines)
-        self.system, self.returned = system, returned
-        self.numbers: dict[int, float] = {}
-        self.names: dict[str, float] = {"_value": 0.0, "_value_returned": 0.0}
-        self.frames = [_Frame(-1, -1)]
+        super().__init__(lines, system)
+        self.returned = returned
         self.words: dict[int, tuple[str, str, str]] = {}
         self.places: dict[str, list[int]] = {}
         """Lines of each label, in order."""
         percents = 0
         for index, line in enumerate(lines):
-            code = "".join(_COMMENT.sub("", line).split()).lower()
+            code = "".join(COMMENT.sub("", line).split()).lower()
             percents += code == "%"
             if percents == 2:
                 break
@@ -125,7 +88,7 @@ class Macros(Lines):
             self.at += 1
             try:
                 if index in self.words:
-                    if comments := _COMMENT.findall(self.lines[index]):
+                    if comments := COMMENT.findall(self.lines[index]):
                         yield index, "".join(comments)
                     self._obey(index, *self.words[index])
                 else:
@@ -135,52 +98,6 @@ class Macros(Lines):
                 if str(error).startswith("line "):
                     raise
                 raise fail(index + 1, str(error)) from None
-
-    # -- values -----------------------------------------------------------------------------------------
-
-    def _value(self, name: float | str) -> float:
-        if isinstance(name, str):
-            names = self.names if name.startswith("_") else self.frames[-1].names
-            return names[name] if name in names else self.system(name)
-        number = _whole(name)
-        numbers = self.frames[-1].own if 1 <= number <= OWN else self.numbers
-        return numbers[number] if number in numbers else self.system(number)
-
-    def _set(self, name: float | str, value: float) -> None:
-        check_writable(name)
-        if isinstance(name, str):
-            (self.names if name.startswith("_") else self.frames[-1].names)[name] = value
-        else:
-            number = _whole(name)
-            (self.frames[-1].own if number <= OWN else self.numbers)[number] = value
-
-    def _plain(self, line: str) -> str:
-        """The line with every value worked out, and its settings of parameters carried out."""
-        if "#" not in line and "[" not in line:
-            return line
-        comments = "".join(_COMMENT.findall(line))
-        reader = Reader("".join(_COMMENT.sub("", line).split()).lower(), self._value)
-        words, settings = [], []
-        while reader.at < len(reader.text):
-            rest = reader.text[reader.at :]
-            if rest[0] == "#":
-                name = reader.parameter()
-                if reader.text[reader.at : reader.at + 1] != "=":
-                    raise ValueError(f"= expected at {reader.text[reader.at :][:12]!r}")
-                reader.at += 1
-                settings.append((name, reader.real()))
-            elif _LETTER.match(rest):
-                reader.at += 1
-                words.append(f"{rest[0].upper()}{_number(reader.real())}")
-            else:
-                words.append(rest[0])
-                reader.at += 1
-        for name, value in settings:  # they hold from the next line on
-            self._set(name, value)
-        return " ".join(words) + comments
-
-    def _condition(self, rest: str) -> bool:
-        return bool(Reader(rest, self._value).real())
 
     # -- structures -------------------------------------------------------------------------------------
 
@@ -210,7 +127,7 @@ class Macros(Lines):
             case "endwhile":
                 self.at = self._find_back(index, label, "while")
             case "repeat":
-                count = _whole(Reader(rest, self._value).real())
+                count = whole(Reader(rest, self._value).real())
                 self.frames[-1].repeats[index] = count
                 if count <= 0:
                     self.at = self._find(index, label, {"endrepeat"}) + 1
@@ -233,20 +150,20 @@ class Macros(Lines):
             raise ValueError(f"calls are nested more than {DEEPEST} deep")
         return starts[0]
 
-    def _enter(self, frame: _Frame) -> None:
+    def _enter(self, frame: Frame) -> None:
         self.frames.append(frame)
         self.at = frame.start + 1
 
     def _call(self, label: str, rest: str) -> None:
         if label[0] in "#[":
-            label = str(_whole(Reader(label, self._value).real()))
+            label = str(whole(Reader(label, self._value).real()))
         start, reader, arguments = self._start(label, "sub"), Reader(rest, self._value), []
         while reader.at < len(reader.text):
             arguments.append(reader.bracket())
         if len(arguments) > OWN:
             raise ValueError(f"a call has at most {OWN} values")
         own = dict.fromkeys(range(1, OWN + 1), 0.0) | dict(enumerate(arguments, 1))
-        self._enter(_Frame(self.at, start, own=own))
+        self._enter(Frame(self.at, start, own=own))
 
     def _call_by_number(self, rest: str) -> None:
         """M98 P L: subroutine P, L times; it shares the parameters 1 to 30 of whoever calls."""
@@ -259,10 +176,10 @@ class Macros(Lines):
             words[letter] = reader.real()
         if "p" not in words:
             raise ValueError("M98 without the number of a subroutine, P")
-        rounds = _whole(words["l"])
+        rounds = whole(words["l"])
         if rounds > 0:
-            start = self._start(str(_whole(words["p"])), "")
-            self._enter(_Frame(self.at, start, by_m98=True, rounds=rounds, own=self.frames[-1].own))
+            start = self._start(str(whole(words["p"])), "")
+            self._enter(Frame(self.at, start, by_m98=True, rounds=rounds, own=self.frames[-1].own))
 
     def _return(self, word: str, rest: str) -> None:
         result = Reader(rest, self._value).real() if rest and word != "m99" else None
@@ -284,18 +201,18 @@ class Macros(Lines):
         self.returned()
 
     def _branch(self, index: int, label: str, rest: str) -> None:
-        taken = self._condition(rest)
+        taken = self.condition(rest)
         while not taken:
             index = self._find(index, label, {"elseif", "else", "endif"})
             _, word, condition = self.words[index]
-            taken = word != "elseif" or self._condition(condition)
+            taken = word != "elseif" or self.condition(condition)
         self.at = index + 1
 
     def _while(self, index: int, label: str, rest: str) -> None:
         before = self._before(index, label, {"do", "while"})
         if before is not None and self.words[before][1] == "do":  # the end of do ... while
-            self.at = before + 1 if self._condition(rest) else index + 1
-        elif not self._condition(rest):
+            self.at = before + 1 if self.condition(rest) else index + 1
+        elif not self.condition(rest):
             self.at = self._find(index, label, {"endwhile"}) + 1
 
     def _end(self, index: int, label: str) -> int:
@@ -322,14 +239,3 @@ class Macros(Lines):
         if place is None:
             raise ValueError(f"O{label} has no {wanted}")
         return place
-
-
-def _whole(value: float) -> int:
-    number = round(value)
-    if abs(value - number) > 1e-4:  # as near as LinuxCNC wants it
-        raise ValueError(f"{value:g} is no whole number")
-    return number
-
-
-def _number(value: float) -> str:
-    return f"{value:.10f}".rstrip("0").rstrip(".") if value else "0"

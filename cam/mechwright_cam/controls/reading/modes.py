@@ -87,6 +87,8 @@ class Modal(Compensation):
                 self._state("units")
 
     def _speeds(self, block: Block, words: dict[str, float]) -> None:
+        if self.dialect.mode_ends_feed and 940 in block.g:
+            self.feed = 0.0
         if "F" in words:
             self.feed = words.pop("F") * self.scale
             if self.feed < 0:
@@ -133,6 +135,7 @@ class Modal(Compensation):
             elif code in {901, 911}:
                 self.absolute_centres = code == 901
             elif code in {980, 990}:
+                self._without_compensation(block, spell(code))
                 self.to_initial = code == 980
             elif code in PLANES:
                 if self.side:

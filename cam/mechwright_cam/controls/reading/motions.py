@@ -35,6 +35,8 @@ class Moving(Modal):
                 self.motion = named
             else:
                 self.motion = named
+        if named == 10 and not self.feed > 0 and 530 not in block.g:
+            raise fail(block.line, "G1 without a feed; write F above 0")
         axes = words.keys() & (set(AXES) | POLAR)
         centre = words.keys() & {"I", "J", "K", "R"} if self.motion in {20, 30} else set()
         if 530 in block.g:
@@ -154,7 +156,7 @@ class Moving(Modal):
             raise fail(block.line, "the move after compensation has ended (G40) is an arc; leave on a line")
         target = dict(zip(AXES, self._target(block, words), strict=True))
         start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
-        turns = self._whole(block, "P", words.pop("P", 1.0))
+        turns = self._whole(block, "P", words.pop("P", 1.0)) if self.dialect.arc_turns else 1
         if not 1 <= turns <= MOST_TURNS:
             raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
         first, second = CENTRES[axes[0]], CENTRES[axes[1]]
@@ -218,15 +220,18 @@ class Moving(Modal):
         line, name = block.line, spell(code)
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
-        for letter in "ZRQP":
+        asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else "")
+        for letter in asked:  # what it does not ask for is left over, and refused
             if letter in words:
                 time = self._waiting(block, "P", "") if letter == "P" else words.pop(letter) * self.scale
                 self.sticky[letter] = time
+        if self.sticky.get("P", 0.0) < 0:
+            raise fail(line, f"{name} waits for {self.sticky['P']:g} s; write P 0 or more")
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
         if words.keys() & POLAR:
             here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
         x, y = here.get("X", self.x), here.get("Y", self.y)
-        for letter in "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} else ""):
+        for letter in asked:
             if letter not in self.sticky:
                 raise fail(line, f"{name} needs {letter}")
         bottom, plane = self.sticky["Z"], self.sticky["R"]

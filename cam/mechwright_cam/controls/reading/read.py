@@ -11,10 +11,11 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import fail, read_block
 from mechwright_cam.controls.reading.characters import Faults
 from mechwright_cam.controls.reading.machine import Machine
-from mechwright_cam.controls.reading.macros import Lines, uses_macros
+from mechwright_cam.controls.reading.macros import uses_macros
 from mechwright_cam.controls.reading.plain import PlainLines
 from mechwright_cam.controls.reading.run import Run, joined
 from mechwright_cam.controls.reading.stretch import run_stretch
+from mechwright_cam.controls.reading.values import Lines
 
 CODE = re.compile(r"\s*/?\s*[A-Z:]\s*[-+.#\[\d]", re.IGNORECASE)
 """How a line of a program begins, and no line of prose."""

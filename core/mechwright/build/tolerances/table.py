@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from mechwright.contracts.table import Table
 from mechwright.contracts.tolerance_settings import OwnTolerance, Tolerances, ToleranceSettings
@@ -24,6 +25,7 @@ class TolerancesTable(Table[Tolerances]):
     """Reads and writes ``[tolerances]``."""
 
     name = "tolerances"
+    settings = ToleranceSettings
 
     def read(self, content: object, path: Path) -> Tolerances:
         """The settings, and what single contributors have of their own."""
@@ -40,6 +42,17 @@ class TolerancesTable(Table[Tolerances]):
                 for name, table in own.items()
             },
         )
+
+    def schema(self) -> dict[str, Any]:
+        """The settings, and the tables of single contributors."""
+        whole, own = ToleranceSettings.model_json_schema(), OwnTolerance.model_json_schema()
+        defs = {**own.pop("$defs", {}), **whole.pop("$defs", {}), "own": own}
+        whole["properties"]["of"] = {
+            "type": "object",
+            "additionalProperties": {"$ref": "#/$defs/own"},
+            "description": "Tables of single contributors, by name.",
+        }
+        return {**whole, "$defs": defs}
 
     def text(self, value: Tolerances | None = None) -> list[str]:
         """The whole table for a new design; nothing where a design says nothing of tolerances."""

@@ -12,7 +12,7 @@ layer
     A slice of the height that plates share, counted from the ground plate, which is layer 0.
 """
 
-from mechwright.mechanics.linkage.closeness import Plate, Spindle
+from mechwright.mechanics.linkage.closeness import Closeness, Plate, Spindle
 from mechwright.mechanics.linkage.mass import Mass, cylinder_mass, moving_figures, plate_mass, together
 from mechwright.mechanics.linkage.outlines import Boss, bent_link, disc, hull_link, rectangle, web_link
 from mechwright.mechanics.linkage.stacking import Layer, Stack, stack
@@ -22,6 +22,7 @@ __all__ = [
     "BUSHING_MATERIAL",
     "PIN_MATERIAL",
     "Boss",
+    "Closeness",
     "Layer",
     "Mass",
     "Plate",

@@ -118,6 +118,17 @@ class Closeness:
             self.room[spindle.name, plate.name] = float(room.min())
         return self.room[spindle.name, plate.name] - radius < self.limit
 
+    def swept(self, names: Sequence[str]) -> tuple[float, float, float, float]:
+        """Bounds x0, y0, x1, y1, mm, of what these plates pass over; nothing outside comes too close."""
+        found = []
+        for name in names:
+            room = self.limit + self.steps[name][:, None] / 2
+            points = self.placed[name]
+            found.append((points - room[..., None]).min(axis=(0, 1)))
+            found.append((points + room[..., None]).max(axis=(0, 1)))
+        (x0, y0), (x1, y1) = np.min(found, axis=0).tolist(), np.max(found, axis=0).tolist()
+        return x0, y0, x1, y1
+
     def _area(self, name: str) -> "NDArray[np.object_]":
         import shapely
 

@@ -67,6 +67,17 @@ def link(part: MadePart, one: Hole, two: Hole) -> MadeLink | None:
     return MadeLink(apart - abs(two.centre - one.centre), 2 * part.corridor)
 
 
+def offset(part: MadePart, hole: Hole, others: Sequence[Hole], along: complex) -> MadeLink | None:
+    """How far along a direction a bore stands from the middle of others; None if one is not there."""
+    made = [part.hole_at(h.centre.real, h.centre.imag, h.diameter) for h in (hole, *others)]
+    off = []
+    for drawn, found in zip((hole, *others), made, strict=True):
+        if found is None:
+            return None
+        off.append(((complex(found.x, found.y) - drawn.centre) * along.conjugate()).real / abs(along))
+    return MadeLink(off[0] - sum(off[1:]) / len(others), 2 * part.corridor)
+
+
 def joint(name: str, part: MadePart, hole: Hole, pin: float, bushed: float | None = None) -> Joint | None:
     """The room of a pin of that diameter, mm; ``bushed`` is the fit of its bushing, mm, if it has one."""
     if bushed is not None:

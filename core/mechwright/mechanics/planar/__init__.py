@@ -13,6 +13,7 @@ Everything takes and gives arrays of one shape (...), the samples of a motion; t
 all rates, and where a crank turns with one radian per second they are rates per crank radian.
 """
 
+from mechwright.mechanics.planar.course import Course
 from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning, acceleration_pole
 
-__all__ = ["BodyMotion", "Plane", "PointMotion", "Turning", "acceleration_pole"]
+__all__ = ["BodyMotion", "Course", "Plane", "PointMotion", "Turning", "acceleration_pole"]

@@ -41,6 +41,14 @@ class Turning:
         """The turning of a shaft that is geared to this one."""
         return Turning(ratio * self.theta, ratio * self.omega, ratio * self.alpha, ratio * self.jerk)
 
+    def carried(self, first: Array, second: Array, third: Array) -> tuple[Array, Array, Array]:
+        """Three rates over time (...) of what has these derivatives by the angle: the chain rule."""
+        return (
+            first * self.omega,
+            second * self.omega**2 + first * self.alpha,
+            third * self.omega**3 + 3 * second * self.omega * self.alpha + first * self.jerk,
+        )
+
     def part(self, samples: slice) -> "Turning":
         """Some of the samples."""
         return Turning(self.theta[samples], self.omega[samples], self.alpha[samples], self.jerk[samples])

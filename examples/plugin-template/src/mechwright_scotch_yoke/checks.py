@@ -53,6 +53,7 @@ def _room(params: "ScotchYokeParams") -> list[Finding]:
                 limit=MIN_WEB,
                 unit="mm",
                 remedy=f"make it {bores + MIN_WEB:g} mm at least, or take a thinner pin or shaft",
+                proposed=({"parameters.crank_radius": round(bores + MIN_WEB, 6)},),
             )
         )
     widest = 2 * (params.crank_radius - FILLET)
@@ -90,6 +91,7 @@ def _strength(params: "ScotchYokeParams") -> list[Finding]:
                 limit=MAX_BENDING,
                 unit="MPa",
                 remedy=f"use about {needed:.3g} mm, or a lighter load or speed",
+                proposed=({"parameters.pin_diameter": math.ceil(10 * needed) / 10},),
             )
         )
     pressure = force / (d * t)

@@ -1,0 +1,65 @@
+"""Random designs of a family inside the published bounds, each from a seed of its own.
+
+``likely``: every key is left out half of the time; else a third are the default, a third lie between half and
+twice of it, and a third anywhere within the bounds, as in the test kit. ``whole``: every key is drawn evenly
+from all of its bounds. Lists and free texts are left out; tables that validation refuses are drawn again.
+"""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechwright import Design, DesignError, Family, Host
+from mechwright.designs.design import design_of
+from mechwright.remedies.keys import Key, keys_of
+
+WAYS = ("likely", "whole")
+
+
+def designs(family: Family[Any], host: Host, seed: int, numbers: range, way: str) -> Iterator[Design]:
+    """The designs with these numbers; the same seed and number give the same one."""
+    head = {"format": 1, "family": family.name, "name": "random"}
+    start = design_of(head, Path("random.toml"), "", host)
+    keys = [
+        key for key in keys_of(start).values() if key.path.startswith("parameters.") and key.kind != "other"
+    ]
+    for number in numbers:
+        rng = np.random.default_rng([seed, number, WAYS.index(way)])
+        while True:
+            content = {**head, "parameters": _table(keys, rng, way)}
+            try:
+                yield design_of(content, Path("random.toml"), "", host)
+            except DesignError:
+                continue
+            break
+
+
+def _table(keys: list[Key], rng: np.random.Generator, way: str) -> Mapping[str, Any]:
+    table: dict[str, Any] = {}
+    for key in keys:
+        if way == "likely" and rng.integers(2):
+            continue
+        inner = table
+        *tables, name = key.path.split(".")[1:]
+        for one in tables:
+            inner = inner.setdefault(one, {})
+        inner[name] = _value(key, rng, way)
+    return table
+
+
+def _value(key: Key, rng: np.random.Generator, way: str) -> Any:
+    if not key.numeric:
+        return key.choices[rng.integers(len(key.choices))]
+    low, high = key.low, key.high
+    if way == "likely" and isinstance(key.default, int | float):
+        choice = rng.integers(3)
+        if choice == 0:
+            return key.default
+        if choice == 1 and key.default:
+            near = sorted((key.default / 2, key.default * 2))
+            low, high = max(low, near[0]), min(high, near[1])
+    if key.kind == "integer":
+        return int(rng.integers(np.ceil(low), np.floor(high), endpoint=True))
+    return min(max(float(f"{rng.uniform(low, high):.4g}"), key.low), key.high)

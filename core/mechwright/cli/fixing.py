@@ -1,0 +1,123 @@
+"""The command ``fix``."""
+
+import difflib
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import typer
+
+from mechwright.cli.hosting import open_host
+from mechwright.cli.telling import tell
+from mechwright.contracts.finding import Change, Stage
+from mechwright.designs.change import changed, rewritten
+from mechwright.designs.design import Design, design_of, load
+from mechwright.designs.files import read_text
+from mechwright.errors import DesignError, OutputError
+from mechwright.output.folder import write_new
+from mechwright.plugins.host import Host
+from mechwright.remedies import Repair, repaired
+from mechwright.remedies.words import each
+
+
+def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) -> None:
+    """Print what makes a design build, and write it where asked for; the exit code is 1 if nothing does.
+
+    Raises
+    ------
+    DesignError
+        There is no such stage; the file cannot be changed, or the new one could not be read.
+    OutputError
+        The file is there already, or cannot be written.
+    """
+    stages = {str(stage): stage for stage in (Stage.PARTS, Stage.MACHINING)}
+    if to not in stages:
+        raise DesignError(f"--to: {to!r} is not known; one of: {', '.join(stages)}")
+    target = _target(path, output, write)
+    found = open_host()
+    text, _ = read_text(path)
+    design = load(path, found)
+    repair = repaired(design, found, stages[to])
+    new = text
+    if repair.change:
+        new = rewritten(text, repair.change)
+        _reads(design, repair.change, target or path, found)
+    if target == path and not repair.change:
+        target = None  # nothing to change
+    if target is not None and repair.builds:
+        _write(target, new, like=path)
+    if as_json:
+        typer.echo(json.dumps(_data(design, repair), indent=2))
+    else:
+        _say(path, target, repair, text, new)
+    raise typer.Exit(0 if repair.builds else 1)
+
+
+def _target(path: Path, output: Path | None, write: bool) -> Path | None:
+    """Where the new file goes; None if it is only shown."""
+    if write and output is not None:
+        raise OutputError(f"{output}: --write is for {path} itself; give one of --write and -o")
+    if write:
+        return path
+    if output is not None and output.exists():
+        hint = ", or --write to change it" if output.resolve() == path.resolve() else ""
+        raise OutputError(f"{output}: is there already; give another name{hint}")
+    return output
+
+
+def _reads(design: Design, change: Change, target: Path, host: Host) -> None:
+    """Raise DesignError or OutputError if the changed file, or one it names, cannot be read in its place."""
+    new = design_of(changed(design.content, change), target, design.digest, host)
+    for reader in new.readers:
+        for file in reader.inputs(new.tables[reader.name], target).values():
+            read_text(file)
+
+
+def _write(target: Path, text: str, like: Path) -> None:
+    """Put the text in place in one step, behind a link, with the rights of the design file."""
+    real, rights = target.resolve(), like.stat().st_mode & 0o777
+    write_new(real, text, replace=real.exists())
+    real.chmod(rights)
+
+
+def _data(design: Design, repair: Repair) -> dict[str, object]:
+    return {
+        "design": design.name,
+        "ok": repair.builds,
+        "findings": [finding.as_dict() for finding in repair.found],
+        "fix": None if repair.change is None else dict(repair.change),
+        "left": [finding.as_dict() for finding in repair.left],
+    }
+
+
+def _say(path: Path, target: Path | None, repair: Repair, text: str, new: str) -> None:
+    if repair.change is None:
+        for finding in repair.left:
+            tell(finding)
+        typer.echo(f"{path}: cannot be built, and no change of at most ten keys was found with which it can")
+        return
+    if not repair.change:
+        typer.echo(f"{path}: can be built as it is" + (f"; written to {target}" if target else ""))
+        return
+    for finding in repair.found:
+        tell(replace(finding, remedy=""))  # what was tried follows
+    for line in each(repair.bench, repair.change):
+        typer.echo(_styled(line, typer.colors.GREEN))
+    shown = difflib.unified_diff(
+        text.splitlines(), new.splitlines(), str(path), str(target or path), lineterm=""
+    )
+    for line in shown:
+        typer.echo(_coloured(line))
+    done = "written" if target else "nothing was written, -o FILE or --write does"
+    typer.echo(f"{target or path}: can be built with this; {done}")
+
+
+def _coloured(line: str) -> str:
+    """A line of a difference; typer drops the colour where no terminal shows it."""
+    colour = {"+": typer.colors.GREEN, "-": typer.colors.RED}.get(line[:1])
+    return line if colour is None or line.startswith(("+++", "---")) else _styled(line, colour)
+
+
+def _styled(line: str, colour: str) -> str:
+    return line if os.environ.get("NO_COLOR") else typer.style(line, fg=colour)

@@ -1,0 +1,69 @@
+"""Changes of a design file: of its content, and of its text, whose comments and order stay."""
+
+import tomllib
+from collections.abc import Mapping
+from copy import deepcopy
+from typing import Any
+
+from mechwright.contracts.finding import Change
+from mechwright.errors import DesignError
+
+
+def changed(content: Mapping[str, Any], change: Change) -> dict[str, Any]:
+    """The content of a design file with a change; the given one stays as it is.
+
+    Tables that are missing are made. Raises DesignError where a key leads through something that is no table.
+
+    >>> changed({"parameters": {"bore": 10, "hub": 3}}, {"parameters.bore": 12, "parameters.hub": None})
+    {'parameters': {'bore': 12}}
+    """
+    new = deepcopy(dict(content))
+    _apply(new, change)
+    return new
+
+
+def rewritten(text: str, change: Change) -> str:
+    r"""The text of a design file with a change: comments, order and what else stands in it stay.
+
+    Raises DesignError where the text is no TOML, or the new one would not say what it should.
+
+    >>> rewritten("[parameters]\nbore = 10  # of the shaft\n", {"parameters.bore": 12})
+    '[parameters]\nbore = 12  # of the shaft\n'
+    """
+    import tomlkit
+    from tomlkit.exceptions import TOMLKitError
+
+    try:
+        document = tomlkit.parse(text)
+        _apply(document, change)
+        new = tomlkit.dumps(document)
+        if "\r\n" in text:
+            new = new.replace("\r\n", "\n").replace("\n", "\r\n")
+        faithful = tomllib.loads(new) == changed(tomllib.loads(text), change)
+    except (TOMLKitError, tomllib.TOMLDecodeError, RecursionError) as error:
+        raise DesignError(f"the change cannot be written into the file: {error}") from error
+    if not faithful:
+        raise DesignError(
+            f"the change cannot be written into the file as it is laid out; set by hand: {', '.join(change)}"
+        )
+    return new
+
+
+def _apply(document: dict[str, Any], change: Change) -> None:
+    for path, value in change.items():
+        *tables, key = path.split(".")
+        table = document
+        for name in tables:
+            if name not in table:
+                if value is None:
+                    break
+                table[name] = {}
+            inner = table[name]
+            if not isinstance(inner, dict):
+                raise DesignError(f"{path}: {name} is no table")
+            table = inner
+        else:
+            if value is None:
+                table.pop(key, None)
+            else:
+                table[key] = value

@@ -1,0 +1,141 @@
+"""JSON schemas of design and requirement files, from the models that read them: for editors that know TOML.
+
+An editor with taplo, such as Even Better TOML, completes and checks a file whose first line is
+``#:schema ./four-bar.schema.json``.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.part import NAME_PATTERN
+from mechwright.contracts.table import Table
+from mechwright.errors import DesignError
+from mechwright.plugins.host import Host
+
+FORMAT = 1
+"""Version of the design file's own layout."""
+
+HEAD = ("format", "family", "name")
+"""Keys of every file; what else it may hold are tables."""
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+QUANTITY = {"type": "string", "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)"}
+"""A number as text, with or without a unit; whether the unit fits, only the program says."""
+
+_BOUNDS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
+"""What pydantic calls the bounds of a field that may be left out."""
+
+_KEYWORD = "#:schema"
+
+
+def schema_line(family: str, *, requirement: bool = False) -> str:
+    """The first line of a file of a family, which tells an editor where its schema is."""
+    return f"{_KEYWORD} ./{schema_name(family, requirement=requirement)}"
+
+
+def schema_name(family: str, *, requirement: bool = False) -> str:
+    """Name of the file that holds the schema."""
+    return f"{family}-requirement.schema.json" if requirement else f"{family}.schema.json"
+
+
+def file_schema(host: Host, family: str = "", *, requirement: bool = False) -> dict[str, Any]:
+    """The schema of design files, or of requirement files, of one family or of all that are installed.
+
+    Raises
+    ------
+    PluginError
+        The family is not installed.
+    DesignError
+        It has no synthesis.
+    """
+    families = [host.family(family)] if family else host.all(Family)
+    if requirement:
+        families = [one for one in families if one.requirements]
+        if not families:
+            raise DesignError(f"--requirement: family {family} has no synthesis; leave it out")
+    defs: dict[str, Any] = {}
+    tables = {one.name: _placed(one.schema(), f"table.{one.name}", defs) for one in host.all(Table)}
+    names = sorted(one.name for one in families)
+    own = "requirement" if requirement else "parameters"
+    cases = []
+    for one in sorted(families, key=lambda one: one.name):
+        asked = _asked(one, defs) if requirement else _model(one.Params, one.name, defs)
+        cases.append(
+            {
+                "if": {"properties": {"family": {"const": one.name}}, "required": ["family"]},
+                "then": {"properties": {own: asked}},
+            }
+        )
+    return {
+        "$schema": DIALECT,
+        "title": f"mechwright {own if requirement else 'design'}" + (f", {family}" if family else ""),
+        "type": "object",
+        "properties": {
+            "format": {"const": FORMAT, "description": "Version of the layout of the file."},
+            "family": {"enum": names, "description": "The family of mechanisms."},
+            "name": {
+                "type": "string",
+                "pattern": f"^(?:{NAME_PATTERN})$",
+                "description": "Name of the files.",
+            },
+            own: {"type": "object"},
+            **tables,
+        },
+        "required": ["family"],
+        "additionalProperties": False,
+        "allOf": cases,
+        "$defs": defs,
+    }
+
+
+def _asked(family: Family[Any], defs: dict[str, Any]) -> dict[str, Any]:
+    """The table ``[requirement]``: by its kind."""
+    kinds = list(family.requirements)
+    cases = []
+    for kind, model in family.requirements.items():
+        table = _model(model, f"{family.name}.{kind}", defs)
+        table["properties"] = {"kind": {"const": kind}, **table["properties"]}
+        cases.append(
+            table if len(kinds) == 1 else {**table, "required": [*table.get("required", ()), "kind"]}
+        )
+    return cases[0] if len(cases) == 1 else {"anyOf": cases}
+
+
+def table_schema(model: type[BaseModel]) -> dict[str, Any]:
+    """The schema of a table by its model, as a :class:`~mechwright.contracts.table.Table` gives it."""
+    return model.model_json_schema()
+
+
+def _model(model: type[BaseModel], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+    return _placed(table_schema(model), owner, defs)
+
+
+def _placed(schema: Mapping[str, Any], owner: str, defs: dict[str, Any]) -> dict[str, Any]:
+    """A schema as files are written, its definitions moved to ``defs`` under names of the owner."""
+    for name, one in schema.get("$defs", {}).items():
+        defs[f"{owner}.{name}"] = _written(one, owner)
+    found: dict[str, Any] = _written({key: value for key, value in schema.items() if key != "$defs"}, owner)
+    return found
+
+
+def _written(node: Any, owner: str) -> Any:
+    """A schema of values as one of what TOML says: quantities also as text, and nothing is null."""
+    if isinstance(node, list):
+        return [_written(item, owner) for item in node]
+    if not isinstance(node, dict):
+        return node
+    found = {_BOUNDS.get(key, key): _written(value, owner) for key, value in node.items()}
+    if isinstance(found.get("$ref"), str):
+        found["$ref"] = found["$ref"].replace("#/$defs/", f"#/$defs/{owner}.")
+    if "default" in found and found["default"] is None:
+        del found["default"]
+    if "anyOf" in found:
+        found["anyOf"] = [one for one in found["anyOf"] if one != {"type": "null"}]
+    if "unit" in found and found.get("type") in {"number", "integer"}:
+        told = {key: found.pop(key) for key in ("description", "title", "default") if key in found}
+        return {**told, "anyOf": [found, QUANTITY]}
+    return found

@@ -1,0 +1,111 @@
+"""Trying changes of one design, and remembering what came of each."""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.designs.design import Design
+from mechwright.remedies.keys import Key, keys_of
+from mechwright.remedies.values import distance
+
+Judge = Callable[[Design], Sequence[Finding]]
+"""What is found of a design; an exception refuses it."""
+
+
+KEY = 0.5
+"""What one more key adds to the size of a change: as much as a number that grows by two thirds."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """When a search ends.
+
+    Parameters
+    ----------
+    tries
+        Designs that are judged; the same number of tries gives the same remedy.
+    seconds
+        Time after which no further one is judged, for designs whose check takes long.
+    """
+
+    tries: int = 400
+    seconds: float = 5.0
+
+
+@dataclass
+class Bench:
+    """A design, and every change of it that was tried.
+
+    Parameters
+    ----------
+    design
+        As the file says it.
+    judge
+        What is found of it, or of a changed one.
+    stage
+        Errors of this stage and of earlier ones count.
+    limits
+        When the search ends.
+    """
+
+    design: Design
+    judge: Judge
+    stage: Stage = Stage.MACHINING
+    limits: Limits = Limits()
+    tries: int = 0
+    keys: dict[str, Key] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.keys = keys_of(self.design)
+        self._found: dict[str, tuple[Finding, ...] | None] = {}
+        self._end = time.monotonic() + self.limits.seconds
+
+    @property
+    def spent(self) -> bool:
+        """Whether the search has to end."""
+        return self.tries >= self.limits.tries or time.monotonic() > self._end
+
+    def now(self, key: Key, change: Change | None = None) -> Any:
+        """The value of a key, with a change that has been decided on."""
+        if change and key.path in change:
+            value = change[key.path]
+            return key.default if value is None else value
+        return key.now(self.design.content)
+
+    def found(self, change: Change) -> tuple[Finding, ...] | None:
+        """What is found of the design with a change; None where it is refused, or there is no try left."""
+        name = repr(sorted(change.items(), key=lambda item: item[0]))
+        if name not in self._found:
+            if self.spent:
+                return None
+            self._found[name] = self._judged(change)
+        return self._found[name]
+
+    def errors(self, change: Change) -> list[Finding] | None:
+        """The errors that count with a change; None where the design is refused."""
+        found = self.found(change)
+        return None if found is None else errors(found, self.stage)
+
+    def builds(self, change: Change) -> bool:
+        """Whether no error is left with a change."""
+        return self.errors(change) == []
+
+    def size(self, change: Change) -> float:
+        """How much a change is: how far its keys go, and how many they are."""
+        keys = [self.keys[path] for path in change if path in self.keys]
+        return KEY * len(change) + sum(distance(key, self.now(key), change[key.path]) for key in keys)
+
+    def _judged(self, change: Change) -> tuple[Finding, ...] | None:
+        try:
+            design = self.design.changed(change)
+            self.tries += 1
+            return tuple(self.judge(design))
+        except Exception:  # noqa: BLE001,RUF100 - whatever a design nobody asked for leads to, it is no remedy
+            return None
+
+
+def identity(finding: Finding) -> tuple[str, str]:
+    """What makes a finding the same one after a change."""
+    return finding.code, finding.parameter

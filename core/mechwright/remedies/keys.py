@@ -1,0 +1,136 @@
+"""The keys of a design file that a search may change: what kind each is, its bounds, its value now."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+
+from mechwright.designs.design import Design
+from mechwright.units import convert
+
+_LEAST, _GREATEST = ("minimum", "ge"), ("maximum", "le")
+_ABOVE, _BELOW = ("exclusiveMinimum", "gt"), ("exclusiveMaximum", "lt")
+# Where a field may be left out, pydantic puts its bounds into the schema under its own names.
+_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_.]*")
+
+
+@dataclass(frozen=True, eq=False)
+class Key:
+    """A key of a design file.
+
+    Parameters
+    ----------
+    path
+        Dotted, with the table: ``"parameters.four_bar.input"``.
+    kind
+        ``"number"``, ``"integer"``, ``"choice"``, or ``"other"`` for lists and free texts.
+    low, high
+        Bounds of a number, both allowed; infinite where there are none.
+    choices
+        Of a choice, true and false among them.
+    default
+        The value where the file leaves the key out; None where that means that there is none.
+    unit
+        Of a number.
+    """
+
+    path: str
+    kind: str
+    low: float = -math.inf
+    high: float = math.inf
+    choices: tuple[Any, ...] = ()
+    default: Any = None
+    unit: str = ""
+
+    @property
+    def name(self) -> str:
+        """As findings and people say it: without ``parameters``."""
+        return self.path.removeprefix("parameters.")
+
+    @property
+    def numeric(self) -> bool:
+        """Whether its values are numbers."""
+        return self.kind in {"number", "integer"}
+
+    def now(self, content: Mapping[str, Any]) -> Any:
+        """Its value in the content of a design file: of a number the magnitude in its unit."""
+        value: Any = content
+        for name in self.path.split("."):
+            if not isinstance(value, Mapping) or name not in value:
+                return self.default
+            value = value[name]
+        if self.numeric and isinstance(value, str):
+            return convert(value, self.unit)
+        return value
+
+
+def keys_of(design: Design) -> dict[str, Key]:
+    """Every key of the tables of a design, by its path, in the order of the tables' fields."""
+    found = list(_keys(design.family.Params, "parameters"))
+    for reader in design.readers:
+        if reader.settings is not None:
+            found += _keys(reader.settings, reader.name)
+    return {key.path: key for key in found}
+
+
+def named(words: str, keys: Mapping[str, Key]) -> list[Key]:
+    """The keys whose names stand in the words of a finding, in their order."""
+    by_name = {key.name: key for key in keys.values() if "_" in key.name or "." in key.name}
+    by_name |= {key.name: key for key in keys.values() if key.path == f"parameters.{key.name}"}
+    found = [by_name.get(word.rstrip(".")) for word in _WORD.findall(words)]
+    return list(dict.fromkeys(key for key in found if key is not None))
+
+
+def meant(words: str, keys: Mapping[str, Key]) -> list[Key]:
+    """The keys of tables whose last names stand in the words, such as ``cam.hold.tabs`` for tabs."""
+    said = set(_WORD.findall(words))
+    return [key for path, key in keys.items() if path.rpartition(".")[2] in said]
+
+
+def _keys(model: type[BaseModel], table: str) -> Iterator[Key]:
+    schema = model.model_json_schema()
+    yield from _of(schema, schema.get("$defs", {}), table)
+
+
+def _of(schema: Mapping[str, Any], definitions: Mapping[str, Any], where: str) -> Iterator[Key]:
+    for name, field in schema.get("properties", {}).items():
+        path = f"{where}.{name}"
+        if "$ref" in field:
+            inner = definitions[field["$ref"].rpartition("/")[2]]
+            yield from _of(inner, definitions, path)
+        else:
+            yield _key(path, field)
+
+
+def _key(path: str, field: Mapping[str, Any]) -> Key:
+    default = field.get("default")
+    facts: dict[str, Any] = {}
+    for option in (field, *field.get("anyOf", ())):
+        if option.get("type") != "null":
+            facts = {**option, **facts}
+    kind = facts.get("type")
+    if "enum" in facts:
+        return Key(path, "choice", choices=tuple(facts["enum"]), default=default)
+    if kind == "boolean":
+        return Key(path, "choice", choices=(True, False), default=default)
+    if kind not in {"number", "integer"}:
+        return Key(path, "other", default=default)
+    low, high = _bound(facts, _LEAST, _ABOVE, -math.inf), _bound(facts, _GREATEST, _BELOW, math.inf)
+    return Key(path, kind, low, high, default=default, unit=str(facts.get("unit", "")))
+
+
+def _bound(
+    facts: Mapping[str, Any], closed: tuple[str, ...], left_out: tuple[str, ...], none: float
+) -> float:
+    """The last value that is allowed; where the bound itself is left out, one step inside."""
+    for name in closed:
+        if name in facts:
+            return float(facts[name])
+    for name in left_out:
+        if name in facts:
+            step = 1.0 if facts.get("type") == "integer" else max(abs(facts[name]), 1.0) * 1e-3
+            return float(facts[name]) + math.copysign(step, -none)
+    return none

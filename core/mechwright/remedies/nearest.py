@@ -1,0 +1,118 @@
+"""What builds nearest: step by step against each finding, or back from one that is known to build.
+
+Checks stop at the first group with an error, so what a step brings to light is often none of its doing. Steps
+alone may run in a circle. The other way never does: the family's own defaults build, in their own size or in
+that of the design, and every key that may have the design's value gets it back.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from mechwright.contracts.finding import Change
+from mechwright.remedies.bench import Bench, identity
+from mechwright.remedies.keys import Key
+from mechwright.remedies.search import best_step, drawn_back
+from mechwright.remedies.values import round_to, typed
+
+MOST_CHANGES = 10
+"""Keys that a remedy changes at most: more is another design."""
+_ENOUGH = 3
+"""Keys of a remedy found step by step with which the other way is not looked at."""
+_AGAIN = 3
+"""Times that the same finding is met before the steps are given up."""
+_FIRST = 5
+"""Lengths, the first of a family's table, whose middle ratio to the defaults is the size of a design."""
+
+
+def nearest(bench: Bench) -> Change | None:
+    """The smallest change found with which the design builds; None where none was found.
+
+    It may have more than :data:`MOST_CHANGES` keys: whoever asks decides what to do with another design.
+    """
+    found = candidates(bench, enough=_ENOUGH)
+    return found[0] if found else None
+
+
+def candidates(bench: Bench, enough: int = 0) -> list[Change]:
+    """Changes with which the design builds, the smallest first; one of at most ``enough`` keys is alone."""
+    by_steps = _by_steps(bench)
+    found = [] if by_steps is None else [by_steps]
+    if by_steps is None or len(by_steps) > enough:
+        found += _from_known(bench)
+    return sorted((_trimmed(bench, change) for change in found), key=bench.size)
+
+
+def _by_steps(bench: Bench) -> Change | None:
+    """One finding after the other, each by the best single step against it."""
+    change: Change = {}
+    met: dict[tuple[str, str], int] = {}
+    for _ in range(MOST_CHANGES + 1):
+        left = bench.errors(change)
+        if left is None:
+            return None
+        if not left:
+            return change
+        target = left[0]
+        met[identity(target)] = met.get(identity(target), 0) + 1
+        if met[identity(target)] > _AGAIN:
+            return None
+        best = best_step(bench, target, change, left)
+        if best is None:
+            return None
+        change = best.change
+    return None
+
+
+def _from_known(bench: Bench) -> Iterator[Change]:
+    """From each design that is known to build: what has to stay of it."""
+    mine = [key for key in bench.keys.values() if key.path.startswith("parameters.")]
+    for known in _known(bench, mine):
+        if bench.builds(known):
+            yield _given_back(bench, known)
+
+
+def _known(bench: Bench, keys: Sequence[Key]) -> Iterator[Change]:
+    """Changes that lead to the family's defaults, as they are and in the size of the design."""
+    ratios = []
+    for key in keys:
+        now = bench.now(key)
+        if key.unit == "mm" and key.low > 0 and now and key.default:
+            ratios.append(now / key.default)
+    first = sorted(ratios[:_FIRST])
+    sizes = [round_to(first[len(first) // 2], 2)] if first else []
+    for scale in dict.fromkeys([1.0, *sizes]):
+        yield {
+            key.path: value
+            for key in keys
+            if (value := _scaled(key, scale)) != bench.now(key) or (value is None) != (bench.now(key) is None)
+        }
+
+
+def _scaled(key: Key, scale: float) -> object:
+    value = key.default
+    if scale != 1.0 and key.unit == "mm" and isinstance(value, int | float):
+        return typed(key, min(max(round_to(value * scale), key.low), key.high))
+    return value
+
+
+def _given_back(bench: Bench, known: Change) -> Change:
+    """A design that builds, with as many keys as possible as the file has them: halves, then single ones."""
+    kept = dict(known)
+
+    def give(paths: list[str]) -> None:
+        without = {path: value for path, value in kept.items() if path not in paths}
+        if bench.builds(without):
+            kept.clear()
+            kept.update(without)
+        elif len(paths) > 1:
+            half = len(paths) // 2
+            give(paths[:half])
+            give(paths[half:])
+
+    give(list(kept))
+    return kept
+
+
+def _trimmed(bench: Bench, change: Change) -> Change:
+    """The same remedy without what it does not need, its numbers as near as they may be."""
+    small = _given_back(bench, change)
+    return drawn_back(bench, small, bench.builds)

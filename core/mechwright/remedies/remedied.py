@@ -1,0 +1,95 @@
+"""Findings with remedies that were tried: what ``check`` prints."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from mechwright.build import Build, Inspection
+from mechwright.contracts.finding import Change, Finding, Severity, errors
+from mechwright.designs.design import Design
+from mechwright.remedies.bench import Bench, Limits
+from mechwright.remedies.nearest import MOST_CHANGES, nearest
+from mechwright.remedies.repair import INSPECTED, judge_of
+from mechwright.remedies.search import Worth, best_step, refined, related, worth
+from mechwright.remedies.words import said
+
+CHECKED = Limits()
+"""For ``check`` and for what is refused."""
+
+
+def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
+    """The findings that a bench's judge has of its design, each with the change that removes it.
+
+    An error that no change of one key removes without a new error gets the nearest design that builds.
+    ``remedy`` then says the change, or what was tried where nothing helped.
+    """
+    findings = list(findings)
+    grave = [finding for finding in findings if _grave(finding)]
+    # What removes several errors at once is sought first, before the tries are spent on each by itself.
+    whole = nearest(bench) if len(grave) > 1 else None
+    alone = [_alone(bench, finding) for finding in findings]
+    if whole is None and any(
+        _grave(one) and change is None for one, change in zip(findings, alone, strict=True)
+    ):
+        whole = nearest(bench)
+    if whole is not None and len(whole) > MOST_CHANGES:
+        whole = None
+    return [
+        _with(bench, finding, alone[number] or (whole if _grave(finding) else None))
+        for number, finding in enumerate(findings)
+    ]
+
+
+def tried(design: Design, findings: Iterable[Finding], limits: Limits = CHECKED) -> list[Finding]:
+    """What the family finds of a design, with remedies that the family was asked about.
+
+    Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
+    """
+    return remedied(Bench(design, lambda one: one.family.check(one.params), limits=limits), findings)
+
+
+def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
+    """What an inspection finds of a build, with the first of what each finding proposes that removes it.
+
+    Nothing else is tried: a design takes an inspection a second or so. A finding whose proposals all fail
+    keeps its words.
+    """
+
+    def ask(one: Build) -> Sequence[Finding]:
+        return () if errors(one.findings) else inspection.findings(one)
+
+    judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
+    bench = Bench(build.design, judge, inspection.stage, INSPECTED)
+    told = []
+    for finding in findings:
+        before = errors([finding])
+        held = (one for one in finding.proposed if worth(bench, finding, before, one) <= Worth.HELPS)
+        change = next(held, None)
+        told.append(finding if change is None else replace(finding, fix=change, remedy=said(bench, change)))
+    return told
+
+
+def _grave(finding: Finding) -> bool:
+    return finding.severity is Severity.ERROR
+
+
+def _alone(bench: Bench, finding: Finding) -> Change | None:
+    """The smallest change of one key, or the first proposed, that removes a finding and spoils nothing."""
+    if finding.severity is Severity.NOTE:
+        return None
+    before = bench.errors({}) or []
+    best = best_step(bench, finding, {}, before)
+    if best is None or best.worth > Worth.HELPS:
+        return None
+    if best.change in finding.proposed:
+        return best.change
+    return refined(bench, finding, before, best.change)
+
+
+def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
+    if finding.severity is Severity.NOTE:
+        return finding
+    if change is not None and worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS:
+        return replace(finding, fix=change, remedy=said(bench, change))
+    tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
+    ended = f" in {bench.tries} tries" if bench.spent else ""
+    return replace(finding, remedy=f"no remedy found by changing {tried}{ended}")

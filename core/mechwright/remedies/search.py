@@ -1,0 +1,168 @@
+"""Changes that remove a finding: what was proposed, then values along the keys that it speaks of."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.remedies.bench import KEY, Bench, identity
+from mechwright.remedies.keys import Key, meant, named
+from mechwright.remedies.values import closest, ladder, round_to, typed
+
+_PAST = (0.0, 1e-3, 1e-2)
+"""Shares of a limit by which a value goes past it: on it, and as a person would round it."""
+
+_NEAR = KEY + 0.3
+"""A change that helps and costs no more than this ends the search: a number a third larger."""
+
+
+class Worth(IntEnum):
+    """What a change is worth against a finding, the best first."""
+
+    BUILDS = 0
+    """No error is left."""
+    HELPS = 1
+    """The finding is gone, and no error stands that did not stand before."""
+    REVEALS = 2
+    """The finding is gone, and others stand: checks not reached before, or what the change spoils."""
+    USELESS = 3
+    """The finding stays, or the design is refused."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A change that does something against a finding: what was decided before it, with one key more."""
+
+    worth: Worth
+    size: float
+    change: Change
+
+
+def worth(bench: Bench, finding: Finding, before: Iterable[Finding], change: Change) -> Worth:
+    """What a change is worth against a finding; ``before`` are the errors that stand without it."""
+    found, left = bench.found(change), bench.errors(change)
+    if found is None or left is None:
+        return Worth.USELESS
+    if identity(finding) in {identity(one) for one in found if one.severity is not Severity.NOTE}:
+        return Worth.USELESS
+    if not left:
+        return Worth.BUILDS
+    stood = {identity(one) for one in before}
+    return Worth.HELPS if {identity(one) for one in left} <= stood else Worth.REVEALS
+
+
+def related(bench: Bench, finding: Finding) -> list[Key]:
+    """The keys to search along: the finding's own, then those that its remedy and its message speak of."""
+    words = f"{finding.parameter} {finding.remedy} {finding.message}"
+    own = bench.keys.get(path_of(bench, finding.parameter))
+    found = [*([own] if own else []), *named(words, bench.keys)]
+    return list(dict.fromkeys(found or meant(words, bench.keys)))
+
+
+def path_of(bench: Bench, parameter: str) -> str:
+    """The dotted key of the design file that a finding names."""
+    table = parameter.partition(".")[0]
+    return (
+        parameter if table in {reader.name for reader in bench.design.readers} else f"parameters.{parameter}"
+    )
+
+
+def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Finding]) -> Step | None:
+    """The change of least size that does most against a finding; None where nothing does.
+
+    ``decided`` holds besides. What was proposed comes first, and the first proposal that helps is taken.
+    """
+    proposed = [
+        step
+        for proposal in finding.proposed
+        if (step := _step(bench, finding, decided, before, _written(bench, proposal))) is not None
+    ]
+    best = min(proposed, key=lambda step: step.worth, default=None)
+    if best is not None and best.worth <= Worth.HELPS:
+        return best
+    for key in related(bench, finding):
+        for step in _along(bench, finding, decided, before, key):
+            if best is None or (step.worth, step.size) < (best.worth, best.size):
+                best = step
+        if best is not None and best.worth <= Worth.HELPS and best.size - bench.size(decided) < _NEAR:
+            break
+    return best
+
+
+def _written(bench: Bench, change: Change) -> Change:
+    """A proposal with its numbers as a person writes them."""
+    return {
+        path: typed(bench.keys[path], value)
+        if isinstance(value, float) and path in bench.keys and bench.keys[path].numeric
+        else value
+        for path, value in change.items()
+    }
+
+
+def _step(
+    bench: Bench, finding: Finding, decided: Change, before: list[Finding], change: Change
+) -> Step | None:
+    merged = {**decided, **change}
+    value = worth(bench, finding, before, merged)
+    return None if value is Worth.USELESS else Step(value, bench.size(merged), merged)
+
+
+def _along(
+    bench: Bench, finding: Finding, decided: Change, before: list[Finding], key: Key
+) -> Iterator[Step]:
+    """The nearest value of a key that removes the finding, and the nearest that also spoils nothing."""
+    now = bench.now(key, decided)
+    best = Worth.USELESS
+    for value in dict.fromkeys([*_past(key, now, finding), *ladder(key, now)]):
+        step = _step(bench, finding, decided, before, {key.path: value})
+        if step is not None and step.worth < best:
+            best = step.worth
+            yield step
+        if best <= Worth.HELPS or bench.spent:
+            return
+
+
+def _past(key: Key, now: Any, finding: Finding) -> list[float]:
+    """Values at the limit and just past it, where the finding compares the key's own value with a limit."""
+    value, limit = finding.value, finding.limit
+    if (
+        not key.numeric
+        or value is None
+        or limit is None
+        or not isinstance(now, int | float)
+        or value == limit
+    ):
+        return []
+    if abs(value - now) > 1e-6 * max(abs(value), abs(now)):
+        return []
+    ends = [limit + (limit - value) / abs(limit - value) * share * abs(limit) for share in _PAST]
+    rounded = [typed(key, round_to(end)) for end in ends]
+    return [end for end in rounded if key.low <= end <= key.high and end != now]
+
+
+def refined(bench: Bench, finding: Finding, before: list[Finding], change: Change) -> Change:
+    """The same change with every number as near to the present one as it may be, and as round."""
+
+    def keeps(candidate: Change) -> bool:
+        return worth(bench, finding, before, candidate) <= Worth.HELPS
+
+    return drawn_back(bench, change, keeps)
+
+
+def drawn_back(bench: Bench, change: Change, keeps: Callable[[Change], bool]) -> Change:
+    """Draw every number of a change back towards the present one, as far as ``keeps`` allows."""
+    drawn = dict(change)
+
+    def draw(key: Key, now: float, value: float) -> float:
+        def passes(number: float) -> bool:
+            return keeps({**drawn, key.path: typed(key, number)})
+
+        return typed(key, closest(key, now, value, passes))
+
+    for path, value in change.items():
+        key = bench.keys.get(path)
+        now = bench.now(key) if key is not None else None
+        if key is not None and key.numeric and value is not None and now is not None and not bench.spent:
+            drawn[path] = draw(key, float(now), float(value))
+    return drawn

@@ -1,0 +1,119 @@
+"""How far the crank of a four-bar can go, and how it goes over one period."""
+
+import math
+
+from mechwright import kept
+from mechwright.mechanics.planar import Course
+from mechwright_four_bar.change_point import turns_to_close
+from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.params import FourBarParams
+
+Interval = tuple[float, float]
+"""Crank angles, rad."""
+
+TURN_BACK = math.radians(1.0)
+"""Transmission angle at which a lever turns back before its toggle: 57 times the torque of the follower would
+have to come from the crank there, and beyond it play decides which way the linkage goes on."""
+
+
+def reach(bar: FourBar, least: float = 0.0) -> tuple[Interval, ...]:
+    """Crank angles from the ground line between which the transmission angle is at least ``least``, rad.
+
+    A whole turn is from 0 to 2π. With no interval the links cannot be joined so, with two they are mirror
+    images in the ground line.
+
+    D² = a² + f² - 2 a f cos x lies between b² + c² ∓ 2 b c cos μ.
+
+    Examples
+    --------
+    >>> [[round(math.degrees(x), 6) for x in one] for one in reach(FourBar(70, 60, 75, 110))]
+    [[-94.562439, 94.562439]]
+    >>> reach(FourBar(30, 80, 70, 90)) == ((0.0, math.tau),)
+    True
+    """
+    a, c, b, f = bar.lengths
+    less = 4 * b * c * math.sin(least / 2) ** 2
+    near = (a * a + f * f - (b - c) ** 2 - less) / (2 * a * f)
+    far = (a * a + f * f - (b + c) ** 2 + less) / (2 * a * f)
+    if near <= -1 or far >= 1 or far >= near:
+        return ()
+    low = math.acos(near) if near < 1 else 0.0
+    high = math.acos(far) if far > -1 else math.pi
+    if near >= 1:
+        return ((0.0, math.tau),) if far <= -1 else ((-high, high),)
+    return ((low, math.tau - low),) if far <= -1 else ((low, high), (-high, -low))
+
+
+def bar_of(params: FourBarParams) -> FourBar:
+    """The dimensions."""
+    return FourBar(
+        params.crank,
+        params.coupler,
+        params.follower,
+        params.ground,
+        math.radians(params.ground_angle),
+        1 if params.branch == "open" else -1,
+    )
+
+
+def is_lever(params: FourBarParams) -> bool:
+    """Whether the crank swings, because it cannot turn fully or because the design says between where."""
+    return params.swing_from is not None or bar_of(params).rocks
+
+
+def within(params: FourBarParams) -> Interval | None:
+    """The swing of a lever, rad from X, its first end first; None where the links cannot reach it.
+
+    Left to itself a lever goes as far as it can, on the left of the ground line where there are two ways.
+    """
+    bar = bar_of(params)
+    ways = reach(bar, TURN_BACK) if bar.rocks or bar.lines_up else reach(bar)
+    if params.swing_from is None or params.swing_to is None:
+        return (ways[0][0] + bar.ground_angle, ways[0][1] + bar.ground_angle) if ways else None
+    one, two = math.radians(params.swing_from), math.radians(params.swing_to)
+    if ways == ((0.0, math.tau),):
+        return one, two
+    for low, high in ways:
+        turn = math.tau * round(((one + two - low - high) / 2 - bar.ground_angle) / math.tau)
+        low, high = low + bar.ground_angle + turn, high + bar.ground_angle + turn
+        if low - SLACK <= min(one, two) and max(one, two) <= high + SLACK:
+            return min(max(one, low), high), min(max(two, low), high)
+    return None
+
+
+def toggles(params: FourBarParams) -> Interval | None:
+    """Crank angles, rad from X, at which coupler and follower are in line, about the swing; None for none."""
+    bar, course = bar_of(params), course_of(params)
+    middle = course.start + course.travel / 2 - bar.ground_angle
+    ways = reach(bar)
+    if not bar.rocks or not ways:
+        return None
+    gaps = [(math.remainder(middle - (low + high) / 2, math.tau), low, high) for low, high in ways]
+    gap, low, high = min(gaps, key=lambda one: abs(one[0]))
+    turn = middle - gap - (low + high) / 2 + bar.ground_angle
+    return low + turn, high + turn
+
+
+def transmission_of(params: FourBarParams) -> Interval:
+    """Smallest and largest acute transmission angle over a period, rad."""
+    bar, course = bar_of(params), course_of(params)
+    one = course.start - bar.ground_angle
+    return bar.transmission_range(one, one + course.travel) if course.rocks else bar.transmission_range()
+
+
+SLACK = 1e-9
+"""rad. A lever that shall go this much beyond its range goes to its end: rounding of degrees."""
+
+
+@kept
+def course_of(params: FourBarParams) -> Course:
+    """One period of the crank; its links can be joined, and reach what the design says."""
+    bar = bar_of(params)
+    sense = 1.0 if params.direction == "ccw" else -1.0
+    if is_lever(params):
+        swing = within(params)
+        assert swing is not None  # noqa: S101 - the checks come first
+        one, two = swing if params.swing_from is not None or sense > 0 else swing[::-1]
+        return Course(one, two - one, rocks=True)
+    turns = turns_to_close(bar) if bar.lines_up else 1
+    return Course(0.0, sense * turns * math.tau)

@@ -1,0 +1,57 @@
+"""Proportions of a Geneva mechanism whose design leaves them open; lengths in mm."""
+
+import math
+
+ANGLES = {
+    3: (35.0, 5.0),
+    4: (50.0, 5.0),
+    5: (54.0, 11.0),
+    6: (60.0, 10.0),
+    7: (60.0, 12.0),
+    8: (60.0, 12.0),
+    9: (62.5, -6.0),
+    10: (62.5, -5.0),
+    11: (62.5, -4.0),
+    12: (60.0, -3.0),
+}
+"""Half angle of the crank and offset angle, degrees, of curved slots by their number. Three and four are the
+worked reference, five degrees more than a straight slot turns the crank. The others are in the middle of the
+angles with which the slots of every law take a large roller and the driver keeps 0.08 l about its shaft: the
+islands of up to eight slots stand on the right of the roller's way, those of more on the left."""
+
+WHEEL = 100.0
+"""Radius l of the wheel."""
+
+STEP = 5.0
+"""A radius that has to be larger than that is a multiple of this."""
+
+ROLLER = 0.1
+"""Diameter of the roller over l."""
+
+LEAST_ROLLER = 0.036
+"""The same where the slots are narrow: below it, other angles are looked for."""
+
+PIN = 1.2
+"""Diameter of the pin over the radius of its roller: two fifths of the roller stay about it."""
+
+SHAFT, FAIR_SHAFT, LEAST_SHAFT = 0.12, 0.08, 0.04
+"""Diameter of the shafts over l; what a wheel that is left out is sized for, and dowels give way to; and the
+least that is taken where a given wheel leaves no more."""
+
+_WALL, _WALL_SHARE = 2.0, 1 / 35
+_DOWEL, _DOWEL_SHARE = 4.0, 0.06
+
+
+def wall_of(entry_radius: float) -> float:
+    """Thinnest wall: 2 mm, on wheels below 70 mm radius a 35th of it, in tenths; not below 0.2 mm."""
+    return max(0.2, math.floor(10 * min(_WALL, _WALL_SHARE * entry_radius) + 1e-9) / 10)
+
+
+def dowel_of(entry_radius: float) -> float:
+    """Largest dowel: 4 mm, or 0.06 l."""
+    return min(_DOWEL, _DOWEL_SHARE * entry_radius)
+
+
+def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:
+    """Radius about the driver's axis that a shaft of this share of l and a wall take."""
+    return shaft * entry_radius / 2 + wall_of(entry_radius)

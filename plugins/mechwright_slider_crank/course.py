@@ -1,0 +1,103 @@
+"""How the crank of a slider-crank goes over one period, and where the slider comes to."""
+
+import math
+
+import numpy as np
+
+from mechwright import Array, kept
+from mechwright.mechanics.planar import Course
+from mechwright_slider_crank.figures import (
+    Limits,
+    crank_turns,
+    least_transmission_angle,
+    limits,
+    transmission_angle,
+)
+from mechwright_slider_crank.kinematics import Bodies
+from mechwright_slider_crank.limit_motion import turns_to_close
+from mechwright_slider_crank.params import SliderCrankParams
+
+TURN_BACK = math.radians(1.0)
+"""Angle of the rod to the normal of the slide at which a crank that cannot turn fully goes back: there the
+guide bears 57 times the force along it."""
+
+_SAMPLES = 1441
+"""Positions among which the ends of a slider's way are sought where there is no formula: four a degree."""
+
+
+def reach(crank: float, rod: float, offset: float, least: float = 0.0) -> tuple[float, float] | None:
+    """Crank angles from the slide, rad, between which the rod keeps ``least``, rad, from its normal.
+
+    A whole turn is from 0 to 2π; None where crank and rod do not meet. Of two such ways it is the one with
+    the crank along the slide. With φ' the angle and c cos μ ≥ |e - a sin φ'|.
+
+    Examples
+    --------
+    >>> [round(math.degrees(x), 6) for x in reach(30, 35, 10)]
+    [-56.44269, 236.44269]
+    """
+    most = rod * math.cos(least)
+    low, high = (offset - most) / crank, (offset + most) / crank
+    if low >= 1 or high <= -1:
+        return None
+    if low <= -1 and high >= 1:
+        return 0.0, math.tau
+    if low <= -1:
+        return -math.pi - math.asin(high), math.asin(high)
+    if high >= 1:
+        return math.asin(low), math.pi - math.asin(low)
+    return math.asin(low), math.asin(high)
+
+
+def turns(params: SliderCrankParams) -> bool:
+    """Whether the crank goes all the way round, if only just."""
+    return crank_turns(params.crank, params.rod, params.offset) or params.linkage.at_limit
+
+
+@kept
+def course_of(params: SliderCrankParams) -> Course:
+    """One period of the crank of a design that can be put together."""
+    sense = -1.0 if params.clockwise else 1.0
+    if params.linkage.at_limit:
+        return Course(0.0, sense * turns_to_close(params.offset) * math.tau)
+    if turns(params):
+        return Course(0.0, sense * math.tau)
+    swing = reach(params.crank, params.rod, params.offset, TURN_BACK)
+    assert swing is not None  # noqa: S101 - the checks come first
+    low, high = (end + params.linkage.direction for end in swing)
+    return Course(low, high - low, rocks=True) if sense > 0 else Course(high, low - high, rocks=True)
+
+
+def period_of(params: SliderCrankParams, samples: int = _SAMPLES) -> tuple[Array, Array, Bodies]:
+    """Times (n,), s, crank angles (n,), rad, and the bodies over one period."""
+    time, drive = course_of(params).period(samples, abs(params.omega))
+    return time, drive.theta, params.linkage.bodies(drive.theta, drive)
+
+
+@kept
+def ends_of(params: SliderCrankParams) -> Limits:
+    """The ends of the slider's way, in closed form for a crank that turns."""
+    if crank_turns(params.crank, params.rod, params.offset) and not params.linkage.at_limit:
+        return limits(params.linkage)
+    _, phi, bodies = period_of(params)
+    positions = bodies.position
+    far, near = sorted(
+        (int(np.argmin(positions)), int(np.argmax(positions))), key=lambda k: -abs(positions[k])
+    )
+    return Limits(
+        float(phi[far]) % math.tau,
+        float(phi[near]) % math.tau,
+        float(positions[far]),
+        float(positions[near]),
+        1.0,
+        False,
+    )
+
+
+def least_of(params: SliderCrankParams) -> float:
+    """The least angle of the rod to the normal of the slide over a period, rad."""
+    if turns(params):
+        return least_transmission_angle(params.crank, params.rod, params.offset)
+    course = course_of(params)
+    ends = np.array([course.start, course.start + course.travel])
+    return float(transmission_angle(params.linkage, ends).min())

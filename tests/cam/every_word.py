@@ -1,0 +1,163 @@
+"""Every word of G-code in every kind of block: is it read, refused, or ignored?
+
+A small program for each control has one block of each kind. Each word (each letter with a few numbers, each G
+and M number up to 99 with its decimals) is added to each of its blocks in turn, and stands alone before it. A
+word that is accepted has to show: in the path, in the modes, or in the modes that come of it.
+``python tests/cam/every_word.py`` does all of them, and has LinuxCNC's own interpreter read what is accepted.
+"""
+
+import re
+import string
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from by_control import BY_NAME, interpret
+from rs274 import RS274, run_rs274
+
+from mechwright.errors import ProgramError
+
+NUMBERS = ("0", "1", "-1", "2.5", "7", "99")
+WORDS = (
+    *(f"{letter}{number}" for letter in string.ascii_uppercase for number in NUMBERS),
+    *(f"G{number}" for number in range(100)),
+    *(f"G{whole}.{tenth}" for whole in range(100) for tenth in range(1, 10)),
+    *(f"M{number}" for number in range(100)),
+    *(f"M{whole}.{tenth}" for whole in range(100) for tenth in (1, 5)),
+)
+SMALL = {
+    "linuxcnc": "G17 G21 G40 G49 G80 G90 G94 G91.1\nG64 P0.002\nG53 G0 Z0\nT1 M6\nG54 S900 M3\nG0 X1 Y2\n"
+    "G43 H1 Z5\nM8\nG1 Z-1 F90\nX9\nG2 X9 Y8 I0 J3\nG3 Y2 R3\nG98 G81 X5 Y5 Z-3 R2\nX7\nG83 X8 Z-3 R2 Q1\n"
+    "G80\nG4 P0.5\nG41.1 D2 G1 X20 Y20\nG1 Y40\nG40 X0\nM9\nM5\nG28\nM0\nM30\n",
+    "grbl": "G17 G21 G40 G49 G80 G90 G94 G91.1\nG61\nG53 G0 Z0\nT1\nM0\nG53 G0 Z0\nG54 S900 M3\nG0 X1 Y2\n"
+    "G43.1 Z50\nG0 Z5\nM8\nG1 Z-1 F90\nX9\nG2 X9 Y8 I0 J3\nG3 Y2 R3\nG80\nG4 P0.5\nM9\nM5\nG28\nM30\n",
+    "mach3": "G17 G21 G40 G49 G80 G90 G94 G91.1\nG64\nG53 G0 Z0\nT1 M6\nG54 S900 M3\nG0 X1 Y2\n"
+    "G43 H1 Z5\nM8\nG1 Z-1 F90\nX9\nG2 X9 Y8 I0 J3\nG3 Y2 R3\nG98 G81 X5 Y5 Z-3 R2\nX7\nG83 X8 Z-3 R2 Q1\n"
+    "G80\nG4 P0.5\nG41 D1 G1 X20 Y20\nG1 Y40\nG40 X0\nM9\nM5\nG28\nM0\nM30\n",
+    "fanuc": "O0001\nG17 G21 G40 G49 G80 G90 G94\nG64\nG91 G28 Z0.\nG90\nT1 M6\nG54 S900 M3\nG0 X1. Y2.\n"
+    "G43 H1 Z5.\nM8\nG1 Z-1. F90.\nX9.\nG2 X9. Y8. I0. J3.\nG3 Y2. R3.\nG98 G81 X5. Y5. Z-3. R2.\nX7.\n"
+    "G83 X8. Z-3. R2. Q1.\nG80\nG4 P500\nG41 D1 G1 X20. Y20.\nG1 Y40.\nG40 X0.\nM9\nM5\nM0\nM30\n",
+}
+SMALL["haas"] = SMALL["fanuc"]
+
+
+@dataclass(frozen=True)
+class Try:
+    """A program with a word more, and the line and the word."""
+
+    control: str
+    line: str
+    word: str
+    alone: bool
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.control}: {self.word} {'before' if self.alone else 'in'} {self.line!r}"
+
+
+def tries(control: str, words: tuple[str, ...] = WORDS) -> Iterator[Try]:
+    """Every word in and before every block of a control's program."""
+    lines = SMALL[control].splitlines()
+    for index, line in enumerate(lines):
+        if line.startswith("O"):
+            continue
+        for word in words:
+            for alone in (False, True):
+                put = [word, line] if alone else [f"{line} {word}"]
+                text = "\n".join([*lines[:index], *put, *lines[index + 1 :], ""])
+                yield Try(control, line, word, alone, text)
+
+
+def seen(text: str, control: str) -> tuple[list[str], bytes, bytes]:
+    """All that a reading says of a program but its lines: states, steps, and what it writes.
+
+    Raises ProgramError if the control refuses it.
+    """
+    run = interpret(text, BY_NAME[control], diameters={1: 2.0, 7: 2.0})
+    steps = np.column_stack((run.kind, run.start, run.end, run.centre, run.sweep, run.feed, run.seconds))
+    states = np.array(run.state)
+    return (
+        [*map(repr, (*run.states, run.writes, run.ended, run.machine_xy.tolist()))],
+        steps.tobytes(),
+        states.tobytes(),
+    )
+
+
+TABLE = "".join(f"T{number} P{number}\n" for number in (1, 2, 7, 99))
+"""LinuxCNC's table of tools, without lengths and diameters."""
+
+
+@cache
+def _plain(control: str) -> tuple[list[str], bytes, bytes]:
+    return seen(SMALL[control], control)
+
+
+MODAL = re.compile(
+    r"[FST].*|G(17|18|19|20|21|40|43|49|61|64|80|8[123]|9[0148]|98|99|90\.1|91\.1|5\d|[0123])|M.*"
+)
+"""Words that hold until another of their group: one that is said again before it counts shows nowhere."""
+SAYS_NOTHING = re.compile(
+    r"N.*|O\d+|"  # the numbers of lines and programs
+    r"G(15|50|69)|M(19|31|33|48|49|88|89)"  # they change no path (docs/controls.md)
+)
+"""Words that never show."""
+SO_ANYWAY = {"X1", "Z-1", "P1", "Q-1", "G53", "X9", "Y2"}
+"""Words that say in some blocks what is so without them: a place, one turn, a Q as large as P."""
+
+
+def outcome(one: Try) -> str:
+    """``refused``, ``read`` if the word shows, ``nothing`` if it need not, or ``ignored``."""
+    try:
+        found = seen(one.text, one.control)
+    except ProgramError as error:
+        return "refused" if re.match(r"line \d+: ", str(error)) else "ignored"
+    if found != _plain(one.control):
+        return "read"
+    word = one.word.removesuffix(".0")
+    known = MODAL.fullmatch(word) or SAYS_NOTHING.fullmatch(word) or word in SO_ANYWAY
+    return "nothing" if known else "ignored"
+
+
+def witness(one: Try, folder: Path) -> str:
+    """What LinuxCNC says against a program that is accepted; nothing if it accepts it too."""
+    canon = run_rs274(one.text, folder, TABLE)
+    return "" if canon.ok else canon.error.splitlines()[-1]
+
+
+def judged(control: str, words: tuple[str, ...], folder: Path) -> tuple[dict[str, int], list[str]]:
+    """How many tries had which outcome, and those that must not be."""
+    count = dict.fromkeys(("refused", "read", "nothing", "ignored", "only LinuxCNC refuses"), 0)
+    wrong = []
+    for one in tries(control, words):
+        found, said = outcome(one), ""
+        if (
+            control == "linuxcnc"
+            and RS274
+            and found in {"read", "nothing"}
+            and (said := witness(one, folder))
+        ):
+            found = "only LinuxCNC refuses"
+        count[found] += 1
+        if found in {"ignored", "only LinuxCNC refuses"}:
+            wrong.append(f"{one}: {said or found}")
+    return count, wrong
+
+
+def main(*controls: str) -> int:
+    found: list[str] = []
+    for control in controls or SMALL:
+        with tempfile.TemporaryDirectory() as folder:
+            count, wrong = judged(control, WORDS, Path(folder))
+        told = [f"{control}: " + ", ".join(f"{name} {n}" for name, n in count.items()), *wrong]
+        sys.stdout.write("\n    ".join(told) + "\n")
+        sys.stdout.flush()
+        found += wrong
+    return int(bool(found))
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,93 @@
+"""Mistakes in files are told with their line, and the table to which a key belongs."""
+
+import pytest
+
+from mechwright.designs.design import load
+from mechwright.designs.hints import line_of
+from mechwright.designs.requirement import load_requirement
+from mechwright.errors import DesignError
+from mechwright.plugins.host import host
+
+HEAD = 'format = 1\nfamily = "four-bar"\n'
+TOLD = {
+    "decimal comma": (
+        "[parameters]\ncrank = 12,5  # mm\n",
+        "line 4 has a decimal comma; write a point: crank = 12.5",
+    ),
+    "negative decimal comma": (
+        "[parameters]\npivot_x = -0,25\n",
+        "line 4 has a decimal comma; write a point: pivot_x = -0.25",
+    ),
+    "decimal comma in a text": (
+        '[parameters]\n\ncrank = "12,5 mm"\n',
+        "line 5: parameters.crank: '12,5 mm' cannot be read in mm; write a point for the decimal comma: '12.5 mm'",
+    ),
+    "no quotes": ("[parameters]\nbranch = open\n", 'line 4 has a text without quotes; write branch = "open"'),
+    "no second quote": ('[parameters]\nbranch = "open\n', "line 4 lacks a quote"),
+    "no first quote": ('[parameters]\nbranch = open"\n', "line 4 lacks a quote"),
+    "in the head": (
+        "crank = 30\n[parameters]\n",
+        "line 3: unknown key 'crank'; it stands in the head of the file and belongs to [parameters]",
+    ),
+    "of the workshop": (
+        '[parameters]\ncrank = 30\ncontrol = "haas"\n',
+        "line 5: parameters: unknown key 'control'; it stands in [parameters] and belongs to [cam]",
+    ),
+    "of the family": (
+        "[cam]\ncoupler = 30\n",
+        "line 4: cam: unknown key 'coupler'; it stands in [cam] and belongs to [parameters]",
+    ),
+    "of a table inside": (
+        "[cam]\ntravel_x = 30\n",
+        "line 4: cam: unknown key 'travel_x'; it stands in [cam] and belongs to [cam.machine]",
+    ),
+    "of several tables": (
+        "[parameters]\n\n[tolerances]\nclearance = 2\nname = 2\n",
+        "line 7: tolerances: unknown key 'name'; it stands in [tolerances] and belongs to the head of the file or [cam.machine]",
+    ),
+    "of the head": (
+        '[parameters]\nfamily = "geneva"\n',
+        "line 4: parameters: unknown key 'family'; it stands in [parameters] and belongs to the head of the file",
+    ),
+    "misspelt": (
+        "[parameters]\n# crnk\ncrnk = 3\n",
+        "line 5: parameters: unknown key 'crnk'; did you mean 'crank'?",
+    ),
+    "a table": ("[parametres]\n", "line 3: unknown key 'parametres'; did you mean 'parameters'?"),
+}
+
+
+@pytest.mark.parametrize("case", TOLD)
+def test_a_mistake_is_told_with_its_line(case, tmp_path):
+    text, said = TOLD[case]
+    path = tmp_path / "d.toml"
+    path.write_text(HEAD + text)
+    with pytest.raises(DesignError) as caught:
+        load(path, host())
+    lines = str(caught.value).splitlines()
+    assert any(said in line for line in lines), lines
+    assert all(line.startswith(f"{path}: ") for line in lines)
+
+
+def test_what_is_toml_without_a_likely_slip_keeps_its_own_words(tmp_path):
+    path = tmp_path / "d.toml"
+    path.write_text(HEAD + "[parameters\n")
+    with pytest.raises(DesignError, match=r"is no valid TOML: [^;]*\(at line 3, column \d+\)$"):
+        load(path, host())
+
+
+def test_a_requirement_file_too(tmp_path):
+    path = tmp_path / "r.toml"
+    path.write_text('family = "four-bar"\n[cam]\nstarts = 3\n[requirement]\nkind = "path"\n')
+    with pytest.raises(
+        DesignError, match=r"line 3: cam: .*it stands in \[cam\] and belongs to \[requirement\]"
+    ):
+        load_requirement(path, host())
+
+
+def test_lines_are_found_under_dotted_quoted_and_spaced_keys():
+    text = '[ "cam" . machine ]\nname = 1\n[cam.part.crank]\n"origin" = 2\n[[x]]\nholes.a = 3\n'
+    assert line_of(text, "cam.machine", "name") == 2
+    assert line_of(text, "cam.part.crank", "origin") == 4
+    assert line_of(text, "", "cam") == 0
+    assert line_of(text, "nowhere", "name") == 0

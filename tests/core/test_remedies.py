@@ -1,0 +1,345 @@
+"""The search for remedies, on a family whose limits are known exactly."""
+
+import io
+import math
+import tomllib
+from pathlib import Path
+from typing import Literal
+
+import pytest
+from disc_family import Disc
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import Field, model_validator
+from rich.console import Console
+
+from mechwright.cli.telling import block
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Finding, Severity, errors, until_error
+from mechwright.contracts.parameters import Parameters
+from mechwright.designs.design import Design
+from mechwright.remedies import MOST_CHANGES, Bench, Limits, nearest, remedied, tried
+from mechwright.remedies.keys import Key, keys_of
+from mechwright.remedies.values import closest, distance, ladder
+from mechwright.testing.fixes import fix_faults
+from mechwright.units import Degrees, Millimetres
+
+
+class Pins(Parameters):
+    first: Millimetres = Field(5.0, ge=1, le=100, description="First pin.")
+    second: Millimetres = Field(5.0, ge=1, le=100, description="Second pin.")
+
+
+class BeamParams(Parameters):
+    length: Millimetres = Field(100.0, ge=1, le=5000, description="Length.")
+    width: Millimetres = Field(20.0, gt=0, le=500, description="Width.")
+    holes: int = Field(2, ge=0, le=40, description="Number of holes.")
+    tilt: Degrees = Field(0.0, ge=-90, le=90, description="Angle of the end.")
+    kind: Literal["plain", "bent", "forked"] = Field("plain", description="Shape.")
+    collar: Millimetres | None = Field(None, ge=1, le=50, description="Collar; left out, none.")
+    collar_width: Millimetres | None = Field(None, ge=1, le=50, description="Its width.")
+    pins: Pins = Field(Pins(), description="Its pins.")
+
+    @model_validator(mode="after")
+    def _together(self):
+        if (self.collar is None) != (self.collar_width is None):
+            raise ValueError("give both collar and collar_width")
+        return self
+
+
+def _error(code, parameter, remedy, *numbers, proposed=()):
+    return Finding.error(
+        code, parameter, "it is wrong", *numbers, unit="mm", remedy=remedy, proposed=proposed
+    )
+
+
+class Beam(Family[BeamParams]):
+    name = "beam"
+    title = "Beam"
+    summary = "A beam."
+    Params = BeamParams
+
+    def check(self, params):
+        return until_error(params, self._first, self._second)
+
+    def _first(self, params):
+        if params.width < params.length / 10:
+            yield _error("beam.slender", "width", "make width larger", params.width, params.length / 10)
+        if params.kind == "forked":
+            yield _error("beam.kind", "kind", "take another")
+        if params.tilt > 30.5:
+            yield _error("beam.tilt", "tilt", "less", params.tilt, 30.5)
+
+    def _second(self, params):
+        if params.holes * params.pins.first > params.length / 2:
+            yield _error("beam.holes", "holes", "fewer holes, or a smaller pins.first")
+        if params.collar is not None and params.collar < 2 * params.width:
+            yield _error("beam.collar", "collar", "a larger collar")
+        if params.holes > 30:
+            yield Finding.warning("beam.many", "holes", "so many", remedy="fewer")
+        yield Finding.note("beam.kind", "a figure")
+
+    solve = parts = None
+
+
+Beam.__abstractmethods__ = frozenset()
+
+
+def design(family=Beam, **table):
+    lines = tomllib.loads("\n".join(f"{key} = {value}" for key, value in table.items()))
+    params = family.Params.model_validate(lines)
+    return Design("tried", family(), params, Path("tried.toml"), "", content={"parameters": lines})
+
+
+def told(of, **limits):
+    found = list(of.family.check(of.params))
+    return tried(of, found, Limits(**limits)) if limits else tried(of, found)
+
+
+def bench(of, **limits):
+    return Bench(of, lambda one: one.family.check(one.params), limits=Limits(**limits))
+
+
+def test_a_value_past_its_limit_is_set_to_the_limit():
+    (slender,) = told(design(length=437.5))
+    assert slender.fix == {"parameters.width": 44}
+    assert slender.remedy == "set width = 44 (now 20.0, by default)"
+
+
+def test_what_the_file_says_is_what_is_told_with_its_unit():
+    (slender,) = told(design(length='"40 cm"', width='"1 in"'))
+    assert slender.remedy == 'set width = 40 (now "1 in")'
+
+
+def test_a_bound_of_an_angle_and_another_choice_are_found():
+    tilt, kind = sorted(told(design(tilt=77.0, kind='"forked"')), key=lambda one: one.code)[::-1]
+    assert tilt.fix == {"parameters.tilt": 30}
+    assert kind.fix in ({"parameters.kind": "plain"}, {"parameters.kind": "bent"})
+
+
+def test_a_key_that_only_the_remedy_names_is_tried():
+    (holes,) = [one for one in told(design(holes=30, length=280, width=30)) if one.severity is Severity.ERROR]
+    assert holes.fix is not None
+    assert (
+        errors(
+            Beam().check(
+                design().changed(dict(holes.fix) | {"parameters.length": 280, "parameters.width": 30}).params
+            )
+        )
+        == []
+    )
+
+
+def test_a_finding_behind_another_is_part_of_the_remedy():
+    (slender,) = told(design(length=380, holes=40, width=30))
+    assert set(slender.fix) >= {"parameters.width"}
+    assert errors(Beam().check(design(length=380, holes=40, width=30).changed(slender.fix).params)) == []
+    assert len(slender.fix) == 2
+
+
+def test_what_has_to_go_together_goes_together():
+    change = nearest(bench(design(collar=3, collar_width=2)))
+    assert change in ({"parameters.collar": 40}, {"parameters.width": 10}, {"parameters.width": 1.5})
+
+
+def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
+    class Proposing(Beam):
+        def check(self, params):
+            proposed = (
+                {"parameters.width": 25},
+                {"parameters.nothing": 1},
+                {"parameters.width": 45},
+                {"parameters.width": 44},
+            )
+            found = [*super().check(params)]
+            return [
+                one
+                if one.severity is Severity.NOTE
+                else _error(one.code, one.parameter, "x", proposed=proposed)
+                for one in found
+            ]
+
+    (slender,) = told(design(Proposing, length=437.5))
+    assert slender.fix == {"parameters.width": 45}
+
+
+def test_where_nothing_helps_it_says_what_was_tried():
+    class Hopeless(Beam):
+        def check(self, params):
+            return [_error("beam.never", "width", "try holes or pins.first")]
+
+    (never,) = told(design(Hopeless))
+    assert never.fix is None
+    assert never.remedy == "no remedy found by changing width, holes, pins.first"
+    (never,) = told(design(Hopeless), tries=5)
+    assert never.remedy.endswith("in 5 tries")
+
+
+def test_a_remedy_that_spoils_something_else_is_none():
+    class Squeezed(Beam):
+        """Width is too small below 40, and too large above: nothing but length helps."""
+
+        def check(self, params):
+            found = [_error("beam.slender", "width", "make width larger")] if params.width < 40 else []
+            return [*found, *([_error("beam.wide", "width", "smaller")] if params.width > 30 else [])]
+
+    assert [one.fix for one in told(design(Squeezed))] == [None]
+
+
+def test_what_raises_is_no_remedy():
+    class Fragile(Beam):
+        def check(self, params):
+            if params.width > 20:
+                raise ZeroDivisionError
+            return [_error("beam.never", "width", "no")]
+
+    assert [one.fix for one in told(design(Fragile))] == [None]
+
+
+def test_a_search_ends_after_its_tries_and_its_time():
+    one = bench(design(length=4000), tries=3)
+    nearest(one)
+    assert (one.tries, one.spent) == (3, True)
+    assert bench(design(length=4000), seconds=0.0).spent
+
+
+def test_the_same_search_finds_the_same():
+    of = design(length=4000, holes=39, tilt=80.0, kind='"forked"', collar=3, collar_width=2)
+    assert nearest(bench(of)) == nearest(bench(of))
+
+
+@given(
+    st.fixed_dictionaries(
+        {
+            "length": st.floats(1, 5000),
+            "width": st.floats(0.1, 500),
+            "holes": st.integers(0, 40),
+            "tilt": st.floats(-90, 90),
+            "kind": st.sampled_from(['"plain"', '"forked"']),
+        }
+    )
+)
+def test_every_design_of_this_family_is_mended(table):
+    of = design(**table)
+    change = nearest(bench(of))
+    assert change is not None
+    assert len(change) <= MOST_CHANGES
+    assert errors(Beam().check(of.changed(change).params)) == []
+    keys = {
+        "parameters.length",
+        "parameters.width",
+        "parameters.holes",
+        "parameters.tilt",
+        "parameters.kind",
+        "parameters.pins.first",
+    }
+    assert set(change) <= keys, "a key that no finding is about"
+
+
+@given(st.floats(5, 500), st.floats(1, 400), st.integers(0, 12))
+def test_remedies_of_the_disc_hold(diameter, bore, holes):
+    assert fix_faults(Disc(), {"diameter": diameter, "bore": bore, "holes": holes}) == []
+
+
+def test_a_remedy_that_does_not_hold_is_named(monkeypatch):
+    from dataclasses import replace
+
+    from mechwright.testing import fixes
+
+    def lying(design, findings, limits):
+        return [
+            replace(one, fix={"parameters.bore": 38.5}) for one in findings if one.severity is Severity.ERROR
+        ]
+
+    monkeypatch.setattr(fixes, "tried", lying)
+    assert "found all the same" in fix_faults(Disc(), {"bore": 39})[0]
+
+
+def test_a_note_that_stays_is_no_finding_that_stays():
+    class Telling(Beam):
+        def check(self, params):
+            note = Finding("beam.slender", Severity.NOTE, "width", "so slender it is")
+            return [note, *super().check(params)]
+
+    slender = told(design(Telling, length=437.5))[1]
+    assert slender.fix == {"parameters.width": 44}
+
+
+def test_keys_have_their_bounds_choices_and_tables():
+    keys = keys_of(design())
+    assert (keys["parameters.width"].low, keys["parameters.width"].high) == (pytest.approx(1e-3), 500)
+    assert keys["parameters.kind"].choices == ("plain", "bent", "forked")
+    assert keys["parameters.pins.first"].default == 5
+    assert keys["parameters.collar"].default is None
+    assert keys["parameters.pins.first"].now({"parameters": {"pins": {"first": "1 in"}}}) == pytest.approx(
+        25.4
+    )
+
+
+@given(st.floats(1, 100), st.floats(1, 100), st.booleans())
+def test_closest_never_gives_a_value_that_fails(now, limit, whole):
+    key = Key("parameters.x", "integer" if whole else "number", 1, 1000)
+    now = float(round(now)) if whole else now
+    good = float(math.ceil(limit + 1))
+    if now >= limit:
+        return
+    found = closest(key, now, good, lambda x: x >= limit)
+    assert limit <= found <= max(good, limit * 1.04)
+    assert found <= max(limit * 1.04 + (good - now) / 16, math.ceil(limit))
+
+
+@given(st.floats(1, 5000), st.sampled_from(["number", "integer"]))
+def test_values_that_are_tried_are_within_the_bounds(now, kind):
+    key = Key("parameters.x", kind, 1, 5000, default=80)
+    values = ladder(key, round(now) if kind == "integer" else now)
+    assert values
+    assert all(1 <= value <= 5000 for value in values)
+    assert all(distance(key, now, value) >= 0 for value in values)
+
+
+def shown(width, colour, monkeypatch):
+    if not colour:
+        monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    file = io.StringIO()
+    finding = Finding.error(
+        "gear.root", "teeth", "a long sentence " * 8, 9, 11, remedy="set teeth = 11 (now 9)"
+    )
+    block(
+        finding,
+        Console(
+            file=file,
+            force_terminal=True,
+            width=width,
+            highlight=False,
+            color_system="standard" if colour else None,
+        ),
+    )
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("width", [40, 80])
+def test_on_a_terminal_a_finding_is_a_block_of_its_width(width, monkeypatch):
+    lines = [line.rstrip() for line in shown(width, False, monkeypatch).splitlines()]
+    assert lines[0] == "error gear.root teeth"
+    assert lines[-1] == "  set teeth = 11 (now 9)"
+    assert all(len(line) <= width and line.startswith("  ") for line in lines[1:])
+    assert "\x1b[3" not in shown(width, False, monkeypatch)
+
+
+def test_on_a_terminal_it_is_coloured(monkeypatch):
+    assert "\x1b[1;31merror" in shown(80, True, monkeypatch)
+
+
+def test_what_could_steer_a_terminal_is_escaped(monkeypatch):
+    file = io.StringIO()
+    block(Finding.note("a.b", "bell \x07 and \x1b[31m red [bold]b[/bold]"), Console(file=file, width=80))
+    assert "\x1b" not in file.getvalue()
+    assert "\\x07" in file.getvalue()
+    assert "[bold]b[/bold]" in file.getvalue()
+
+
+def test_remedied_keeps_the_order_and_the_notes():
+    of = design(length=437.5, kind='"forked"')
+    found = list(Beam().check(of.params))
+    assert [one.code for one in remedied(bench(of), found)] == [one.code for one in found]

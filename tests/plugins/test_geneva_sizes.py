@@ -1,0 +1,212 @@
+"""What a design leaves out follows from what it gives: sound, standard sizes, and what is given is kept."""
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from mechwright import GeometryError, Severity, Stage
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.laws import LAWS
+from mechwright_geneva.family import Geneva
+from mechwright_geneva.horns import clear, greatest_disc
+from mechwright_geneva.mechanism import mechanism_of
+from mechwright_geneva.params import GenevaParams
+from mechwright_geneva.relief import lock_loop
+from mechwright_geneva.series import PINS, ROLLERS
+from mechwright_geneva.sizes import LEFT_OPEN, sized
+from mechwright_geneva.usual import ANGLES
+
+GENEVA = Geneva()
+SLOTS = range(3, 13)
+OWN = {
+    "polynomial": {"law": "polynomial", "polynomial": (0, 0, 0, 10, -15, 6)},
+    "table": {
+        "law": "table",
+        "table": tuple((k / 20, float(LAWS["modified-sine"]().at(k / 20).s)) for k in range(21)),
+    },
+}
+
+
+def check(**table):
+    return GENEVA.check(GenevaParams(**table))
+
+
+@pytest.mark.parametrize("law", [*LAWS, "straight"])
+@pytest.mark.parametrize("slots", SLOTS)
+def test_slots_and_law_are_enough(slots, law):
+    """Parts without an error, slots for a roller that is sold, a driver with a shaft."""
+    params = GenevaParams(slots=slots, law=law)
+    assert errors(GENEVA.check(params)) == []
+    assert {"wheel", "locking-disc", "crank", "roller"} <= {part.name for part in GENEVA.parts(params)}
+    sizes = sized(params)
+    assert 2 * sizes.roller_radius in ROLLERS
+    assert {sizes.pin_diameter, sizes.bore, sizes.driver_bore} <= set(PINS)
+    assert sizes.fixing in (*PINS, 0.0)
+    assert sizes.roller_radius >= 0.02 * sizes.entry_radius
+    assert sizes.driver_bore >= 0.04 * sizes.entry_radius
+    assert 2 * sizes.entry_radius <= 380  # fits a table of 400 mm with its mills
+
+
+@pytest.mark.parametrize("law", OWN)
+@pytest.mark.parametrize("slots", [3, 7, 12])
+def test_a_law_of_ones_own_is_enough_too(slots, law):
+    assert errors(check(slots=slots, **OWN[law])) == []
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_usual_angles_suit_every_law(slots, law):
+    """No law needs other angles than the table's; the roller follows the law."""
+    sizes = sized(GenevaParams(slots=slots, law=law))
+    assert (sizes.crank_half_angle, sizes.offset_angle, sizes.entry_radius) == (*ANGLES[slots], 100)
+
+
+def test_four_slots_are_the_worked_reference():
+    sizes = sized(GenevaParams())
+    expected = {
+        "crank_half_angle": 50,
+        "offset_angle": 5,
+        "entry_radius": 100,
+        "roller_radius": 5,
+        "least_wall": 2,
+        "bore": 12,
+        "driver_bore": 12,
+        "pin_diameter": 6,
+        "fixing": 4,
+    }
+    assert {key: getattr(sizes, key) for key in expected} == expected
+    assert sizes.centre_distance == pytest.approx(128.557521937308, abs=1e-9)
+
+
+def test_what_is_left_out_is_told():
+    (note,) = [finding for finding in check(slots=6, bore=10) if finding.code == "geneva.left-out"]
+    assert note.severity is Severity.NOTE
+    assert "crank_half_angle 60, offset_angle 10, entry_radius 100" in note.message
+    assert " bore " not in note.message
+    whole = {key: getattr(sized(GenevaParams()), key) for key in LEFT_OPEN}
+    assert "geneva.left-out" not in [finding.code for finding in check(**whole)]
+
+
+laws = st.sampled_from([*LAWS, "straight"])
+
+
+@given(st.integers(3, 12), laws, st.floats(30, 900))
+@example(12, "4-5-6-7", 30.0)
+@settings(deadline=None, max_examples=40)
+def test_a_wheel_of_any_size_is_kept_inside_the_published_bounds(slots, law, radius):
+    """Curved slots on every wheel; straight ones where the driver has room, else the least wheel is named."""
+    params = GenevaParams(slots=slots, law=law, entry_radius=radius)
+    sizes = sized(params)
+    assert sizes.entry_radius == radius
+    GenevaParams(**{key: getattr(sizes, key) for key in LEFT_OPEN if key != "centre_distance"})
+    found = errors(GENEVA.check(params), Stage.PARTS)
+    if law == "straight" and slots > 8 and found:
+        assert (found[0].code, found[0].parameter) == ("geneva.driver", "entry_radius")
+        least = float(re.fullmatch(r"use entry_radius = ([\d.]+)", found[0].remedy)[1])
+        assert least > radius
+        assert errors(check(slots=slots, law=law, entry_radius=least)) == []
+    else:
+        assert found == []
+
+
+@given(st.integers(3, 12), st.sampled_from([*LAWS]), st.floats(45, 600))
+@settings(deadline=None, max_examples=25)
+def test_a_centre_distance_is_kept(slots, law, axes):
+    params = GenevaParams(slots=slots, law=law, centre_distance=axes)
+    assert errors(GENEVA.check(params), Stage.PARTS) == []
+    assert mechanism_of(params).axes == pytest.approx(axes, abs=1e-9)
+
+
+@given(
+    st.integers(3, 12),
+    st.sampled_from([*LAWS]),
+    st.fixed_dictionaries(
+        {},
+        optional={
+            "crank_half_angle": st.floats(10, 110).map(lambda x: round(x, 1)),
+            "offset_angle": st.floats(-30, 30).map(lambda x: round(x, 1)),
+            "roller_radius": st.floats(1, 30).map(lambda x: round(x, 1)),
+            "entry_radius": st.floats(20, 300).map(lambda x: round(x, 1)),
+            "driver_bore": st.floats(1, 40).map(lambda x: round(x, 1)),
+        },
+    ),
+)
+@settings(deadline=None, max_examples=40)
+def test_what_is_given_is_kept_or_refused_by_its_name_with_what_works(slots, law, table):
+    params = GenevaParams(slots=slots, law=law, **table)
+    if not set(table) - {"crank_half_angle"} or "roller_radius" not in table:
+        sizes = sized(params)
+        assert {key: getattr(sizes, key) for key in table} == table
+    for finding in errors(GENEVA.check(params), Stage.PARTS):
+        assert finding.parameter in table, finding
+        ways = [
+            {
+                key: float(value)
+                for key, value in re.findall(r"(\w+)(?: at (?:most|least)| =) (-?[\d.]+)", way)
+            }
+            for way in finding.remedy.split(", or ")
+        ]
+        assert any(ways), finding
+        after = [
+            {f.code for f in errors(check(slots=slots, law=law, **{**table, **way}))} for way in ways if way
+        ]
+        assert any(finding.code not in codes for codes in after), finding
+
+
+def test_both_sizes_tell_the_crank():
+    params = GenevaParams(slots=5, entry_radius=85, centre_distance=100)
+    assert errors(GENEVA.check(params)) == []
+    assert mechanism_of(params).axes == pytest.approx(100, abs=1e-9)
+    assert sized(params).crank_half_angle == pytest.approx(55.937160, abs=1e-5)
+
+
+def test_a_large_roller_has_a_large_wheel():
+    sizes = sized(GenevaParams(slots=8, roller_radius=9.5))
+    assert (sizes.roller_radius, sizes.entry_radius) == (9.5, 190)
+    assert errors(check(slots=8, roller_radius=9.5)) == []
+
+
+def test_several_rollers_have_shorter_strokes():
+    sizes = sized(GenevaParams(rollers=4))
+    assert sizes.crank_half_angle <= 42.5
+    assert errors(check(rollers=4)) == []
+
+
+@pytest.mark.parametrize(
+    ("slots", "law", "angles"),
+    [
+        (6, "cycloidal", (60, 13)),
+        (6, "3-4-5", (62, 13)),
+        (7, "cycloidal", (62.5, 13)),
+        (8, "3-4-5", (65, 13)),
+    ],
+)
+def test_the_horns_cut_a_large_locking_disc(slots, law, angles):
+    """The closed condition says of every disc what drawing its relief says, one step at the limit apart."""
+    table = {"slots": slots, "law": law, "crank_half_angle": angles[0], "offset_angle": angles[1]}
+    m = mechanism_of(GenevaParams(**table))
+    most = m.nearest - m.groove - m.params.lock_clearance - m.params.least_wall
+    discs = np.linspace(m.least_lock, most, 15).round(3)
+    said = clear(m.frame, m.law, discs, m.params.lock_clearance)
+    drawn = []
+    for disc in discs:
+        try:
+            lock_loop(mechanism_of(GenevaParams(**table, lock_radius=disc)))
+            drawn.append(True)
+        except GeometryError:
+            drawn.append(False)
+    assert np.count_nonzero(said != np.array(drawn)) <= 1
+    assert greatest_disc(m.frame, m.law, m.least_lock, most, m.params.lock_clearance) == m.greatest_lock
+    assert errors(check(**table)) == [] or not said.any()
+
+
+def test_a_disc_that_the_horns_cut_is_refused_with_one_that_they_miss():
+    table = {"slots": 6, "crank_half_angle": 60, "offset_angle": 13}
+    (finding,) = errors(check(**table, lock_radius=26))
+    assert (finding.code, finding.parameter) == ("geneva.lock", "lock_radius")
+    most = float(re.search(r"at most ([\d.]+)", finding.remedy)[1])
+    assert most < 26
+    assert errors(check(**table, lock_radius=most)) == []
