@@ -93,7 +93,12 @@ def test_the_motion_is_written_where_parts_cannot_be_made(case: str, run: Run, t
     for line in err.splitlines():
         reason = line.partition("] ")[2]
         assert not reason or err.count(reason) == 1
-    assert "motion.html shows joints and lines, no bodies" in err
+    assert (
+        "motion.html shows joints and lines, no bodies; mechwright fix looks for a change that helps" in err
+    )
+    wrong = [line for line in err.splitlines() if ": error [" in line]
+    assert wrong
+    assert not re.search(r"; (set|use|make) ", "".join(wrong)), "nobody has tried that here"
     page = data_of(out / "motion.html")
     assert page["channels"]
     rows = (out / "motion.csv").read_text().splitlines()

@@ -31,7 +31,7 @@ from mechwright_cam.shop.table import settings_of
 from mechwright_cam.slowed import slowed
 
 SLOWED = 3
-"""Rounds in which feeds are lowered to the power of the spindle: the first does nearly all."""
+"""Rounds in which feeds are lowered to what spindle and mills can do: the first does nearly all."""
 
 
 @dataclass(frozen=True)

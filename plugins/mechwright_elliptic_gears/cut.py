@@ -37,6 +37,10 @@ _SMALLER = ({"cam.corner_mill": 1}, {"cam.corner_mill": 0.5})
 """Lets smaller end mills be chosen, for the fillets."""
 
 
+RELIEF = 0.7
+"""Widest relief that is proposed, in widths of the keyway: between two, three tenths of the floor stay."""
+TRIED = 3
+"""Reliefs that are proposed, the widest first: each is tried with all cutters, which takes a second or so."""
 _MILLS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.6, 1.2, 1.0)
 """Diameters of common end mills, mm, which a relief in the corners of a keyway may have."""
 
@@ -110,6 +114,6 @@ def _opening(params: EllipticGearParams, gear: Gear, cut: "shapely.Polygon") -> 
             "mm",
             "set keyway_relief to the diameter of an end mill that cuts the keyway, or add a smaller one",
             proposed=tuple(
-                {"parameters.keyway_relief": size} for size in _MILLS if size <= 0.7 * params.keyway_width
-            )[:3],
+                {"parameters.keyway_relief": size} for size in _MILLS if size <= RELIEF * params.keyway_width
+            )[:TRIED],
         )

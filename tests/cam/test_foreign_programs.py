@@ -11,6 +11,7 @@ from foreign import LONG, THICK, coupler_drawing, coupler_program, freecad_gear
 
 from mechwright.errors import DesignError
 from mechwright_cam.commands.drawing import read_drawing
+from mechwright_cam.commands.verify_drawing import job_of
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PLATE = ("--thickness", "6", "--stock", "20", "--tools", "1=mill-6,2=drill-5", "--control", "linuxcnc")
@@ -139,6 +140,40 @@ def test_it_has_to_be_said_what_is_cut(command_line, tmp_path: Path, drawing: Pa
         assert "say what the program cuts: --design and --part, or --dxf" in err
     code, _, err = command_line("verify", program, "--design", drawing)
     assert "--part: name the part of the design" in err
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ("--thickness", "6"),
+        ("--tools", "1=mill-6"),
+        ("--material", "steel"),
+        ("--hold", "tabs"),
+        ("--stock", "20"),
+        ("--units", "mm"),
+        ("--layers", "CUT"),
+        ("--set", "hold.tabs=3"),
+    ],
+    ids=lambda more: more[0],
+)
+def test_what_a_design_says_is_not_said_again(command_line, tmp_path: Path, drawing: Path, more) -> None:  # type: ignore[no-untyped-def]
+    program = tmp_path / "p.ngc"
+    program.write_text("M2\n")
+    code, _, err = command_line("verify", program, "--design", "d.toml", "--part", "gear", *more)
+    assert code == 2
+    assert f"{more[0]}: only with --dxf" in err
+    code, _, err = verified(command_line, tmp_path, drawing, "M2\n", "--part", "gear")
+    assert code == 2
+    assert "--part: only with --design" in err
+
+
+def test_a_thin_drawing_asks_for_tabs_that_it_has_room_for(drawing: Path) -> None:
+    asked = {"control": "", "material": "", "hold": "", "stock": "", "units": "", "layers": ()}
+    thin = job_of(drawing, 1.0, "1=mill-2", **asked, changes=()).settings.hold
+    assert (thin.method, thin.tab_height) == ("tabs", 0.5)
+    assert job_of(drawing, 6.0, "1=mill-2", **asked, changes=()).settings.hold.tab_height == 1.0
+    said = job_of(drawing, 1.0, "1=mill-2", **asked, changes=("hold.tab_height=0.8",))
+    assert said.settings.hold.tab_height == 0.8
 
 
 # -- drawings ------------------------------------------------------------------------------------------------

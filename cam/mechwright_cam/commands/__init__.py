@@ -61,12 +61,12 @@ class Verify(Command):
             str, typer.Option(metavar="LIST", help="With --dxf: T numbers and cutters, 1=mill-6,2=drill-5.")
         ] = "",
         material: Annotated[
-            str, typer.Option(metavar="NAME", help="With --dxf: of the plate.")
-        ] = "aluminium",
+            str, typer.Option(metavar="NAME", help="With --dxf: of the plate, by default aluminium.")
+        ] = "",
         hold: Annotated[
             str,
-            typer.Option(metavar="HOW", help="With --dxf: tabs, wherever they are, bore, vacuum or tape."),
-        ] = "tabs",
+            typer.Option(metavar="HOW", help="With --dxf: tabs, anywhere, by default; bore, vacuum, tape."),
+        ] = "",
         stock: Annotated[
             str, typer.Option(metavar="SIZE", help="With --dxf: of the plate, 120x80, or its margin, in mm.")
         ] = "",
@@ -96,6 +96,16 @@ class Verify(Command):
         from mechwright_cam.commands import verify
 
         report = verify.Report(as_json, page)
+        drawn = {
+            "thickness": thickness,
+            "tools": tools,
+            "material": material,
+            "hold": hold,
+            "stock": stock,
+            "units": units,
+            "layers": names(layers),
+            "changes": settings,
+        }
         if (design is None) == (dxf is None):
             raise DesignError(
                 "say what the program cuts: --design and --part, or --dxf, --thickness and --tools"
@@ -103,22 +113,14 @@ class Verify(Command):
         if design is not None:
             if not part:
                 raise DesignError("--part: name the part of the design that the program cuts")
+            if told := [name for name, value in drawn.items() if value]:
+                options = ", ".join(f"--{'set' if name == 'changes' else name}" for name in told)
+                raise DesignError(f"{options}: only with --dxf; the design file says it, so leave it out")
             verify.verify(program, design, part, report, control)
         elif dxf is not None:
-            verify.verify_drawing(
-                program,
-                dxf,
-                report,
-                thickness=thickness,
-                tools=tools,
-                control=control,
-                material=material,
-                hold=hold,
-                stock=stock,
-                units=units,
-                layers=names(layers),
-                changes=settings,
-            )
+            if part:
+                raise DesignError("--part: only with --design; a drawing holds one part, so leave it out")
+            verify.verify_drawing(program, dxf, report, control=control, **drawn)
 
 
 @hookimpl

@@ -27,6 +27,8 @@ HOLDS: dict[str, dict[str, Any]] = {
     "tape": {"method": "none", "bed": "tape"},
 }
 """What ``--hold`` may say, and the settings that it stands for."""
+USUAL_MATERIAL, USUAL_HOLD = "aluminium", "tabs"
+"""Where nothing is said."""
 
 
 def job_of(
@@ -46,6 +48,7 @@ def job_of(
 
     Raises DesignError or ToolError that names the option.
     """
+    material, hold = material or USUAL_MATERIAL, hold or USUAL_HOLD
     if not 0 < thickness <= 500:
         raise DesignError(f"--thickness: {thickness:g} mm is no plate; above 0, and 500 mm at most")
     if material not in MATERIALS:
@@ -66,7 +69,9 @@ def job_of(
         return make_job(part, settings, cutters)
     # Tabs are found in the program: none are laid.
     free = settings.model_copy(update={"hold": settings.hold.model_copy(update={"method": "none"})})
-    return replace(make_job(part, free, cutters), settings=settings)
+    job = make_job(part, free, cutters)
+    held = job.settings.hold.model_copy(update={"method": settings.hold.method})
+    return replace(job, settings=job.settings.model_copy(update={"hold": held}))
 
 
 def drawn_scene(text: str | Mapping[str, str], job: Job, host: Host) -> tuple[Scene, list[Rule]]:

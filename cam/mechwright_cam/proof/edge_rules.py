@@ -172,6 +172,10 @@ def against(scene: Scene) -> tuple[int, Tool, float] | None:
         skin = mine.only(
             ~mine.down & (mine.width <= min(SKIN * cam.stock_to_leave + ROUGHING_PLAY, tool.radius / 2))
         )
+        turned = skin.only((skin.side if cam.climb else -skin.side) > ONE_SIDED)
+        turned = turned.only(np.isin(turned.step, _at_walls(scene, turned.step)))
+        if float(turned.path.sum()) <= LASTS * tool.diameter:
+            continue
         skin = skin.only(np.isin(skin.step, _at_walls(scene, skin.step)))
         side = skin.side if cam.climb else -skin.side
         wrong = side > ONE_SIDED

@@ -148,14 +148,21 @@ class Stock:
             return found
         of, tree = self._cut_lines
         widest = max(float(np.nanmax(paths.radius)) - radius, 0.0)
-        middles = shapely.points(paths.end[steps[at], :2])
-        place, line = tree.query(middles, predicate="dwithin", distance=widest)
+        # Passes go down at the same places: each is asked for once.
+        places, where = np.unique(np.round(paths.end[steps[at], :2], 9), axis=0, return_inverse=True)
+        middles, where = shapely.points(places), where.ravel()
+        asked, line = tree.query(middles, predicate="dwithin", distance=widest)
+        order = np.argsort(asked, kind="stable")
+        asked, line = asked[order], line[order]
+        first, last = np.searchsorted(asked, where), np.searchsorted(asked, where, side="right")
+        place = np.repeat(np.arange(at.size), last - first)
+        line = line[np.arange(place.size) - np.repeat(np.cumsum(last - first) - last, last - first)]
         step, cut = steps[at[place]], of[line]
         above = paths.low[step] + lift - np.maximum(paths.start[cut, 2], paths.end[cut, 2])
         spare = paths.cutters(cut).radius_at(above + NEAR) - radius
         sure = np.flatnonzero((cut < step) & (above > -NEAR) & (spare > 0))
         place, line, spare = place[sure], line[sure], spare[sure]
-        found[at[place[shapely.dwithin(tree.geometries[line], middles[place], spare)]]] = True
+        found[at[place[shapely.dwithin(tree.geometries[line], middles[where[place]], spare)]]] = True
         return found
 
     def meets(

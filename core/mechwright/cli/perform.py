@@ -1,6 +1,7 @@
 """What ``solve``, ``model``, ``cam`` and ``build`` share: inspect a build, make its pages, write them."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -56,9 +57,11 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
             raise DesignError(f"{path}: family {build.design.family.name} {empty}")
         step("writing")
         write_folder(folder, output, wanted.command, facts(build.design, found))
+    later = [finding for finding in errors(told) if _later(finding.stage, stage)]
     for finding in told:
         if finding.severity is not Severity.NOTE:
-            tell(path, finding)
+            # What a family advises has not been tried here, and stops nothing.
+            tell(path, replace(finding, remedy="") if finding in later else finding)
     for fault in build.faults:
         tell(path, fault)
     if errors(told) or build.missing:
@@ -66,7 +69,8 @@ def perform(path: Path, folder: Path, wanted: Wanted, stage: Stage, empty: str =
         tell(
             path,
             f"written up to the {stage}; the errors above forbid what follows"
-            + (f": {said}" if said else ""),
+            + (f": {said}" if said else "")
+            + ("; mechwright fix looks for a change that helps" if later else ""),
         )
     typer.echo(f"{folder}: {len(output.files)} files written: {', '.join(sorted(output.files))}")
 
