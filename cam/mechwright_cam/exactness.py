@@ -122,7 +122,6 @@ def _asked(run: Run, number: Ints, tolerances: Mapping[int, float]) -> Run:
 def _off(scene: Scene, run: Run) -> Array:
     """How far (n,) each step may be off the path on any of the machines that this one may be, mm."""
     machine, control = scene.job.settings.machine, scene.control
-    likely = [machine.model_copy(update={"acceleration": share * machine.acceleration}) for share in LIKELY]
-    found = [control.lookahead.off(run, one) for one in likely]
-    found.append(scene.motion.off if run is scene.run else control.lookahead.off(run, machine))
-    return np.asarray(np.max(found, axis=0))
+    own = [] if run is scene.run else [machine.acceleration]
+    off = control.lookahead.off(run, machine, [*own, *(share * machine.acceleration for share in LIKELY)])
+    return np.maximum(off, scene.motion.off) if run is scene.run else off

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
 from test_proof_parts import coordinate, cuts, height, paths_of
 
+from mechwright import arrays
 from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
 from mechwright_cam.controls.linuxcnc import LinuxCnc
@@ -96,9 +97,9 @@ def test_a_repeated_piece_counts_once_at_its_lowest(text: str) -> None:
 
 
 def test_rows_with_one_key_are_still_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gouge, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
+    monkeypatch.setattr(arrays, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
     rows = np.array([[1, 2], [2, 1], [1, 2], [3, 0]])
-    index, kind = gouge._first_of_each(rows)
+    index, kind = arrays.first_of_each(rows)
     assert sorted(index.tolist()) == [0, 1, 3]
     assert rows[index][kind].tolist() == rows.tolist()
 

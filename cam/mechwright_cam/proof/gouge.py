@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
@@ -27,8 +27,6 @@ FIRST_ASKED = 500
 """So many of the lowest moves are asked first; if none of them cuts deep, all others are."""
 MOST_CORNERS = 1_000_000
 """Corners of lines that are looked at together."""
-GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-"""2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,16 +143,7 @@ def kinds(paths: Paths, pieces: Pieces) -> tuple[Ints, Ints]:
             pieces.last,
         )
     )
-    return _first_of_each(np.round(table / NEAR).astype(np.int64))
-
-
-def _first_of_each(rows: Ints) -> tuple[Ints, Ints]:
-    """Index (j,) of the first of each kind of row (n, k), and the kind (n,) of every row."""
-    keys = rows.astype(np.uint64) @ (GOLDEN * np.arange(1, rows.shape[1] + 1, dtype=np.uint64) | np.uint64(1))
-    _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
-    if (rows[index][kind] != rows).any():  # different rows with one key
-        _, index, kind = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return index, kind.reshape(-1)
+    return first_of_each(np.round(table / NEAR).astype(np.int64))
 
 
 def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.reading import Run
@@ -26,8 +26,8 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
 
-TOGETHER = 0.0025
-"""Tools whose reach differs by less, mm, are asked for together at first."""
+SLACK = 0.0005
+"""A path that is meant to touch the part stays so near to it, mm: more than the chords of both are off."""
 
 
 class WidePaths(Paths):
@@ -37,7 +37,8 @@ class WidePaths(Paths):
         self.__dict__.update(copy(paths).__dict__)
         for name in ("radius", "cutter"):
             self.__dict__.pop(name, None)
-        self.off = alike(paths.run, off)
+        self.off = off.copy()
+        self.off[self.steps] = alike(paths.run, off, self.steps)
 
     @cached_property
     def radius(self) -> Array:
@@ -51,21 +52,20 @@ class WidePaths(Paths):
         return replace(own, radius=own.radius + self.off)
 
 
-def alike(run: Run, off: Array) -> Array:
-    """The greatest (n,) of all steps that are the same in plan view: passes repeat at every depth.
+def alike(run: Run, off: Array, steps: Ints) -> Array:
+    """The greatest (m,) of all that are the same in plan view, of some steps: passes repeat at every depth.
 
     Rough and exact passes along one way are told apart: what is off by half as much is not alike.
     """
-    size = NEAR * np.floor(np.log2(np.maximum(off, NEAR)))
-    tool, centre = NEAR * run.tool, np.nan_to_num(run.centre)
-    ways = np.column_stack((tool, run.start[:, :2], run.end[:, :2], centre, run.sweep, size))
+    size, most = np.floor(np.log2(np.maximum(off[steps], NEAR))), off[steps]
+    centre, sweep = np.nan_to_num(run.centre[steps]), run.sweep[steps]
+    ways = np.column_stack((run.start[steps, :2], run.end[steps, :2], centre, sweep))
     with np.errstate(invalid="ignore"):
-        rows = np.round(np.nan_to_num(ways) / NEAR).astype(np.int64)
-    _, kind = np.unique(rows, axis=0, return_inverse=True)
-    kind = kind.reshape(-1)
-    most = np.zeros(int(kind.max(initial=-1)) + 1)
-    np.maximum.at(most, kind, off)
-    return np.asarray(most[kind])
+        rows = np.rint(np.nan_to_num(ways) / NEAR).astype(np.int64)
+    first, kind = first_of_each(np.column_stack((rows, run.tool[steps], size.astype(np.int64))))
+    greatest = np.zeros(first.size)
+    np.maximum.at(greatest, kind, most)
+    return np.asarray(greatest[kind])
 
 
 def deepest_off_path(paths: Paths, job: Job, off: Array) -> Gouge | None:
@@ -145,13 +145,22 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.boo
             # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
             widest = np.argsort(-reach, kind="stable")
             chosen, kind = kinds(paths, pieces.only(widest))
-            roughly = np.ceil(reach[widest[chosen]] / TOGETHER) * TOGETHER
+            one = pieces.only(widest[chosen])
             within = np.zeros(chosen.size, dtype=np.bool_)
-            within[near_ones(keep, paths.lines(pieces.only(widest[chosen])), roughly)] = True
+            within[near_ones(keep, paths.lines(one), _roughly(paths.radius[one.step], more[one.step]))] = True
             close = widest[within[kind]]
             close = close[shapely.dwithin(keep, paths.lines(pieces.only(close)), reach[close])]
             found[pieces.step[close]] = True
     return found
+
+
+def _roughly(radius: Array, more: Array) -> Array:
+    """Reach (m,) of tools, mm, rounded up to two of each radius: what stays inside of a path, and all."""
+    reach = np.zeros(radius.size)
+    for one in np.unique(radius).tolist():
+        for own in ((radius == one) & (more <= -SLACK), (radius == one) & (more > -SLACK)):
+            reach[own] = one + more[own].max(initial=-one)
+    return reach
 
 
 def corridor(paths: Paths, job: Job, off: Array) -> float:

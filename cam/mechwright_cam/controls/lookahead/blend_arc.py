@@ -19,25 +19,26 @@ SHORTEST = 1e-6
 
 @dataclass(frozen=True)
 class BlendArcs:
-    """Arcs between each two of m segments: (m - 1,) speed, mm/s, 0 for none, length and trim, mm."""
+    """Arcs of p kinds of junction: (p,) speed, mm/s, 0 for none, length and trim, mm."""
 
     speed: Array
     length: Array
     trim: Array
 
 
-def blend_arcs(row: Segments, highest: float, cycle: float) -> BlendArcs:
+def blend_arcs(row: Segments, cycle: float) -> BlendArcs:
     """The arc that each corner would get: as wide as P and half of either segment allow.
 
     No faster than along all of it in one servo period, ``cycle``, s. Where an arc of the program bends the
     way that the corner turns, the planner takes its secant, and less of it.
     """
-    before, after = row.last[:-1], row.first[1:]
+    one, two = row.before, row.after
+    before, after = row.last[one], row.first[two]
     turn = np.arccos(np.clip((before * after).sum(axis=1), -1.0, 1.0))
     half = (np.pi - turn) / 2  # between either segment and the middle of the corner
     side = np.sign(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
     theta, reach, within = half.copy(), [], []
-    for mine, most in ((slice(None, -1), 2 / 3), (slice(1, None), 1 / 3)):
+    for mine, most in ((one, 2 / 3), (two, 1 / 3)):
         arc = row.arc[mine]
         inward = arc & (np.sign(row.signed[mine]) == side)
         angle = np.minimum(row.sweep[mine] * most, np.where(inward, half, np.pi / 2))
@@ -46,18 +47,18 @@ def blend_arcs(row: Segments, highest: float, cycle: float) -> BlendArcs:
         arced = np.where(inward, np.sin(angle / 4), angle) * radius
         reach.append(np.where(arc, arced, row.length[mine] / 2))
         within.append(np.where(arc, np.where(inward, -1.0, 1.0), 0.0))
-    tolerance = np.where(row.blend[:-1] > 0, row.blend[:-1], np.inf)
-    tolerance = np.minimum(tolerance, np.minimum(row.length[:-1], row.length[1:]) / 4)
+    tolerance = np.where(row.blend[one] > 0, row.blend[one], np.inf)
+    tolerance = np.minimum(tolerance, np.minimum(row.length[one], row.length[two]) / 4)
     theta = np.clip(theta, 1e-6, np.pi / 2 - 1e-6)
     along = np.minimum(np.minimum(*reach), np.cos(theta) * tolerance / (1 - np.sin(theta)))
     widest = np.tan(theta) * along
-    across = NORMAL * highest
-    speed = np.minimum(np.sqrt(across * widest), np.maximum(row.speed[:-1], row.speed[1:]))
-    slow = highest / 2
+    across = NORMAL * row.highest
+    speed = np.minimum(np.sqrt(across * widest), np.maximum(row.speed[one], row.speed[two]))
+    slow = row.highest / 2
     lasts = np.minimum(np.sqrt(2 * slow * along), speed) / slow
     bend = np.pi - 2 * theta
     radius = np.maximum(speed**2 / across, np.minimum(lasts * speed / bend, widest))
-    curved = row.arc[:-1] | row.arc[1:]
+    curved = row.arc[one] | row.arc[two]
     level = (np.abs(before[:, 2]) < FLAT) & (np.abs(after[:, 2]) < FLAT)
     able = (radius * bend > SHORTEST) & (turn > 2e-6) & (~curved | level)
     trim = radius / np.tan(theta)
@@ -74,14 +75,15 @@ def _fitted(
 ) -> tuple[NDArray[np.bool_], Array, Array]:
     """Whether a circle (k,) touches both segments within the tolerance; what it takes of them; its angle.
 
-    ``within``: of either segment 1 for an arc that the circle touches from outside, -1 from inside, 0 for a
-    line.
+    ``at``: kinds of junction. ``within``: of either segment 1 for an arc that the circle touches from
+    outside, -1 from inside, 0 for a line.
     """
-    one, two = row.last[at, :2], row.first[at + 1, :2]
+    before, after = row.before[at], row.after[at]
     # What the circle's middle keeps from: so far from a centre, or from a line as if its centre were far
     # away.
     centres, keeps, owns = [], [], []
-    for tangent, index, bends in ((one, at, within[0]), (two, at + 1, within[1])):
+    for tangents, index, bends in ((row.last, before, within[0]), (row.first, after, within[1])):
+        tangent = tangents[index, :2]
         left = np.column_stack((-tangent[:, 1], tangent[:, 0]))
         line = bends == 0
         own = np.where(line, FAR, row.radius[index])

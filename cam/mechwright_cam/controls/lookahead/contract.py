@@ -1,7 +1,10 @@
 """The contract of a look-ahead: what a control makes of the moves that it is given."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.run import Run
@@ -31,6 +34,10 @@ class Lookahead(ABC):
     def motion(self, run: Run, machine: Machine) -> Motion:
         """What becomes of a run."""
 
-    def off(self, run: Run, machine: Machine) -> Array:
-        """How far (n,) the tool may be off the path alone, for those whose look-ahead knows that sooner."""
-        return self.motion(run, machine).off
+    def off(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> Array:
+        """How far (n,) the tool may be off the path at most with some accelerations, m/s², of a machine.
+
+        For those whose look-ahead knows that sooner than all of the motion.
+        """
+        every = (machine.model_copy(update={"acceleration": one}) for one in accelerations)
+        return np.asarray(np.maximum.reduce([self.motion(run, one).off for one in every]))

@@ -17,18 +17,20 @@ over any length here, the control's fifty. It merges lines that a line within Q 
 number is not followed here.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright_cam.controls.lookahead.blend_arc import blend_arcs
 from mechwright_cam.controls.lookahead.contract import Lookahead, Motion
-from mechwright_cam.controls.lookahead.overlap import Overlaps, half_sine, overlaps
+from mechwright_cam.controls.lookahead.course import course
+from mechwright_cam.controls.lookahead.overlap import Overlaps, half_sine
 from mechwright_cam.controls.lookahead.segments import NORMAL, Segments, segments
 from mechwright_cam.controls.lookahead.speeds import reached, seconds
-from mechwright_cam.controls.reading.run import Run
+from mechwright_cam.controls.reading.run import Ints, Run
 from mechwright_cam.shop.machine import Machine
 
 SERVO_S = 1e-3
@@ -54,22 +56,22 @@ STOP_CYCLES = 1.0
 
 @dataclass(frozen=True)
 class Junctions:
-    """How the planner goes from each of m segments to the next; the last has none.
+    """How the planner goes from one segment to the next, in p kinds of junction.
 
     Parameters
     ----------
     speed
-        (m - 1,) greatest speed there, mm/s; 0 for a stop or an overlap.
+        (p,) greatest speed there, mm/s; 0 for a stop or an overlap.
     kink
-        (m - 1,) share of the acceleration of both segments that a kink takes.
+        (p,) share of the acceleration of both segments that a kink takes.
     overlap
-        (m - 1,) bool.
+        (p,) bool.
     may_overlap, may_round
-        (m - 1,) bool: an overlap, or an arc, or so nearly one that the planner may decide otherwise.
+        (p,) bool: an overlap, or an arc, or so nearly one that the planner may decide otherwise.
     sine
-        (m - 1,) of half the turn, as overlaps see it.
+        (p,) of half the turn, as overlaps see it.
     arc_length, trim
-        (m - 1,) of blend arcs, mm: how long, and what they take of either segment; else 0.
+        (p,) of blend arcs, mm: how long, and what they take of either segment; else 0.
     """
 
     speed: Array
@@ -87,68 +89,108 @@ class Planner(Lookahead):
 
     def motion(self, run: Run, machine: Machine) -> Motion:
         """Times and deviations by the rules."""
-        row = segments(run, machine, SERVO_S)
-        if not row.step.size:
-            return Motion(np.zeros(len(run)), run.of_states(lambda state: state.off_path))
-        took, highest = np.zeros(len(run)), machine.acceleration * 1000.0
-        going = _Going(row, highest)
-        over = overlaps(row, going.rate, going.met.overlap, going.speed, sine=going.met.sine)
-        took[row.step] = _times(row, going.met, over, going.rate, going.speed, highest)
-        return Motion(took, going.deviations(run))
+        way, took, off = course(run, machine), np.zeros(len(run)), _merged(run)
+        if way.step.size:
+            going = _Going(segments(way, machine, machine.acceleration, SERVO_S))
+            took[way.step] = going.seconds()
+            off[way.step] += going.off()
+        return Motion(took, off)
 
-    def off(self, run: Run, machine: Machine) -> Array:
+    def off(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> Array:
         """Deviations alone."""
-        row = segments(run, machine, SERVO_S)
-        if not row.step.size:
-            return np.asarray(run.of_states(lambda state: state.off_path))
-        return _Going(row, machine.acceleration * 1000.0).deviations(run)
+        way, off = course(run, machine), _merged(run)
+        if way.step.size:
+            every = (_Going(segments(way, machine, one, SERVO_S)).off() for one in accelerations)
+            off[way.step] += np.maximum.reduce(list(every))
+        return off
+
+
+def _merged(run: Run) -> Array:
+    """How far (n,) the tool may be off because lines have been merged, mm."""
+    return np.asarray(run.of_states(lambda state: state.off_path - state.blend), dtype=np.float64)
 
 
 class _Going:
     """How segments follow on each other: junctions, and what of the acceleration is left along the path."""
 
-    def __init__(self, row: Segments, highest: float) -> None:
-        self.row, self.highest = row, highest
-        self.met = met = junctions(row, highest)
-        lagging = np.concatenate((met.overlap | _at_end(row)[:-1], [True]))
-        follows = np.concatenate(([False], met.overlap))
-        kink = np.maximum(np.append(met.kink, 0.0), np.append(0.0, met.kink))
-        self.slowed = lagging & ~row.exact & ~row.stop | follows
-        rate = row.acceleration * (1 - kink) * np.where(self.slowed, 0.5, 1.0)
-        fastest, self.rate = _on_arcs(row, rate)
-        self.speed = np.minimum(row.asked, fastest)
+    def __init__(self, row: Segments) -> None:
+        self.row = row
+        self.met = met = junctions(row)
+        overlap, kink = met.overlap[row.junction], met.kink[row.junction]
+        kink = np.maximum(np.append(kink, 0.0), np.append(0.0, kink))
+        lagging = np.append(overlap, True) | row.at_end
+        self.slowed = lagging & ~(row.exact | row.stop)[row.kind] | np.append(False, overlap)
+        self.rate, self.speed = _along(row, kink, self.slowed)
 
-    def deviations(self, run: Run) -> Array:
-        """How far (n,) the tool may be off in each step, mm."""
-        met, halved = self.met, np.where(self.slowed, self.rate, self.rate / 2)
-        wide = overlaps(self.row, halved, met.may_overlap, self.speed, late=LATE_S, sine=met.sine).off
-        return _deviations(run, self.row, met, wide, self.highest)
+    def off(self) -> Array:
+        """How far (m,) the tool may be off in each segment, mm: at the worse of its two ends."""
+        row, met = self.row, self.met
+        rounding = np.where(row.blend > 0, row.blend, np.inf)[row.before]
+        between = np.where(met.may_round, rounding, 0.0)[row.junction]
+        at = np.flatnonzero(met.may_overlap[row.junction])
+        if at.size:
+            halved = np.where(self.slowed, self.rate, self.rate / 2)
+            both = np.stack((halved[at], halved[at + 1]))
+            one, alike = first_of_each(np.vstack((row.junction[at], both.view(np.int64))).T)
+            wide = self._overlaps(at[one], both[:, one]).off(LATE_S)
+            between[at] = np.maximum(between[at], MEASURED * wide[alike])
+        worse = np.maximum(np.append(between, 0.0), np.append(0.0, between))
+        chord = NORMAL * row.highest * SERVO_S**2 / 8  # between two samples on an arc
+        return np.asarray(worse + chord + LAST_DIGIT)
+
+    def seconds(self) -> Array:
+        """Time (m,) of each segment, s; a blend arc counts with the segment before it."""
+        row, met, count = self.row, self.met, self.row.step.size
+        through, trim = met.speed[row.junction], met.trim[row.junction]
+        # Segment, blend, segment, blend, ..., segment.
+        length, caps = np.zeros(2 * count - 1), np.zeros(2 * count - 1)
+        rates = np.full(2 * count - 1, TANGENTIAL * row.highest)
+        length[::2], rates[::2], caps[::2] = row.length[row.kind], self.rate, self.speed
+        length[:-1:2] -= trim
+        length[2::2] -= trim
+        length[::2] = np.maximum(length[::2], 0.0)
+        length[1::2], caps[1::2] = met.arc_length[row.junction], through
+        ends = np.zeros(2 * count)
+        ends[1:-1:2] = ends[2:-1:2] = np.minimum(through, np.minimum(self.speed[:-1], self.speed[1:]))
+        # The last segment of a queue may still be cut short: it is entered no faster than it could be left.
+        last = np.flatnonzero(row.at_end & (np.arange(count) > 0))
+        shortest = np.sqrt(self.rate[last] * row.length[row.kind[last]])
+        ends[2 * last] = np.minimum(ends[2 * last], shortest)
+        took = seconds(length, rates, caps, reached(length, rates, ends))
+        total = took[::2].copy()
+        total[:-1] += took[1::2]
+        overlap = met.overlap[row.junction]
+        at = np.flatnonzero(overlap)
+        total[at] -= self._overlaps(at, np.stack((self.rate[at], self.rate[at + 1]))).seconds
+        total[np.append((through == 0) & ~overlap, True)] += STOP_CYCLES * SERVO_S
+        return total
+
+    def _overlaps(self, at: Ints, rate: Array) -> Overlaps:
+        """Those between some segments (q,) and the next ones."""
+        row, junction = self.row, self.row.junction[at]
+        speed = np.stack((self.speed[at], self.speed[at + 1]))
+        return Overlaps(row, row.kind[at], row.kind[at + 1], rate, speed, self.met.sine[junction])
 
 
-def junctions(row: Segments, highest: float) -> Junctions:
-    """The ways that the planner chooses; ``highest``: acceleration of an axis, mm/s²."""
-    before, after = row.last[:-1], row.first[1:]
-    both = row.queue[1:] == row.queue[:-1]
-    runs_on = both & (row.rapid[1:] == row.rapid[:-1]) & ~row.stop[:-1]
+def junctions(row: Segments) -> Junctions:
+    """The ways that the planner chooses."""
+    one, two = row.before, row.after
+    before, after, fastest = row.last[one], row.first[two], row.speed
+    runs_on = row.both & (row.rapid[one] == row.rapid[two]) & ~row.stop[one]
     runs_on &= np.sqrt(((before + after) ** 2).sum(axis=1)) >= SHARP
-    speed = np.minimum(row.speed[:-1], row.speed[1:])
+    speed = np.minimum(fastest[one], fastest[two])
     bend = np.abs(after - before).max(axis=1)
-    share = bend * (speed / SERVO_S + row.acceleration[1:]) / highest
-    share[row.arc[:-1] | row.arc[1:]] /= TANGENTIAL
+    share = bend * (speed / SERVO_S + row.acceleration[two]) / row.highest
+    share[row.arc[one] | row.arc[two]] /= TANGENTIAL
     tangent = runs_on & (share < KINK)
     slower = speed * np.minimum(1.0, KINK / np.maximum(share, 1e-12))
-    arcs = blend_arcs(row, highest, SERVO_S)
+    arcs = blend_arcs(row, SERVO_S)
     sine = half_sine(row)
-    lapping = overlaps(
-        row,
-        row.acceleration * 0.5 * (1 - KINK) * np.where(row.arc, TANGENTIAL, 1.0),
-        runs_on,
-        row.speed,
-        planned=True,
-        sine=sine,
-    )
-    free = runs_on & ~tangent & ~row.exact[:-1]
-    performance = np.stack((lapping.performance / 2, slower, np.where(free, arcs.speed, 0.0)))
+    either = np.stack((one, two))
+    rate = (row.acceleration * 0.5 * (1 - KINK) * np.where(row.arc, TANGENTIAL, 1.0))[either]
+    lapping = np.where(runs_on, Overlaps(row, one, two, rate, fastest[either], sine, 0.5).performance, 0.0)
+    free = runs_on & ~tangent & ~row.exact[one]
+    performance = np.stack((lapping / 2, slower, np.where(free, arcs.speed, 0.0)))
     best, nearly = np.argmax(performance, axis=0), NEARLY * performance.max(axis=0)
     overlap, kinked, arc = (free & (best == k) for k in range(3))
     return Junctions(
@@ -163,65 +205,16 @@ def junctions(row: Segments, highest: float) -> Junctions:
     )
 
 
-def _at_end(row: Segments) -> NDArray[np.bool_]:
-    """(m,) whether a segment is the last one of its queue."""
-    return np.append(row.queue[1:] != row.queue[:-1], True)
-
-
-def _on_arcs(row: Segments, rate: Array) -> tuple[Array, Array]:
-    """Greatest speed (m,) and acceleration along the path (m,): arcs share theirs with the way round."""
-    radius = np.where(row.arc, _effective(row), np.inf)
-    across = row.most**2 / radius
-    fast = across > NORMAL * rate * (1 - 1e-9)
-    most = np.where(
-        row.arc & fast,
-        np.minimum(row.most, np.sqrt(NORMAL * rate * np.where(row.arc, radius, 0.0))),
-        row.most,
-    )
-    share = np.where(fast, TANGENTIAL, np.sqrt(np.maximum(1 - (across / rate) ** 2, 0.0)))
-    return most, np.where(row.arc, rate * share, rate)
-
-
-def _effective(row: Segments) -> Array:
-    """Radius of curvature (m,) of helices, mm."""
+def _along(row: Segments, kink: Array, slowed: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Acceleration (m,) along the path and speed (m,): arcs share theirs with the way round."""
+    rate = row.acceleration[row.kind] * (1 - kink) * np.where(slowed, 0.5, 1.0)
+    speed = np.minimum(row.asked, row.most)[row.kind]
+    at = np.flatnonzero(row.arc[row.kind])
+    kind, own = row.kind[at], rate[at]
     climb = np.sqrt(np.maximum(row.length**2 - (row.sweep * np.where(row.arc, row.radius, 0.0)) ** 2, 0.0))
-    return np.asarray(row.radius + climb**2 / row.radius)
-
-
-def _times(row: Segments, met: Junctions, over: Overlaps, rate: Array, speed: Array, highest: float) -> Array:
-    """Time (m,) of each segment, s; a blend arc counts with the segment before it."""
-    count = row.step.size
-    # Segment, blend, segment, blend, ..., segment.
-    length, rates, caps = (
-        np.zeros(2 * count - 1),
-        np.full(2 * count - 1, TANGENTIAL * highest),
-        np.zeros(2 * count - 1),
-    )
-    length[::2], rates[::2], caps[::2] = row.length, rate, speed
-    length[:-1:2] -= met.trim
-    length[2::2] -= met.trim
-    length[::2] = np.maximum(length[::2], 0.0)
-    length[1::2], caps[1::2] = met.arc_length, met.speed
-    ends = np.zeros(2 * count)
-    ends[1:-1:2] = ends[2:-1:2] = np.minimum(met.speed, np.minimum(speed[:-1], speed[1:]))
-    # The last segment of a queue may still be cut short: it is entered no faster than it could be left.
-    last = np.flatnonzero(_at_end(row) & (np.arange(count) > 0))
-    ends[2 * last] = np.minimum(ends[2 * last], np.sqrt(rate[last] * row.length[last]))
-    took = seconds(length, rates, caps, reached(length, rates, ends))
-    total = took[::2].copy()
-    total[:-1] += took[1::2]
-    total[:-1] -= over.seconds
-    stands = np.append(met.speed == 0, True) & ~np.append(met.overlap, False)
-    return np.asarray(total + stands * STOP_CYCLES * SERVO_S)
-
-
-def _deviations(run: Run, row: Segments, met: Junctions, overlapping: Array, highest: float) -> Array:
-    """How far (n,) the tool may be off in each step, mm: by merging, and at the worse of its two ends."""
-    merged = run.of_states(lambda state: state.off_path - state.blend)
-    rounding = np.where(row.blend[:-1] > 0, row.blend[:-1], np.inf)
-    between = np.maximum(np.where(met.may_round, rounding, 0.0), MEASURED * overlapping)
-    worse = np.maximum(np.append(between, 0.0), np.append(0.0, between))
-    off = np.array(merged)
-    chord = NORMAL * highest * SERVO_S**2 / 8  # between two samples on an arc
-    off[row.step] += worse + chord + LAST_DIGIT
-    return off
+    radius = (row.radius + climb**2 / row.radius)[kind]  # of curvature: that of a helix is larger
+    across = row.most[kind] ** 2 / radius
+    fast = across > NORMAL * own * (1 - 1e-9)
+    speed[at] = np.where(fast, np.minimum(speed[at], np.sqrt(NORMAL * own * radius)), speed[at])
+    rate[at] *= np.where(fast, TANGENTIAL, np.sqrt(np.maximum(1 - (across / own) ** 2, 0.0)))
+    return rate, speed
