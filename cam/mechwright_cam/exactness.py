@@ -5,7 +5,7 @@ finishing pass together with what its path cuts stays within the limit of a goug
 be off by more than it is asked for, it is to go exactly to every corner.
 """
 
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from itertools import count
 
@@ -31,29 +31,39 @@ BUDGET = TOLERANCES.gouge - 0.1 * TOLERANCES.arc_fit
 """Most that path and control may cut together, mm: less than the proof's limit by the last digits."""
 
 
-def posted(program: Program, job: Job, control: Control) -> tuple[Program, dict[str, str], Scene]:
+def posted(
+    program: Program, job: Job, control: Control, before: Scene | None = None
+) -> tuple[Program, dict[str, str], Scene]:
     """A program with a tolerance for each operation, its files, and what the proof looks at.
 
-    Each is the loosest that keeps its tool out of the part; what finishes walls begins with the second. Holes
-    and details are left as the control is usually asked for: nothing is won there.
+    Each is the loosest that keeps its tool out of the part; what finishes walls begins with the second, and
+    what has a tolerance with that. Holes and details are left as the control is usually asked for: nothing
+    is won there. ``before``: of a program with the same moves, if there was one.
     """
-    levels, clearing = control.tolerances, frozenset[int]()
+    levels, doubtful = control.tolerances, set[int]()
     if levels and not program.posting.exact_stop:
-        every = [
-            (section.tool, operation) for section in program.sections for operation in section.operations
-        ]
-        clearing = frozenset(n for n, (tool, operation) in enumerate(every) if _clears(tool, operation))
-        walls = {n: every[n][1].name.endswith(WALLS) for n in clearing}
-        program = _with(program, {n: levels[:-1][: 1 + walls[n]][-1] for n in clearing})
-    files, scene = _written(program, job, control)
-    exact = _settled(program, scene, clearing) if clearing else program
-    return (program, files, scene) if exact is program else (exact, *_written(exact, job, control))
+        loosest: dict[int, float] = {}
+        every = ((section.tool, operation) for section in program.sections for operation in section.operations)
+        for n, (tool, operation) in enumerate(every):
+            if _clears(tool, operation) and operation.tolerance != levels[-1]:
+                doubtful.add(n)
+                if operation.tolerance is None:
+                    loosest[n] = levels[:-1][: 1 + operation.name.endswith(WALLS)][-1]
+        program = _with(program, loosest)
+    files, scene = _written(program, job, control, before)
+    exact = _settled(program, scene, doubtful) if doubtful else program
+    return (program, files, scene) if exact is program else (exact, *_written(exact, job, control, scene))
 
 
-def _written(program: Program, job: Job, control: Control) -> tuple[dict[str, str], Scene]:
+def _written(
+    program: Program, job: Job, control: Control, before: Scene | None
+) -> tuple[dict[str, str], Scene]:
     files = control.files(program)
     named = {name + control.suffix: text for name, text in files.items()}
-    return files, Scene(named if len(files) > 1 else next(iter(files.values())), job, control)
+    scene = Scene(named if len(files) > 1 else next(iter(files.values())), job, control)
+    if before is not None and control.tolerances:
+        scene.off_path.learn(before.off_path)
+    return files, scene
 
 
 def _settled(program: Program, scene: Scene, doubtful: Set[int]) -> Program:
@@ -66,7 +76,7 @@ def _settled(program: Program, scene: Scene, doubtful: Set[int]) -> Program:
         return _with(program, dict.fromkeys(doubtful, levels[-1]))
     number = np.searchsorted(starts, np.arange(len(run)), side="right") - 1
     finer: dict[int, float] = {}
-    off = _off(scene, run)
+    off = _most([motion.off for motion in scene.motions(LIKELY)])
     while doubtful:
         steps = scene.paths.steps[np.isin(number[scene.paths.steps], list(doubtful))]
         loose: set[int] = set()
@@ -80,7 +90,8 @@ def _settled(program: Program, scene: Scene, doubtful: Set[int]) -> Program:
             finer[one] = max(level for level in levels if now is None or level < now)
         doubtful = {one for one in loose if finer[one] > levels[-1]}
         if doubtful:
-            off = _off(scene, _asked(run, number, {one: finer[one] for one in doubtful}))
+            again = np.flatnonzero(np.isin(number, list(doubtful)))
+            off[again] = _off(scene, _asked(run.only(again), number[again], finer))
     return _with(program, finer) if finer else program
 
 
@@ -121,7 +132,10 @@ def _asked(run: Run, number: Ints, tolerances: Mapping[int, float]) -> Run:
 
 def _off(scene: Scene, run: Run) -> Array:
     """How far (n,) each step may be off the path on any of the machines that this one may be, mm."""
-    machine, control = scene.job.settings.machine, scene.control
-    own = [] if run is scene.run else [machine.acceleration]
-    off = control.lookahead.off(run, machine, [*own, *(share * machine.acceleration for share in LIKELY)])
-    return np.maximum(off, scene.motion.off) if run is scene.run else off
+    machine = scene.job.settings.machine
+    accelerations = [share * machine.acceleration for share in (1.0, *LIKELY)]
+    return _most([motion.off for motion in scene.control.lookahead.motions(run, machine, accelerations)])
+
+
+def _most(values: Sequence[Array]) -> Array:
+    return np.asarray(np.max(values, axis=0))

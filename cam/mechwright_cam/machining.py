@@ -191,7 +191,7 @@ def machine(
         gentler = slowed(program, scene)
         if gentler is None:
             break
-        program, files, scene = posted(gentler, job, control)
+        program, files, scene = posted(gentler, job, control, scene)
     proof = judge(scene, rules)
     proof.require()
     return Machined(job, program, files, proof, scene)

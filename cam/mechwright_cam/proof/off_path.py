@@ -26,6 +26,8 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
 
+WAYS = ("kind", "start", "end", "centre", "sweep", "tool")
+"""What of a run tells where its tools are."""
 SLACK = 0.0005
 """A path that is meant to touch the part stays so near to it, mm: more than the chords of both are off."""
 
@@ -108,6 +110,14 @@ class OffPath:
         self._clear = np.full(len(paths.run), -np.inf)
         self._limit = 0.0
 
+    def learn(self, other: "OffPath") -> None:
+        """Take over what another one has found clear, if it is of the same moves around the same part."""
+        mine, its = self.paths.run, other.paths.run
+        if self.job is other.job and all(
+            np.array_equal(getattr(mine, name), getattr(its, name), equal_nan=True) for name in WAYS
+        ):
+            self._clear, self._limit = other._clear.copy(), other._limit
+
     def too_deep(self, off: Array, limit: float, steps: Ints | None = None) -> NDArray[np.bool_]:
         """As :func:`too_deep`, of some steps or of all."""
         if limit < self._limit:
@@ -145,12 +155,14 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.boo
             # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
             widest = np.argsort(-reach, kind="stable")
             chosen, kind = kinds(paths, pieces.only(widest))
-            one = pieces.only(widest[chosen])
+            one, wide = pieces.only(widest[chosen]), reach[widest[chosen]]
+            lines = paths.lines(one)
+            close = near_ones(keep, lines, _roughly(paths.radius[one.step], more[one.step]))
             within = np.zeros(chosen.size, dtype=np.bool_)
-            within[near_ones(keep, paths.lines(one), _roughly(paths.radius[one.step], more[one.step]))] = True
-            close = widest[within[kind]]
-            close = close[shapely.dwithin(keep, paths.lines(pieces.only(close)), reach[close])]
-            found[pieces.step[close]] = True
+            within[close] = shapely.dwithin(keep, lines[close], wide[close])
+            some = widest[within[kind]]
+            some = some[shapely.dwithin(keep, lines[kind[within[kind]]], reach[some])]
+            found[pieces.step[some]] = True
     return found
 
 

@@ -1,6 +1,6 @@
 """What all rules look at."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -64,7 +64,15 @@ class Scene:
     @cached_property
     def motion(self) -> Motion:
         """How the control runs through the moves: how long, and how far off the path."""
-        return self.control.lookahead.motion(self.run, self.job.settings.machine)
+        return self.motions(())[0]
+
+    def motions(self, shares: Sequence[float]) -> list[Motion]:
+        """That, and what it were with some shares of the machine's acceleration."""
+        machine = self.job.settings.machine
+        accelerations = [machine.acceleration, *(share * machine.acceleration for share in shares)]
+        found = self.control.lookahead.motions(self.run, machine, accelerations)
+        self.__dict__["motion"] = found[0]  # in passing
+        return found
 
     @cached_property
     def paths(self) -> Paths:

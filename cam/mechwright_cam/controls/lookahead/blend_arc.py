@@ -52,9 +52,9 @@ def blend_arcs(row: Segments, cycle: float) -> BlendArcs:
     theta = np.clip(theta, 1e-6, np.pi / 2 - 1e-6)
     along = np.minimum(np.minimum(*reach), np.cos(theta) * tolerance / (1 - np.sin(theta)))
     widest = np.tan(theta) * along
-    across = NORMAL * row.highest
+    across = NORMAL * row.highest[one]
     speed = np.minimum(np.sqrt(across * widest), np.maximum(row.speed[one], row.speed[two]))
-    slow = row.highest / 2
+    slow = row.highest[one] / 2
     lasts = np.minimum(np.sqrt(2 * slow * along), speed) / slow
     bend = np.pi - 2 * theta
     radius = np.maximum(speed**2 / across, np.minimum(lasts * speed / bend, widest))

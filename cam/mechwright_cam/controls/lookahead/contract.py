@@ -4,8 +4,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from mechwright.arrays import Array
 from mechwright_cam.controls.reading.run import Run
 from mechwright_cam.shop.machine import Machine
@@ -34,10 +32,7 @@ class Lookahead(ABC):
     def motion(self, run: Run, machine: Machine) -> Motion:
         """What becomes of a run."""
 
-    def off(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> Array:
-        """How far (n,) the tool may be off the path at most with some accelerations, m/s², of a machine.
-
-        For those whose look-ahead knows that sooner than all of the motion.
-        """
+    def motions(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> list[Motion]:
+        """What becomes of it with each of some accelerations, m/s², of a machine."""
         every = (machine.model_copy(update={"acceleration": one}) for one in accelerations)
-        return np.asarray(np.maximum.reduce([self.motion(run, one).off for one in every]))
+        return [self.motion(run, one) for one in every]

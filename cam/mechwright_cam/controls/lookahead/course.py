@@ -95,6 +95,24 @@ class Course:
         """(k,) angle of an arc, rad."""
         return np.abs(self.signed)
 
+    def repeated(self, count: int) -> "Course":
+        """All of it so many times, one after the other and each in queues of its own."""
+        which, kinds, junctions = np.arange(count)[:, None], self.length.size, self.before.size
+        of_kinds = ("length", "radius", "signed", "rapid", "exact", "stop", "blend", "feed")
+        # From the end of one copy to the beginning of the next: a kind of junction for each.
+        seams = np.column_stack((self.kind[-1:] + which[:-1] * kinds, self.kind[:1] + which[1:] * kinds))
+        return Course(
+            step=np.tile(self.step, count),
+            kind=(self.kind + which * kinds).ravel(),
+            queue=(self.queue + which * (int(self.queue.max(initial=0)) + 1)).ravel(),
+            junction=np.hstack((self.junction + which * junctions, junctions * count + which)).ravel()[:-1],
+            before=np.append(self.before + which * kinds, seams[:, 0]),
+            after=np.append(self.after + which * kinds, seams[:, 1]),
+            both=np.append(np.tile(self.both, count), np.zeros(count - 1, dtype=np.bool_)),
+            **{name: np.tile(getattr(self, name), count) for name in of_kinds},
+            **{name: np.tile(getattr(self, name), (count, 1)) for name in ("chord", "first", "last")},
+        )
+
 
 def course(run: Run, machine: Machine) -> Course:
     """The segments of a run: what does not depend on how fast the machine is."""

@@ -89,20 +89,18 @@ class Planner(Lookahead):
 
     def motion(self, run: Run, machine: Machine) -> Motion:
         """Times and deviations by the rules."""
-        way, took, off = course(run, machine), np.zeros(len(run)), _merged(run)
-        if way.step.size:
-            going = _Going(segments(way, machine, machine.acceleration, SERVO_S))
-            took[way.step] = going.seconds()
-            off[way.step] += going.off()
-        return Motion(took, off)
+        return self.motions(run, machine, [machine.acceleration])[0]
 
-    def off(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> Array:
-        """Deviations alone."""
-        way, off = course(run, machine), _merged(run)
+    def motions(self, run: Run, machine: Machine, accelerations: Sequence[float]) -> list[Motion]:
+        """The same with several accelerations, of which each is a machine of its own."""
+        way = course(run, machine)
+        took = np.zeros((len(accelerations), len(run)))
+        off = np.tile(_merged(run), (len(accelerations), 1))
         if way.step.size:
-            every = (_Going(segments(way, machine, one, SERVO_S)).off() for one in accelerations)
-            off[way.step] += np.maximum.reduce(list(every))
-        return off
+            going = _Going(segments(way, machine, accelerations, SERVO_S))
+            took[:, way.step] = going.seconds().reshape(len(accelerations), -1)
+            off[:, way.step] += going.off().reshape(len(accelerations), -1)
+        return [Motion(*both) for both in zip(took, off, strict=True)]
 
 
 def _merged(run: Run) -> Array:
@@ -135,7 +133,7 @@ class _Going:
             wide = self._overlaps(at[one], both[:, one]).off(LATE_S)
             between[at] = np.maximum(between[at], MEASURED * wide[alike])
         worse = np.maximum(np.append(between, 0.0), np.append(0.0, between))
-        chord = NORMAL * row.highest * SERVO_S**2 / 8  # between two samples on an arc
+        chord = NORMAL * row.highest[row.kind] * SERVO_S**2 / 8  # between two samples on an arc
         return np.asarray(worse + chord + LAST_DIGIT)
 
     def seconds(self) -> Array:
@@ -143,13 +141,13 @@ class _Going:
         row, met, count = self.row, self.met, self.row.step.size
         through, trim = met.speed[row.junction], met.trim[row.junction]
         # Segment, blend, segment, blend, ..., segment.
-        length, caps = np.zeros(2 * count - 1), np.zeros(2 * count - 1)
-        rates = np.full(2 * count - 1, TANGENTIAL * row.highest)
+        length, rates, caps = (np.zeros(2 * count - 1) for _ in range(3))
         length[::2], rates[::2], caps[::2] = row.length[row.kind], self.rate, self.speed
         length[:-1:2] -= trim
         length[2::2] -= trim
         length[::2] = np.maximum(length[::2], 0.0)
         length[1::2], caps[1::2] = met.arc_length[row.junction], through
+        rates[1::2] = TANGENTIAL * row.highest[row.kind[:-1]]
         ends = np.zeros(2 * count)
         ends[1:-1:2] = ends[2:-1:2] = np.minimum(through, np.minimum(self.speed[:-1], self.speed[1:]))
         # The last segment of a queue may still be cut short: it is entered no faster than it could be left.
@@ -180,7 +178,7 @@ def junctions(row: Segments) -> Junctions:
     runs_on &= np.sqrt(((before + after) ** 2).sum(axis=1)) >= SHARP
     speed = np.minimum(fastest[one], fastest[two])
     bend = np.abs(after - before).max(axis=1)
-    share = bend * (speed / SERVO_S + row.acceleration[two]) / row.highest
+    share = bend * (speed / SERVO_S + row.acceleration[two]) / row.highest[one]
     share[row.arc[one] | row.arc[two]] /= TANGENTIAL
     tangent = runs_on & (share < KINK)
     slower = speed * np.minimum(1.0, KINK / np.maximum(share, 1e-12))

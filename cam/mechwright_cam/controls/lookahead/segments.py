@@ -1,5 +1,6 @@
 """How fast each segment may be run, and with how much acceleration along it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 
@@ -16,7 +17,7 @@ NORMAL = np.sqrt(0.75)
 
 @dataclass(frozen=True)
 class Segments(Course):
-    """Segments on a machine.
+    """Segments on machines.
 
     Parameters
     ----------
@@ -25,13 +26,13 @@ class Segments(Course):
     acceleration
         (k,) along the path, mm/s², if nothing else takes any.
     highest
-        Acceleration of an axis, mm/s².
+        (k,) acceleration of an axis, mm/s².
     """
 
     asked: Array
     most: Array
     acceleration: Array
-    highest: float
+    highest: Array
 
     @cached_property
     def speed(self) -> Array:
@@ -39,9 +40,10 @@ class Segments(Course):
         return np.minimum(self.asked, self.most)
 
 
-def segments(way: Course, machine: Machine, acceleration: float, cycle: float) -> Segments:
-    """The segments on a machine with an ``acceleration``, m/s², whose servo period is ``cycle``, s."""
-    highest = acceleration * 1000.0
+def segments(way: Course, machine: Machine, accelerations: Sequence[float], cycle: float) -> Segments:
+    """The segments on a machine with each of some accelerations, m/s²; servo period ``cycle``, s."""
+    highest = np.repeat(1000.0 * np.array(accelerations), way.length.size)
+    way = way.repeated(len(accelerations))
     z = machine.rapid if machine.rapid_z is None else machine.rapid_z
     axes = np.array((machine.rapid, machine.rapid, z)) / 60
     chord = np.abs(way.chord)
