@@ -43,7 +43,7 @@ def posted(
     levels, doubtful = control.tolerances, set[int]()
     if levels and not program.posting.exact_stop:
         loosest: dict[int, float] = {}
-        every = ((section.tool, operation) for section in program.sections for operation in section.operations)
+        every = [(section.tool, one) for section in program.sections for one in section.operations]
         for n, (tool, operation) in enumerate(every):
             if _clears(tool, operation) and operation.tolerance != levels[-1]:
                 doubtful.add(n)

@@ -10,12 +10,13 @@ from planning_parts import bore, job, plate
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.exactness import LIKELY
+from mechwright_cam.exactness import LIKELY, posted
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Scene
 from mechwright_cam.proof.cutting_state import path_tolerance
-from mechwright_cam.proof.off_path import deepest_off_path, too_deep
+from mechwright_cam.proof.off_path import OffPath, deepest_off_path, too_deep
+from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.posting import Posting
 
@@ -123,3 +124,42 @@ def test_what_has_been_found_clear_is_told_alike_when_it_is_asked_again() -> Non
             assert (scene.off_path.too_deep(off, limit) == direct).all()
             some = scene.paths.steps[::3]
             assert (scene.off_path.too_deep(off, limit, some)[some] == direct[some]).all()
+
+
+def test_what_is_clear_stays_so_when_the_program_is_written_again() -> None:
+    """With other words for corners, and not with other moves."""
+    made, program = planned()
+    text = LinuxCnc().write(settled(program, made))
+    one = Scene(text, made, LinuxCnc())
+    off = np.full(len(one.run), 0.004)
+    direct = one.off_path.too_deep(off, 0.005)
+    assert (one.off_path.clear > -np.inf).any()
+    other = Scene(text.replace("G64 P0.02 Q0", "G61"), made, LinuxCnc())
+    assert other.text != text
+    other.off_path.learn(one.off_path)
+    assert (other.off_path.clear == one.off_path.clear).all()
+    assert (other.off_path.too_deep(off, 0.005) == direct).all()
+    shifted = replace(one.run, start=one.run.start + 0.001, end=one.run.end + 0.001)
+    strange = OffPath(Paths(shifted, made.tools), made)
+    strange.learn(one.off_path)
+    assert (strange.clear == -np.inf).all()
+
+
+def test_a_program_with_lower_feeds_begins_with_the_tolerances_that_it_had() -> None:
+    made, program = planned()
+    first, _, scene = posted(program, made, LinuxCnc())
+    exact = replace(
+        first,
+        sections=tuple(
+            replace(
+                section,
+                operations=tuple(
+                    replace(one, tolerance=0.0) if "finish" in one.name else one for one in section.operations
+                ),
+            )
+            for section in first.sections
+        ),
+    )
+    found, files, _ = posted(exact, made, LinuxCnc(), scene)
+    assert tolerances(found) == tolerances(exact)
+    assert "G61" in next(iter(files.values()))

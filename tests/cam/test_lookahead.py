@@ -166,6 +166,36 @@ def test_any_path_takes_longer_than_at_its_feed_and_less_than_with_stops(corners
     assert motion.seconds[cut].sum() <= stops.sum() + 0.1
 
 
+def test_machines_that_are_asked_together_are_told_alike() -> None:
+    way = "G1 X10 F2000\nY10\nX20 Y12\nG2 X30 Y2 I0 J-10\nG1 Y-10\nM8\nX0 Y0\nX10\nY10\nX20 Y12"
+    run, own = moved(f"{P}G0 X0 Y0 Z5\nZ1\n{way}\nG61\nX0\nY0\nG53 G0 Z0")
+    shares = (1.0, 0.5, 2.0, 8.0)
+    together = LinuxCnc().lookahead.motions(run, Machine(), shares)
+    for share, found in zip(shares, together, strict=True):
+        alone = LinuxCnc().lookahead.motion(run, Machine(acceleration=share))
+        assert found.seconds == pytest.approx(alone.seconds, abs=1e-9)
+        assert found.off == pytest.approx(alone.off, abs=1e-9)
+    assert together[0].seconds == pytest.approx(own.seconds)
+    assert together[1].seconds.sum() > 1.05 * own.seconds.sum()
+
+
+def test_passes_that_repeat_take_as_long_each_time() -> None:
+    """Those between the first and the last, which begin and end otherwise."""
+    square = "X20\nY20\nG2 X10 Y30 I-10 J0\nG1 X0 Y20\nY0\n"
+    run, motion = moved(f"{P}G0 X0 Y0 Z0\nG1 F1500\n" + 5 * square)
+    cut = np.flatnonzero(run.cutting).reshape(5, 5)
+    for values in (motion.seconds[cut], motion.off[cut]):
+        assert values[1:-1] == pytest.approx(np.tile(values[1], (3, 1)), abs=1e-12)
+    assert np.ptp(motion.seconds[cut][1]) > 0.1
+
+
+@pytest.mark.parametrize("body", ["", "G4 P1", "G0 X1", "G0 X0 Y0 Z0\nX999999999\nX-999999999\nX999999999"])
+def test_a_run_of_hardly_any_moves(body: str) -> None:
+    run, motion = moved(body)
+    assert motion.seconds.shape == motion.off.shape == (len(run),)
+    assert np.isfinite(motion.seconds).all()
+
+
 def test_a_long_program_takes_little_time() -> None:
     import time
 

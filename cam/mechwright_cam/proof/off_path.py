@@ -107,7 +107,8 @@ class OffPath:
     def __init__(self, paths: Paths, job: Job) -> None:
         self.paths, self.job = paths, job
         self._flat = flat(paths)
-        self._clear = np.full(len(paths.run), -np.inf)
+        self.clear = np.full(len(paths.run), -np.inf)
+        """(n,) with so much more than its radius a tool has been found clear of the part, mm."""
         self._limit = 0.0
 
     def learn(self, other: "OffPath") -> None:
@@ -116,18 +117,18 @@ class OffPath:
         if self.job is other.job and all(
             np.array_equal(getattr(mine, name), getattr(its, name), equal_nan=True) for name in WAYS
         ):
-            self._clear, self._limit = other._clear.copy(), other._limit
+            self.clear, self._limit = other.clear.copy(), other._limit
 
     def too_deep(self, off: Array, limit: float, steps: Ints | None = None) -> NDArray[np.bool_]:
         """As :func:`too_deep`, of some steps or of all."""
         if limit < self._limit:
-            self._clear[:] = -np.inf
+            self.clear[:] = -np.inf
         own, more = copy(self.paths), off - limit
         own.steps = own.steps if steps is None else steps
-        own.steps = own.steps[more[own.steps] > self._clear[own.steps]]
+        own.steps = own.steps[more[own.steps] > self.clear[own.steps]]
         found = too_deep(own, self.job, off, limit)
         clear = own.steps[(self._flat & ~found)[own.steps]]
-        self._clear[clear], self._limit = more[clear], limit
+        self.clear[clear], self._limit = more[clear], limit
         return found
 
 

@@ -162,7 +162,7 @@ def _kinds(run: Run, step: Ints, cycle: NDArray[np.bool_]) -> tuple[Ints, Ints]:
     arc = run.kind[step] == Kind.ARC
     centre = np.where(arc[:, None], centre, 0.0)
     sizes = np.column_stack((chord, centre, run.sweep[step], run.feed[step]))
-    known = (np.abs(sizes) < FAR).all(axis=1)
+    known = np.asarray((np.abs(sizes) < FAR).all(axis=1))
     # From or to an unknown place no move is like another one.
     alone = np.where(known, 0, 1 + np.arange(step.size))
     words = np.column_stack((run.kind[step], mode, cycle, alone))

@@ -58,7 +58,7 @@ class Overlaps:
         blend = row.blend[self.before]
         bound = (blend > 0) & (self.sine > LEAST_SINE)
         most = np.where(bound, 2 * np.sqrt(rate[0] * blend / np.maximum(self.sine, LEAST_SINE)), np.inf)
-        return np.minimum(np.minimum(summit, lasts * rate), most)
+        return np.asarray(np.minimum(np.minimum(summit, lasts * rate), most))
 
     @property
     def seconds(self) -> Array:

@@ -186,9 +186,7 @@ class Run:
     def only(self, steps: Ints) -> "Run":
         """Some of the steps, without remarks and what else counts steps."""
         names = (*COLUMNS, *(name for name in ("piece", "machine_xy", "file") if getattr(self, name).size))
-        return replace(
-            self, **{name: getattr(self, name)[steps] for name in names}, remarks=(), writes=()
-        )
+        return replace(self, **{name: getattr(self, name)[steps] for name in names}, remarks=(), writes=())
 
     def of_states(self, value: "Callable[[State], Any]") -> NDArray[Any]:
         """(n,) a value of the state that each step runs in."""
