@@ -26,8 +26,6 @@ from mechwright_cam.shop.machine import Machine
 
 EXACT_PATH, EXACT_STOP = 610, 611
 """G61 and G61.1, in tenths."""
-FAR = 1e9
-"""Coordinates beyond are no places, mm."""
 ALIKE = 1e-6
 """Segments are of one kind if nothing of them differs by more, mm and rad: less than the last digit of any
 program."""
@@ -162,7 +160,7 @@ def _kinds(run: Run, step: Ints, cycle: NDArray[np.bool_]) -> tuple[Ints, Ints]:
     arc = run.kind[step] == Kind.ARC
     centre = np.where(arc[:, None], centre, 0.0)
     sizes = np.column_stack((chord, centre, run.sweep[step], run.feed[step]))
-    known = np.asarray((np.abs(sizes) < FAR).all(axis=1))
+    known = np.asarray(np.isfinite(sizes).all(axis=1))
     # From or to an unknown place no move is like another one.
     alone = np.where(known, 0, 1 + np.arange(step.size))
     words = np.column_stack((run.kind[step], mode, cycle, alone))
