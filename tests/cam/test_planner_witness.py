@@ -89,8 +89,10 @@ def real(text: str, acceleration: float) -> Sampled:
     return sample(text, mill, table(), limit=120)
 
 
-@pytest.mark.parametrize("acceleration", [2.0, 0.5])
-@pytest.mark.parametrize("name", ["corners", "arcs", "planned"])
+@pytest.mark.parametrize(
+    ("name", "acceleration"),
+    [("corners", 2.0), ("corners", 0.5), ("arcs", 2.0), ("arcs", 0.5), ("planned", 0.5)],
+)
 def test_time_and_path_are_as_claimed(name: str, acceleration: float) -> None:
     text = {"corners": CORNERS, "arcs": ARCS, "planned": planned()}[name]
     control, sampled = LinuxCnc(), real(text, acceleration)
