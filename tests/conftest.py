@@ -11,7 +11,12 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
-PROGRAMS = {"rs274": "linuxcnc-uspace", "ogr2ogr": "gdal-bin", "ogrinfo": "gdal-bin"}
+PROGRAMS = {
+    "rs274": "linuxcnc-uspace",
+    "linuxcnc": "linuxcnc-uspace",
+    "ogr2ogr": "gdal-bin",
+    "ogrinfo": "gdal-bin",
+}
 """Program to the Debian package that has it."""
 MODULES = ("gmsh", "mujoco", "mypy")
 PYGCODE = "MECHWRIGHT_PYGCODE"

@@ -11,6 +11,7 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.exactness import posted
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.assign import Assignments
@@ -185,20 +186,12 @@ def machine(
     }
     posting = cam.post.model_copy(update=stated)
     program = replace(plan(job, assignments), machine=cam.machine, posting=posting, measured=cam.measured)
-    files, scene = _posted(program, job, control)
+    program, files, scene = posted(program, job, control)
     for _ in range(SLOWED):
         gentler = slowed(program, scene)
         if gentler is None:
             break
-        program = gentler
-        files, scene = _posted(program, job, control)
+        program, files, scene = posted(gentler, job, control, scene)
     proof = judge(scene, rules)
     proof.require()
     return Machined(job, program, files, proof, scene)
-
-
-def _posted(program: Program, job: Job, control: Control) -> tuple[dict[str, str], Scene]:
-    """The files of a program, and what the proof looks at."""
-    files = control.files(program)
-    named = {name + control.suffix: text for name, text in files.items()}
-    return files, Scene(named if len(files) > 1 else next(iter(files.values())), job, control)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from mechwright.plugins.host import host
-from mechwright_cam import proof
+from mechwright_cam import exactness, proof
 from mechwright_cam.controls import reading
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.dialect import Dialect
@@ -13,6 +13,8 @@ from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.reading import Run
 from mechwright_cam.pages import setup_sheet
 from mechwright_cam.pages.setup_sheet import procedure
+from mechwright_cam.planning import plan
+from mechwright_cam.program.moves import Program
 from mechwright_cam.proof.simulation import Simulation, simulate
 from mechwright_cam.setup.job import Job
 
@@ -32,6 +34,16 @@ def interpret(text: str, reader: GcodeControl | Dialect = LINUXCNC, **settings: 
 
 def prove(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC) -> proof.Proof:
     return proof.prove(text, job, control)
+
+
+def posted(of: Job, program: Program | None = None, control: Control = LINUXCNC) -> str:
+    """The text of a job's program as machining writes it: each operation with its tolerance."""
+    return control.write(settled(plan(of) if program is None else program, of, control))
+
+
+def settled(program: Program, of: Job, control: Control = LINUXCNC) -> Program:
+    """A program with the tolerance of each operation."""
+    return exactness.posted(program, of, control)[0]
 
 
 def read(text: str | Mapping[str, str], job: Job, control: Control = LINUXCNC, more: float = 0.0) -> Run:

@@ -20,10 +20,11 @@ from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
 from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.exactness import posted
 from mechwright_cam.machining import Machined, second_setup
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.setups import lay_out_setups
-from mechwright_cam.proof import Proof, Scene
+from mechwright_cam.proof import Proof
 from mechwright_cam.proof.judge import judge
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import Library
@@ -408,13 +409,10 @@ def run(operation: str, seed: int, **changes: object) -> Outcome:
             return Outcome(drawn, control, str(errors(found)[0]))
         for job in jobs:
             laid = job if job.side == "top" else second_setup(made[-1], job)
-            program = plan(laid)
-            text = post.write(program)
-            scene = Scene(text, laid, post)
+            program, files, scene = posted(plan(laid), laid, post)
             while gentler := slowed(program, scene):
-                program, text = gentler, post.write(gentler)
-                scene = Scene(text, laid, post)
-            made.append(Machined(laid, program, {program.name: text}, judge(scene), scene))
+                program, files, scene = posted(gentler, laid, post)
+            made.append(Machined(laid, program, files, judge(scene), scene))
     except MechwrightError as error:
         return Outcome(drawn, control, str(error))
     return Outcome(drawn, control, made=tuple(made))

@@ -3,12 +3,11 @@
 import math
 
 import numpy as np
-from by_control import prove
+from by_control import posted, prove
 
 from mechwright.contracts.part import Part, Pocket
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.proof import Proof
 from mechwright_cam.setup.lay_out import make_job
@@ -82,4 +81,4 @@ def case(seed: int, **changes: object) -> Proof | str:
         program = plan(job)
     except MechwrightError as error:
         return str(error)
-    return prove(LinuxCnc().write(program), job)
+    return prove(posted(job, program), job)

@@ -3,14 +3,13 @@
 import math
 
 import numpy as np
-from by_control import prove
+from by_control import posted, prove
 from height_map import Simulation, cutters, read
 from random_pockets import rounded
 
 from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile
 from mechwright.geometry import Arc, Line, Loop, Outline, circle
-from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning import choose_tools
 from mechwright_cam.proof import Proof
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
@@ -52,7 +51,7 @@ def laid(*features: Feature, tools: tuple[str, ...] = (), library: Library = LIB
 
 
 def made(job: Job) -> tuple[str, Proof]:
-    text = LinuxCnc().write(plan(job))
+    text = posted(job)
     return text, prove(text, job)
 
 

@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, LINUXCNC, scene_of
+from by_control import BY_NAME, LINUXCNC, posted, scene_of
 from planning_parts import job
 from shop import BORE, CORNER, HALF_X, HALF_Y, plate_job, plate_program, rounded_box
 
@@ -24,6 +24,7 @@ from mechwright_cam.pages.as_made.plot import plot
 from mechwright_cam.planning import plan
 from mechwright_cam.proof.made_parts import parts_as_made
 from mechwright_cam.proof.rings import circle_ring
+from mechwright_cam.proof.scene import in_work
 from mechwright_cam.setup.nest import Placed, make_nest
 
 ANGLE = Loop.polygon([(-30, -20), (30, -20), (30, 0), (5, 0), (5, 20), (-30, 20)])
@@ -59,14 +60,26 @@ def test_a_bore_is_followed_on_its_circle_and_fitted():
     assert part.hole_at(0.0, 0.0, BORE / 2) is None
 
 
-def test_the_corridor_is_what_the_control_promises():
+def test_the_corridor_is_how_far_the_control_may_be_off_the_path():
     text = LINUXCNC.write(plate_program())
     (part,) = made(text, plate_job())
-    assert part.corridor == pytest.approx(scene_of(text, plate_job()).run.states[-1].off_path)
-    assert part.corridor > 0
+    scene = scene_of(text, plate_job())
+    assert part.corridor == pytest.approx(scene.motion.off[in_work(scene)].max())
+    assert 0.0005 < part.corridor < 0.005
     haas = BY_NAME["haas"]
     (exact,) = made(haas.write(plate_program()), plate_job(control="haas"), haas)
     assert exact.corridor == 0
+
+
+def test_what_leaves_stock_is_no_part_of_the_corridor():
+    machined = (Profile("outside", ANGLE, "outside", 0, 6),)
+    of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6")
+    text = posted(of)
+    scene = scene_of(text, of)
+    (part,) = parts_as_made(scene)
+    assert "P0.02 " in text
+    assert scene.motion.off[in_work(scene)].max() > 0.015
+    assert 0 < part.corridor < 0.005
 
 
 def test_a_pass_on_a_line_of_its_own_leaves_a_witness_line():

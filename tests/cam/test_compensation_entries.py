@@ -4,14 +4,13 @@ import math
 from dataclasses import replace
 
 import pytest
-from by_control import prove
+from by_control import posted, prove
 from golden_compensation import WAYS
 from planning_parts import LIBRARY, bore, job, plate, rounded_box
 
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import ToolError
 from mechwright.geometry import Loop, circle
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
@@ -41,7 +40,7 @@ def test_an_open_recess_is_entered_from_the_air(loop: Loop, way: str, mill: str,
     recess = Pocket("recess", loop, (), 0.0, 2.0)
     one = job(plate(machined=(recess, OUTSIDE)), mill, compensation=way, stock_to_leave=leave)
     program = plan(one)
-    prove(LinuxCnc().write(program), one).require()
+    prove(posted(one, program), one).require()
     assert "recess: finish" in {o.name for section in program.sections for o in section.operations}
 
 
@@ -54,7 +53,7 @@ def test_the_mill_that_finishes_reaches_into_corners_with_the_largest_d() -> Non
     recesses = [Pocket(f"r{radius:g}", loop, (), 0.0, 1.4) for radius, loop in boxes.items()]
     one = job(plate(machined=(*recesses, OUTSIDE)), "mill-6", "mill-1.2", "mill-0.8", compensation="control")
     program = plan(one)
-    prove(LinuxCnc().write(program), one).require()
+    prove(posted(one, program), one).require()
     last = {o.name: s.tool.name for s in program.sections for o in s.operations if "finish" in o.name}
     assert last["r0.62: finish"] == last["r0.56: finish"] == "mill-0.8"
 
@@ -70,7 +69,7 @@ def test_the_mill_that_is_chosen_has_room_for_its_entry(way: str, mill: str) -> 
     assert [tool.name for tool in chosen if tool.kind is ToolKind.END_MILL][-1] == mill
     one = make_job(SMALL, settings, chosen)
     program = plan(one)
-    prove(LinuxCnc().write(program), one).require()
+    prove(posted(one, program), one).require()
     assert {s.tool.name for s in program.sections for o in s.operations if o.name == "recess: finish"} == {
         mill
     }
@@ -80,7 +79,7 @@ def test_of_the_listed_mills_one_with_room_finishes() -> None:
     """The outside stays with the larger one; and where none has room it is refused."""
     one = job(SMALL, "mill-6", "mill-4", compensation="control")
     program = plan(one)
-    prove(LinuxCnc().write(program), one).require()
+    prove(posted(one, program), one).require()
     mills = {o.name: s.tool.name for s in program.sections for o in s.operations}
     assert mills["recess: rough"] == "mill-6"
     assert mills["recess: finish"] == "mill-4"
@@ -96,4 +95,4 @@ def test_a_wall_that_ends_where_a_bore_begins_is_followed_forwards() -> None:
         bore(6.5), machined=(Bore("bore", (0.0, 0.0), 6.5, 0.0, 8.0), recess, replace(OUTSIDE, depth=8.0))
     )
     one = job(replace(of, thickness=8.0), "mill-5", "mill-4", "mill-3", compensation="control")
-    prove(LinuxCnc().write(plan(one)), one).require()
+    prove(posted(one), one).require()

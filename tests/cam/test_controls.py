@@ -125,7 +125,7 @@ def test_a_program_for_another_control_does_not_pass_in_silence() -> None:
     with pytest.raises(ProgramError, match=r"^line 9: P means nothing in this line"):
         prove(texts["linuxcnc"], job, BY_NAME["haas"])
     with pytest.raises(ProgramError, match="no decimal point"):
-        prove(texts["linuxcnc"].replace("G64 P0.002", "G64"), job, BY_NAME["haas"])
+        prove(texts["linuxcnc"].replace("G64 P0.002 Q0", "G64"), job, BY_NAME["haas"])
     assert not prove(texts["grbl"], job, BY_NAME["mach3"]).checks["tools"].passed
     with pytest.raises(ProgramError, match="G64 is no code that Grbl"):
         prove(texts["mach3"], job, BY_NAME["grbl"])

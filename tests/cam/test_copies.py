@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from engagement import engagements
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,7 +13,6 @@ from planning_parts import LIBRARY, job, part, rounded_box
 
 from mechwright.contracts.part import Pocket, Profile
 from mechwright.geometry import Loop
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations import engagement
 from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
 from mechwright_cam.operations.engagement import clear
@@ -118,7 +117,7 @@ def test_five_slots_are_planned_once_and_proven(planned):
     assert len(planned) == 1
     names = [o.name for s in program.sections for o in s.operations]
     assert [name for name in names if name.endswith("clear")] == [f"slot-{i}: clear" for i in range(5)]
-    proof = prove(LinuxCnc().write(program), of)
+    proof = prove(posted(of, program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 
@@ -127,7 +126,7 @@ def test_a_slot_that_runs_into_another_feature_has_a_plan_of_its_own(planned):
     of = wheel(4, (crossing,))
     program = plan(of)
     assert len(planned) >= 2
-    proof = prove(LinuxCnc().write(program), of)
+    proof = prove(posted(of, program), of)
     assert proof.ok, [check.message for check in proof.failures]
 
 

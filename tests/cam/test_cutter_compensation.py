@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_control import BY_NAME, LINUXCNC, prove, read, setup_html, summary_html
+from by_control import BY_NAME, LINUXCNC, posted, prove, read, setup_html, summary_html
 from by_night import examples
 from golden_compensation import CONTROLS, FOLDER, WAYS, made, texts
 from hypothesis import event, given, settings
@@ -44,7 +44,7 @@ def sample(way: str, **more: object) -> Job:
 
 
 def text_of(one: Job, control: str = "linuxcnc") -> str:
-    return host().get(Control, control).write(plan(one))
+    return posted(one, control=host().get(Control, control))
 
 
 def reader(control: str = "linuxcnc"):

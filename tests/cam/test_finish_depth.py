@@ -3,13 +3,11 @@
 import re
 
 import pytest
-from by_control import prove
+from by_control import posted, prove
 from planning_parts import LIBRARY, job, plate, rounded_box
 
 from mechwright.contracts.part import Bore, Pocket, Profile
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.finishing import finish_depth
-from mechwright_cam.planning import plan
 from mechwright_cam.shop.settings import CamSettings
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
@@ -26,7 +24,7 @@ def test_the_more_is_left_the_less_deep_is_a_pass(name: str, leave: float, passe
     """mill-2 takes up to 4 mm, and in aluminium 2 mm² of 0.1 mm more than what is left."""
     settings = {"compensation": way, "spring_passes": 0, "stock_to_leave": leave, "floor_to_leave": 0.0}
     one = job(plate(machined=(FEATURES[name], OUTSIDE)), "mill-2", **settings)
-    text = LinuxCnc().write(plan(one))
+    text = posted(one)
     prove(text, one).require()
     cut = text[text.index(f"{name}: finish") :]
     heights = set(re.findall(r"Z(-[\d.]+)", cut[: cut.index("(operation: outside")]))

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from by_control import prove, steps
+from by_control import posted, prove, steps
 from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
@@ -18,7 +18,6 @@ from rs274 import needs_rs274, run_rs274
 from mechwright.contracts.part import Bore, Pocket, Profile
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Arc, Line, Loop
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.setups import lay_out_setups
@@ -88,7 +87,7 @@ def test_finishing_comes_from_the_air_and_leaves_into_it():
 def test_linuxcnc_accepts_it(tmp_path):
     of = laid(link(), "mill-6")
     table = "".join(f"T{tool.number} P{tool.number}\n" for tool in of.tools)
-    found = run_rs274(LinuxCnc().write(plan(of)), tmp_path, table)
+    found = run_rs274(posted(of), tmp_path, table)
     assert found.ok, found.error
 
 
@@ -224,7 +223,7 @@ def test_a_groove_across_the_edge_pushes_the_jaws_aside():
 
 def test_a_cutter_or_a_holder_in_a_jaw_is_found():
     of = laid(link(), "mill-6")
-    text = LinuxCnc().write(plan(of))
+    text = posted(of)
     wide = tuple(
         replace(jaw, shape=shapely.box(*np.add(jaw.shape.bounds, (-30, 0, 30, 0)))) for jaw in of.jaws
     )
@@ -237,7 +236,7 @@ def test_a_cutter_or_a_holder_in_a_jaw_is_found():
 
 def test_jaws_beside_the_part_do_not_hold_it():
     of = laid(link(), "mill-6")
-    text = LinuxCnc().write(plan(of))
+    text = posted(of)
     moved = tuple(
         replace(jaw, face=shapely.transform(jaw.face, lambda p: np.add(p, (30, 0)))) for jaw in of.jaws
     )
@@ -288,7 +287,7 @@ def test_any_bar_is_cut_or_refused(ends, width, corner, margin, climb, names, tu
     edges = ["left", "right"] if turned else ["front", "rear"]
     try:
         made = laid(of, *names, stock={"finished": edges, "margin": margin}, climb=climb)
-        text = LinuxCnc().write(plan(made))
+        text = posted(made)
     except MechwrightError as error:
         assert str(error).startswith("cam.")  # noqa: PT017
         return

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from by_control import prove
+from by_control import posted, prove
 from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
@@ -36,7 +36,7 @@ def lowest(program):
 
 def proven(of):
     program = plan(of)
-    text = LinuxCnc().write(program)
+    text = posted(of, program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text
@@ -108,7 +108,7 @@ def test_the_floor_pass_meets_what_was_left_and_no_more():
     of = job(
         part(rounded_box(60, 40, 6), machined=(RECESS,)), "mill-6", stock={"margin": 0}, floor_to_leave=0.3
     )
-    moves = read(LinuxCnc().write(plan(of)))
+    moves = read(posted(of))
     seen = Simulation(of.stock, of.thickness, pitch=0.2)
     rough = [m for m in moves if m.operation == "recess: rough"]
     seen.run(rough, cutters(of))
@@ -147,7 +147,7 @@ def test_any_recess_with_any_allowance_is_cut_or_refused(seed, leave, clearing, 
     except MechwrightError as error:
         assert str(error).startswith(("cam.", "part plate: pocket takes nothing"))  # noqa: PT017
         return
-    proof = prove(LinuxCnc().write(program), made)
+    proof = prove(posted(made, program), made)
     assert proof.ok, [check.message for check in proof.failures]
     check_rules(made, program)
     low = lowest(program)

@@ -197,7 +197,7 @@ def test_lines_that_a_switch_skips_are_proven_both_ways() -> None:
     found = prove(one.text.replace("\nM8\n", "\n/M8\n"), one.job).checks["coolant"]
     assert re.match(r"with lines that start with / skipped, line \d+: cuts with coolant off", found.message)
     with pytest.raises(
-        ProgramError, match=r"^with lines that start with / skipped, line 18: .* without a feed"
+        ProgramError, match=r"^with lines that start with / skipped, line 19: .* without a feed"
     ):
         prove(one.text.replace("Z0 F1960", "Z0").replace("\nG1 Z0", "\n/F1960\nG1 Z0", 1), one.job)
 

@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from by_night import examples
 from height_map import Simulation, cutters, read
 from hypothesis import HealthCheck, Phase, given, settings
@@ -21,7 +21,6 @@ from mechwright.contracts.part import Bore, OpenProfile, Part, Profile
 from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line
 from mechwright_cad.exporters import dxf
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.setup.lay_out import make_job
@@ -66,7 +65,7 @@ def test_a_mill_as_wide_as_the_groove_runs_on_its_centre_line(path):
 
 def test_a_slot_that_is_not_cut_or_is_cut_beside_its_line_is_found():
     of = job(opened("on", 6.0), "mill-6", "mill-3")
-    text = LinuxCnc().write(plan(of))
+    text = posted(of)
     first, last = text.index("(operation: open"), text.index("(operation: outside")
     shallow = text[first:last].replace("Z-2", "Z-1.9")
     assert {"depth", "leftover"} <= {c.name for c in prove(text[:first] + shallow + text[last:], of).failures}
@@ -79,7 +78,7 @@ def test_a_slot_that_is_not_cut_or_is_cut_beside_its_line_is_found():
 def test_a_slot_cut_too_short_is_found():
     straight = (Line((-15.0, 0.0), (15.0, 0.0)),)
     of = job(opened("on", 6.0, straight), "mill-6")
-    text = LinuxCnc().write(plan(of))
+    text = posted(of)
     first, last = text.index("(operation: open"), text.index("(operation: outside")
     slot = text[first:last].replace("X15", "X14.9")
     assert slot != text[first:last]
@@ -91,7 +90,7 @@ def test_the_height_map_sees_the_groove():
     straight = (Line((-15.0, 0.0), (15.0, 4.0)),)
     of = job(opened("on", 6.0, straight), "mill-6")
     seen = Simulation(of.stock, of.thickness, pitch=0.2)
-    seen.run(read(LinuxCnc().write(plan(of))), cutters(of))
+    seen.run(read(posted(of)), cutters(of))
     deep = seen.solid & (np.abs(seen.height + 2.0) < 1e-3)
     wanted = shapely.LineString([(-15, 0), (15, 4)]).buffer(3.0, quad_segs=64)
     assert deep.sum() * 0.04 == pytest.approx(wanted.area, rel=0.02)
@@ -207,5 +206,5 @@ def test_any_path_is_cut_or_refused(start, heading, items, side, width, tools):
     except MechwrightError as error:
         assert re.match(r"cam\.[a-z_.]+: |part plate: open takes nothing", str(error)), error  # noqa: PT017
         return
-    proof = prove(LinuxCnc().write(program), made)
+    proof = prove(posted(made, program), made)
     assert proof.ok, [check.message for check in proof.failures]

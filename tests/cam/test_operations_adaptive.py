@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from by_night import examples
 from engagement import engagements
 from hypothesis import HealthCheck, given, settings
@@ -14,7 +14,6 @@ from planning_parts import LIBRARY, job, plate, rounded_box
 from planning_simulation import check_rules
 
 from mechwright.contracts.part import Pocket, Profile
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.operations.engagement import BENDS, clear, straight_layer
 from mechwright_cam.operations.engagement import engagements as planned
@@ -95,7 +94,7 @@ def test_adaptive_recess_is_proven():
     assert (
         names.index("recess: clear") < names.index("recess: rough the rest") < names.index("recess: finish")
     )
-    proof = prove(LinuxCnc().write(program), of)
+    proof = prove(posted(of, program), of)
     assert proof.ok, [check.message for check in proof.failures]
     check_rules(of, program)
 

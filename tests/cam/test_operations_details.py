@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 import shapely
-from by_control import LINUXCNC, prove, read
+from by_control import LINUXCNC, posted, prove, read
 from planning_parts import LIBRARY, job, plate, rounded_box
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
@@ -50,7 +50,7 @@ def detailed(*details):
 def made(*details, **settings):
     of = job(detailed(*details), *TOOLS, **settings)
     program = plan(of)
-    return of, program, prove(LinuxCnc().write(program), of)
+    return of, program, prove(posted(of, program), of)
 
 
 def test_the_chamfer_of_a_rim_keeps_off_the_clamp():
@@ -91,7 +91,7 @@ def test_all_details_together_and_the_rim_comes_last():
 @pytest.mark.parametrize("name", DETAILS)
 def test_a_program_without_the_detail_fails(name):
     plain = job(detailed(), *TOOLS)
-    proof = prove(LinuxCnc().write(plan(plain)), job(detailed(DETAILS[name]), *TOOLS))
+    proof = prove(posted(plain), job(detailed(DETAILS[name]), *TOOLS))
     assert [check.name for check in proof.failures] == ["details"]
     assert DETAILS[name].name in proof.failures[0].message
 

@@ -8,7 +8,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from by_night import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -23,7 +23,6 @@ from mechwright.errors import GeometryError, MechwrightError
 from mechwright.geometry import Arc, BSpline, Line, Loop, circle
 from mechwright.geometry.trim import stretches, trimmed
 from mechwright_cad.exporters import dxf
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
@@ -73,7 +72,7 @@ def recessed(*features, thickness=6.0):
 
 def proven(of):
     program = plan(of)
-    proof = prove(LinuxCnc().write(program), of)
+    proof = prove(posted(of, program), of)
     assert proof.ok, [check.message for check in proof.failures]
     assert gouge(of, program) <= 0.005
     assert leftover(of, program) == 0
@@ -130,13 +129,13 @@ def test_a_recess_over_the_whole_part_faces_it(margin, below):
 
 def test_the_program_without_the_groove_fails_the_proof_of_the_grooved_part():
     plain = job(recessed(), "mill-6")
-    proof = prove(LinuxCnc().write(plan(plain)), job(recessed(GROOVE), "mill-6"))
+    proof = prove(posted(plain), job(recessed(GROOVE), "mill-6"))
     assert {check.name for check in proof.failures} == {"depth", "leftover"}
 
 
 def test_the_program_with_the_groove_gouges_the_plain_part():
     grooved = job(recessed(GROOVE), "mill-6")
-    proof = prove(LinuxCnc().write(plan(grooved)), job(recessed(), "mill-6"))
+    proof = prove(posted(grooved), job(recessed(), "mill-6"))
     assert "gouge" in {check.name for check in proof.failures}
 
 
@@ -300,7 +299,7 @@ def test_any_recesses_are_cut_or_refused(seed):
     except MechwrightError as error:
         assert re.match(r"cam\.[a-z_.]+: |part plate: recess-\d takes nothing", str(error)), error  # noqa: PT017
         return
-    proof = prove(LinuxCnc().write(program), made)
+    proof = prove(posted(made, program), made)
     assert proof.ok, [check.message for check in proof.failures]
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from by_night import NIGHT, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -22,7 +22,6 @@ from mechwright.geometry import Loop
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.plane.arcfit import fit
 from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import Assignments, choose_tools, plan
@@ -58,7 +57,7 @@ def gear_job(**changes):
 def checked(of):
     """The program of a job, its text, and its proof, which has nothing to complain of."""
     program = plan(of)
-    text = LinuxCnc().write(program)
+    text = posted(of, program)
     proof = prove(text, of)
     assert proof.ok, [check.message for check in proof.failures]
     return program, text, proof
@@ -201,7 +200,7 @@ def proof_of_teeth(compensation, walls, backlash):
     (gear,) = design.family.parts(design.params.model_copy(update={"backlash": backlash}))
     post = host().get(Control, "haas")
     of = make_job(gear, wanted, choose_tools(gear, wanted, LIBRARY))
-    return prove(post.write(plan(of)), of, post)
+    return prove(posted(of, control=post), of, post)
 
 
 @pytest.mark.parametrize("compensation", ["computer", "control", "wear"])

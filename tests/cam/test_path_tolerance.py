@@ -14,9 +14,12 @@ from rs274 import needs_rs274, run_rs274
 
 from mechwright.errors import ProgramError
 from mechwright_cam.proof import prove
-from mechwright_cam.proof.cutting_state import ADVICE, path_tolerance
+from mechwright_cam.proof.cutting_state import ADVICE, LOOSEST, path_tolerance
+from mechwright_cam.proof.part_rules import gouge
 
-OWN = "G64 P0.002\n"
+OWN = "G64 P0.002 Q0\n"
+CLEAR = 0.001
+"""How far the outside of the plate's program stays off the part, mm."""
 
 
 def with_words(words: str) -> str:
@@ -37,16 +40,45 @@ def test_no_bound_is_no_proof_on_linuxcnc(words: str) -> None:
 @pytest.mark.parametrize(
     ("words", "value"),
     [
-        *(("G64 P2", 4), ("G64 P0.5 Q0.5", 1), ("G64 P0.003", 0.006), ("G64 P0.004 Q0.002", 0.006)),
-        *(("G64 P0.002 Q0.02", 0.022), ("G20\nG64 P0.0001\nG21", 0.00508)),
+        *(("G64 P2", 4), ("G64 P0.5 Q0.5", 1), ("G64 P0.03", 0.06), ("G20\nG64 P0.001 Q0.002\nG21", 0.0762)),
     ],
 )
-def test_a_bound_is_within_that_of_a_gouge(words: str, value: float) -> None:
-    text = with_words(words)
-    found = judged(path_tolerance, "linuxcnc", text)
+def test_what_is_too_loose_is_another_path(words: str, value: float) -> None:
+    found = judged(path_tolerance, "linuxcnc", with_words(words))
     assert not found.passed
-    assert (found.value, found.limit) == (pytest.approx(value), 0.005)
+    assert (found.value, found.limit) == (pytest.approx(value), LOOSEST)
     assert "Z-" in found.message  # the first cut below the top
+
+
+@pytest.mark.parametrize(
+    ("words", "value"),
+    [
+        *(("G64 P0.003", 0.006), ("G64 P0.004 Q0.002", 0.006), ("G64 P0.0025", 0.005)),
+        *(("G64 P0.002 Q0.02", 0.022), ("G20\nG64 P0.00012\nG21", 0.0061)),
+    ],
+)
+def test_what_the_control_cuts_off_the_path_is_a_gouge(words: str, value: float) -> None:
+    found = judged(path_tolerance, "linuxcnc", with_words(words))
+    assert not found.passed
+    assert found.limit == 0.005
+    assert found.value is not None
+    assert value - CLEAR < found.value < value + 0.002
+    assert f"{found.value:.4f} mm into the finished part" in found.message
+
+
+def test_path_and_corridor_are_one_gouge() -> None:
+    """Neither 2 µm of the path nor 3.3 µm of the control are too deep; both are."""
+    for words, by, proven in (
+        ("G64 P0.003 Q0.0003", CLEAR, True),
+        ("G61", -0.002, True),
+        ("G64 P0.003 Q0.0003", -0.002, False),
+    ):
+        text = with_words(words)
+        for ends in (33, 23, 11):
+            text = text.replace(f"{ends + CLEAR:g}", f"{ends + by:g}")
+        assert f"X{33 + by:g}" in text
+        assert judged(gouge, "linuxcnc", text).passed
+        assert judged(path_tolerance, "linuxcnc", text).passed == proven
 
 
 @pytest.mark.parametrize(
@@ -54,9 +86,8 @@ def test_a_bound_is_within_that_of_a_gouge(words: str, value: float) -> None:
     [
         "G61",
         "G61.1",
-        "G64 P0.0025",
-        "G64 P0.004 Q0",
-        "G64 P0.002 Q0.003",
+        "G64 P0.003 Q0",
+        "G64 P0.002 Q0.002",
         "G20\nG64 P0.00005\nG21",
         "G64\nG61",
     ],
@@ -66,7 +97,7 @@ def test_a_tighter_path_is_accepted(words: str) -> None:
 
 
 def test_the_advice_is_good() -> None:
-    for words in re.findall(r"G6\d(?: P[\d.]+)?", ADVICE):
+    for words in re.findall(r"G6\d(?: P[\d.]+ Q0)?", ADVICE):
         assert prove(with_words(words), job_of("linuxcnc"), BY_NAME["linuxcnc"]).ok
 
 

@@ -33,6 +33,7 @@ from mechwright_cam.proof.plane import closing
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.holding import Hold
+from mechwright_cam.shop.posting import Posting
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, ToolKind
 
@@ -198,10 +199,12 @@ def test_a_gouge_is_measured_exactly(bias: float, gouge: float) -> None:
     assert not proof.checks["gouge"].passed
 
 
-def test_a_gouge_within_the_limit_passes() -> None:
-    proof = proof_of(plate_program(bias=-0.003), plate_job())
+def test_a_gouge_within_the_limit_passes_on_a_path_that_the_control_keeps_to() -> None:
+    program = plate_program(bias=-0.003)
+    proof = proof_of(replace(program, posting=Posting(exact_stop=True)), plate_job())
     assert proof.ok
     assert proof.gouge_max_mm == pytest.approx(0.003, abs=6e-4)
+    assert [check.name for check in proof_of(program, plate_job()).failures] == ["path-tolerance"]
 
 
 @pytest.mark.parametrize("bias", [0.02, 0.011, 0.2])

@@ -6,16 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from by_control import interpret, prove
+from by_control import interpret, posted, prove
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shop import MILL, plate_job, plate_program
 from test_proof_parts import coordinate, cuts, height, paths_of
 
+from mechwright import arrays
 from mechwright.contracts.part import Part, Pocket
 from mechwright.geometry import Loop, Outline
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.planning import choose_tools, plan
+from mechwright_cam.planning import choose_tools
 from mechwright_cam.proof import gouge, leftover, near, stock
 from mechwright_cam.proof.gouge import deepest_cut, distinct
 from mechwright_cam.proof.near import Chords
@@ -111,9 +112,11 @@ def test_a_repeated_piece_counts_once_at_its_lowest(text: str) -> None:
 
 
 def test_rows_with_one_key_are_still_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gouge, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
+    monkeypatch.setattr(arrays, "GOLDEN", np.uint64(0))  # then the key of a row is the sum of its numbers
     rows = np.array([[1, 2], [2, 1], [1, 2], [3, 0]])
-    assert sorted(gouge.first_of_each(rows).tolist()) == [0, 1, 3]
+    index, kind = arrays.first_of_each(rows)
+    assert sorted(index.tolist()) == [0, 1, 3]
+    assert rows[index][kind].tolist() == rows.tolist()
 
 
 @settings(max_examples=40)
@@ -210,7 +213,7 @@ def test_a_slot_is_within_reach_of_a_cutter_that_has_air_on_either_side(width: f
     part = Part("plate", plate, 8.0, "aluminium", machined=(recess,))
     cam = CamSettings.model_validate({"stock": {"margin": 0}, "tools": ["mill-4"]})
     job = make_job(part, cam, choose_tools(part, cam, load_library()))
-    text = LinuxCnc().write(plan(job))
+    text = posted(job)
     proof = prove(text, job)
     assert proof.ok
     # The corners of the wide end keep r (1 - 1/√2) beside their walls, the slot half its width.

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from by_control import prove
+from by_control import posted, prove
 from planning_parts import job, part, rounded_box
 
 from mechwright.contracts.part import Pocket, Profile
@@ -22,7 +22,7 @@ def notched(thickness):
 
 
 def proven(of):
-    return prove(LinuxCnc().write(plan(of)), of)
+    return prove(posted(of), of)
 
 
 def tools_of(of, name):
@@ -51,5 +51,5 @@ def test_what_a_short_mill_left_in_a_recess_is_found():
         fine = section.tool.name == "mill-1"
         kept = tuple(o for o in section.operations if not (fine and o.name.endswith("finish")))
         sections.append(replace(section, operations=kept))
-    found = prove(LinuxCnc().write(replace(program, sections=tuple(sections))), of)
+    found = prove(posted(of, replace(program, sections=tuple(sections))), of)
     assert [check.name for check in found.failures] == ["leftover"]

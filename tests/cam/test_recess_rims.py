@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from by_night import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.operations.clearing import stays_inside
 from mechwright_cam.plane.leads import best_start
 from mechwright_cam.planning import choose_tools, plan
@@ -66,7 +65,7 @@ def test_recess_crosses_the_rim_at_any_angle(angle, shape, tools, climb) -> None
     if refusal:
         assert "takes nothing of the plate" in refusal or "no listed end mill enters" in refusal
         return
-    proof = prove(LinuxCnc().write(program), job)
+    proof = prove(posted(job, program), job)
     assert [check.message for check in proof.checks.values() if not check.passed] == []
 
 

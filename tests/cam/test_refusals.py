@@ -4,7 +4,7 @@ import math
 
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from planning_parts import LIBRARY, rounded_box
 
 from mechwright.contracts.details import Chamfer, Engraving
@@ -12,7 +12,6 @@ from mechwright.contracts.part import OpenProfile, Part, Pocket, Profile
 from mechwright.errors import DesignError, GeometryError, ToolError
 from mechwright.geometry import Line, Loop, Outline, circle
 from mechwright.geometry.lettering import lettering
-from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
@@ -30,7 +29,7 @@ def laid(*features, rim=RIM, thickness=8.0, details=(), tools=(), **settings):
 
 def proven(of):
     program = plan(of)
-    proof = prove(LinuxCnc().write(program), of)
+    proof = prove(posted(of, program), of)
     assert proof.ok, [check.message for check in proof.failures]
     return program
 

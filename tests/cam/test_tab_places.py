@@ -2,15 +2,13 @@
 
 import pytest
 import shapely
-from by_control import prove
+from by_control import posted, prove
 from planning_parts import job, part, rounded_box
 
 from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.contracts.sections import plan_view
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.planning import plan
 
 RIM = rounded_box(60, 40, 4)
 
@@ -30,7 +28,7 @@ def test_tabs_move_on_where_they_would_stand_up_in_a_recess(shape):
     assert shapely.intersects(plan_view(step), shallow.tabs[0].shape) or shape == "ramped"
     assert not any(shapely.intersects(plan_view(step), tab.shape) for tab in deep.tabs)
     for of in (shallow, deep):
-        proof = prove(LinuxCnc().write(plan(of)), of)
+        proof = prove(posted(of), of)
         assert proof.ok, [check.message for check in proof.failures]
 
 
@@ -42,7 +40,7 @@ def test_where_all_of_the_rim_is_low_the_height_is_named():
     ):
         job(whole, "mill-6", hold={"tab_height": 1.0})
     low = job(whole, "mill-6", hold={"tab_height": 0.8})
-    assert prove(LinuxCnc().write(plan(low)), low).ok
+    assert prove(posted(low), low).ok
 
 
 @pytest.mark.parametrize("wall", [0.2, 0.6, 2.0])
@@ -54,4 +52,4 @@ def test_behind_a_thin_wall_tabs_end_at_its_opening(wall):
     for tab in of.tabs:
         inner = 20.0 - shapely.distance(tab.shape, shapely.Point(0, 0))
         assert inner == pytest.approx(min(wall, 1.0), abs=0.03)
-    assert prove(LinuxCnc().write(plan(of)), of).checks["tabs"].passed
+    assert prove(posted(of), of).checks["tabs"].passed

@@ -1,4 +1,4 @@
-"""The time estimate against an integration of the same model along the path in tiny steps."""
+"""The time estimate of a usual control against an integration of the same model along the path in tiny steps."""
 
 import math
 
@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from planning_parts import bore, job, plate
 
 from mechwright_cam.controls.linuxcnc import LinuxCnc
+from mechwright_cam.controls.lookahead.usual import CORNER_JUMP
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.machining import machine as build
-from mechwright_cam.proof.timing import CORNER_JUMP, step_times
+from mechwright_cam.proof.timing import step_times
 from mechwright_cam.shop.machine import Machine
 
 STEP = 0.004  # mm

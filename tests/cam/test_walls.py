@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from by_control import prove, scene_of, setup_html
+from by_control import posted, prove, scene_of, setup_html
 from planning_parts import job
 from shop import BIAS, HALF_X, HALF_Y, plate_job, plate_program
 
@@ -34,7 +34,7 @@ def angle():
     machined = (Pocket("pocket", SQUARE, (), 0, 3), Profile("outside", ANGLE, "outside", 0, 6))
     of = job(Part("angle", Outline(ANGLE), 6.0, "aluminium", machined=machined), "mill-6", "mill-4")
     program = plan(of)
-    text = LinuxCnc().write(program)
+    text = posted(of, program)
     return of, program, text, wall_deviation(scene_of(text, of).sweeps, of)
 
 

@@ -6,7 +6,7 @@
 (T2 H2 D 5 mm: drill-5, drill)
 (T3 H3 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: spot drill)
 T1 M6

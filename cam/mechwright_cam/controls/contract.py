@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from mechwright.contracts.finding import Finding
+    from mechwright_cam.controls.lookahead import Lookahead
     from mechwright_cam.controls.reading.run import Run
     from mechwright_cam.program.moves import Program
     from mechwright_cam.shop.machine import Machine
@@ -41,6 +42,10 @@ class Control(Plugin):
     """The work offsets it has."""
     by_hand: ClassVar["ToolChange"] = "pause"
     """How a control without a tool change has tools changed, unless the design file says so itself."""
+
+    tolerances: ClassVar[tuple[float, ...]] = ()
+    """How near to the path an operation can ask it to stay, mm, loosest first and 0 for exact; what does not
+    say is written with the middle one."""
 
     # -- programs -----------------------------------------------------------------------------------------
 
@@ -89,6 +94,13 @@ class Control(Plugin):
     def corners(self) -> Corners:
         """How far the control leaves the path between two moves."""
         return EXACT
+
+    @property
+    def lookahead(self) -> "Lookahead":
+        """How it goes from move to move: how long that takes, and how far off the path."""
+        from mechwright_cam.controls.lookahead import USUAL
+
+        return USUAL
 
     @property
     def length_write(self) -> tuple[int, str] | None:

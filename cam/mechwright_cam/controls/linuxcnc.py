@@ -6,12 +6,18 @@ from collections.abc import Mapping, Sequence
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.lookahead.contract import Lookahead
+from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+
+ROUGH = 0.02
+"""Roughing may be rounded by so much, mm: a tenth of the least that it leaves to finishing, and no program
+gets faster by more."""
 
 
 class LinuxCnc(GcodeControl):
@@ -50,18 +56,28 @@ class LinuxCnc(GcodeControl):
     )
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
+    tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
     active_comments = (
         *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
         *("PROBEOPEN", "PROBECLOSE", "PY", "PYRUN", "PYRELOAD", "ABORT"),
     )
 
+    @property
+    def lookahead(self) -> Lookahead:
+        """Its trajectory planner."""
+        return Planner()
+
     def blending(self, exact: bool) -> list[str]:
         """How corners are taken.
 
         G64 without P would let the control round corners without limit: P keeps it within the tolerance of
-        arcs.
+        arcs, but for what :mod:`mechwright_cam.controls.lookahead.linuxcnc` knows of.
         """
-        return ["G61"] if exact else ["G64", "P" + number(TOLERANCES.arc_fit)]
+        return self.rounding(0.0 if exact else TOLERANCES.arc_fit)
+
+    def rounding(self, tolerance: float) -> list[str]:
+        """Rounding within P, and Q0: no lines are merged."""
+        return ["G64", "P" + number(tolerance), "Q0"] if tolerance > 0 else ["G61"]
 
     def message(self, out: Writer, text: str) -> None:
         """Show a message on the control's screen."""

@@ -87,10 +87,15 @@ Move = Rapid | Feed | FeedArc | Drill | Pause
 
 @dataclass(frozen=True)
 class Operation:
-    """A named run of moves with one tool, for comments, setup sheet and proof."""
+    """A named run of moves with one tool, for comments, setup sheet and proof.
+
+    ``tolerance``: so far off the path the control may round its corners, mm, 0 for not at all; None for what
+    the control is usually asked for.
+    """
 
     name: str
     moves: tuple[Move, ...]
+    tolerance: float | None = None
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,8 @@ cuts the lowest counts.
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright_cam.controls.reading.run import Ints, Kind
-from mechwright_cam.proof.gouge import first_of_each
 from mechwright_cam.proof.paths import NEAR, Paths
 
 MOST = 20_000_000
@@ -59,7 +58,7 @@ def _different(paths: Paths, cuts: Ints) -> Ints:
             run.sweep[cuts],
         )
     )
-    return cuts[np.sort(first_of_each(np.round(table / NEAR).astype(np.int64)))]
+    return cuts[np.sort(first_of_each(np.round(table / NEAR).astype(np.int64))[0])]
 
 
 def _taken(paths: Paths, cuts: Ints, places: Array, radius: float) -> tuple[Ints, Ints, Array]:

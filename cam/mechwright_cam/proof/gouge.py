@@ -14,21 +14,19 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import ROUND, Boundary, Shape, grow
 from mechwright_cam.setup.holding import Tab
 
-DEAR = 6
-"""To grow a shape by one corner takes about a sixth of the time of one question about nearness."""
+DEAR = 12
+"""To grow a shape by one corner takes about a twelfth of the time of one question about nearness."""
 FIRST_ASKED = 500
 """So many of the lowest moves are asked first; if none of them cuts deep, all others are."""
 MOST_CORNERS = 1_000_000
 """Corners of lines that are looked at together."""
-GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-"""2⁶⁴ over the golden ratio: its multiples are spread evenly (Knuth, The Art of Computer Programming 6.4)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +91,7 @@ def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:
     inner = inside[radius[inside] < deep[inside]]
     if inner.size:
         gap[inner] = -_depth_inside(paths, pieces.only(inner), edge)
-    beside = np.setdiff1d(_near(edge.shape, lines, radius), inside, assume_unique=True)
+    beside = np.setdiff1d(near_ones(edge.shape, lines, radius), inside, assume_unique=True)
     if beside.size:
         gap[beside] = edge.distance(lines[beside], within=float(radius.max()))
     shape = paths.cutters(pieces.step)
@@ -111,7 +109,7 @@ def _about(paths: Paths, pieces: Pieces, keep: Shape) -> Pieces:
     return pieces.only(np.flatnonzero(~apart.any(axis=1)))
 
 
-def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
+def near_ones(keep: Shape, lines: Geometries, radius: Array) -> Ints:
     """Indices of the lines that come within their radius (m,) of a shape."""
     near = np.zeros(radius.size, dtype=np.bool_)
     for one in np.unique(radius).tolist():
@@ -128,6 +126,11 @@ def _near(keep: Shape, lines: Geometries, radius: Array) -> Ints:
 def distinct(paths: Paths, pieces: Pieces) -> Pieces:
     """Each plan-view piece once, at its lowest: passes repeat at every depth."""
     pieces = pieces.only(np.argsort(pieces.low, kind="stable"))
+    return pieces.only(kinds(paths, pieces)[0])
+
+
+def kinds(paths: Paths, pieces: Pieces) -> tuple[Ints, Ints]:
+    """The first piece (k,) of each kind in plan view, and the kind (n,) of every piece."""
     run, step = paths.run, pieces.step
     table = np.column_stack(
         (
@@ -140,16 +143,7 @@ def distinct(paths: Paths, pieces: Pieces) -> Pieces:
             pieces.last,
         )
     )
-    return pieces.only(first_of_each(np.round(table / NEAR).astype(np.int64)))
-
-
-def first_of_each(rows: Ints) -> Ints:
-    """Index of the first of each kind of row (n, k)."""
-    keys = rows.astype(np.uint64) @ (GOLDEN * np.arange(1, rows.shape[1] + 1, dtype=np.uint64) | np.uint64(1))
-    _, index, kind = np.unique(keys, return_index=True, return_inverse=True)
-    if (rows[index][kind] != rows).any():  # different rows with one key
-        _, index = np.unique(rows, axis=0, return_index=True)
-    return index
+    return first_of_each(np.round(table / NEAR).astype(np.int64))
 
 
 def _depth_inside(paths: Paths, pieces: Pieces, edge: Boundary) -> Array:

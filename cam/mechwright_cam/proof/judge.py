@@ -68,7 +68,7 @@ def _judged(scene: Scene, rules: Sequence[Rule]) -> Proof:
     # Before any rule: that a text cannot be read is no fault of theirs, and they share stock and sweeps.
     run, *_ = scene.run, scene.stock, scene.sweeps, scene.simulation, scene.pieces
     checks = together(partial(ask, scene=scene), rules)  # none depends on another
-    seconds, left = step_times(run, scene.job.settings.machine), scene.remains
+    seconds, left = step_times(run, scene.job.settings.machine, scene.motion), scene.remains
     area, deepest = sum(spot[4] for spot in left.beyond), max((spot[3] for spot in left.beyond), default=0.0)
     notes = [*remarks(scene), *(check.message for check in checks if check.told)]
     if left.beyond:

@@ -9,7 +9,8 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright_cam.proof.as_made import made_sections, wall_sweeps
-from mechwright_cam.proof.scene import Scene, in_work
+from mechwright_cam.proof.off_path import corridor
+from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.witness import witnesses
 from mechwright_cam.setup.nest import Nest, Placed
 from mechwright_cam.setup.sides import SIGNS
@@ -28,11 +29,12 @@ def parts_as_made(scene: Scene) -> list[MadePart]:
     placed = placed_in(scene)
     owner = _owners(placed)
     shared = _shared([_moved(section, shift) for section in sections], placed)
+    off_path = corridor(sweeps.paths, scene.job, scene.motion.off)
     return [
         MadePart(
             one.part.name,
             one.label,
-            corridor(scene),
+            off_path,
             own,
             tuple(
                 replace(line, at=tuple(_turned_back(np.array(line.at), one).tolist()))
@@ -68,12 +70,6 @@ def with_undersides(parts: Sequence[MadePart], placed: Sequence[Placed], scene: 
     sections.sort(key=lambda section: section.top)
     shared = _shared(sections, placed)
     return [replace(part, underside=own) for part, own in zip(parts, shared, strict=True)]
-
-
-def corridor(scene: Scene) -> float:
-    """How far the control may leave the path while it cuts, mm."""
-    off = scene.run.of_states(lambda state: state.off_path)[in_work(scene)]
-    return float(off.max(initial=0.0))
 
 
 def _owners(placed: Sequence[Placed]) -> Callable[[Array], int]:

@@ -1,6 +1,6 @@
 """What all rules look at."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright_cam.controls.contract import Control
+from mechwright_cam.controls.lookahead import Motion
 from mechwright_cam.controls.reading import Run, State
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
@@ -17,6 +18,7 @@ from mechwright_cam.proof.footprint import Footprint, footprint
 from mechwright_cam.proof.gouge import Gouge, deepest_cut, deepest_in_tab, worst_of
 from mechwright_cam.proof.leftover import Remains, remains
 from mechwright_cam.proof.misfit import misfit
+from mechwright_cam.proof.off_path import OffPath
 from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.proof.pieces import Pieces
 from mechwright_cam.proof.report import Check
@@ -60,9 +62,27 @@ class Scene:
         return {tool.number: tool for tool in self.job.tools}
 
     @cached_property
+    def motion(self) -> Motion:
+        """How the control runs through the moves: how long, and how far off the path."""
+        return self.motions(())[0]
+
+    def motions(self, shares: Sequence[float]) -> list[Motion]:
+        """That, and what it were with some shares of the machine's acceleration."""
+        machine = self.job.settings.machine
+        accelerations = [machine.acceleration, *(share * machine.acceleration for share in shares)]
+        found = self.control.lookahead.motions(self.run, machine, accelerations)
+        self.__dict__["motion"] = found[0]  # in passing
+        return found
+
+    @cached_property
     def paths(self) -> Paths:
         """Where the tools go."""
         return Paths(self.run, self.job.tools)
+
+    @cached_property
+    def off_path(self) -> OffPath:
+        """What they cut where the control leaves the path."""
+        return OffPath(self.paths, self.job)
 
     @cached_property
     def sweeps(self) -> Sweeps:

@@ -6,9 +6,10 @@
 (T26 H26 D 4 mm: mill-4, end mill)
 (D26 holds the diameter of T26: 4 as planned, at most 0.2 more or less)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore-1: bore)
+G64 P0.02 Q0
 T26 M6
 G54 S12000 M3
 G0 X1.6 Y-4
@@ -50,6 +51,7 @@ X2.8 Y-4 I2.8 J0
 G1 X0 F1008
 G0 Z13
 (operation: bore-1: finish)
+G64 P0.002 Q0
 X-0.3119
 Z1
 G1 Z-3.3
@@ -75,6 +77,7 @@ M0
 S12000 M3
 M8
 (operation: outside: rough)
+G64 P0.02 Q0
 G0 X-18.1616 Y-12.3902
 G43 H26 Z13
 Z1
@@ -117,6 +120,7 @@ G1 X-16
 G2 X-18.1616 Y-12.3902 I0.0153 J2.2141
 G0 Z13
 (operation: outside: rough the narrow places)
+G64 P0.002 Q0
 X2.9986 Y6.0015
 Z1
 G1 Z0

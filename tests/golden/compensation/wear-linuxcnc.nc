@@ -7,9 +7,10 @@
 (D26 holds the wear on the diameter of T26: 0 for a cutter as planned,)
 (at most 0.2 more or less)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore-1: bore)
+G64 P0.02 Q0
 T26 M6
 G54 S12000 M3
 G0 X1.6 Y-4
@@ -51,6 +52,7 @@ X2.8 Y-4 I2.8 J0
 G1 X0 F1008
 G0 Z13
 (operation: bore-1: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-3.3
 G1 G41 D26 X0.5999 Y-4.7998
@@ -75,6 +77,7 @@ M0
 S12000 M3
 M8
 (operation: outside: rough)
+G64 P0.02 Q0
 G0 X-18.1616 Y-12.3902
 G43 H26 Z13
 Z1
@@ -117,6 +120,7 @@ G1 X-16
 G2 X-18.1616 Y-12.3902 I0.0153 J2.2141
 G0 Z13
 (operation: outside: rough the narrow places)
+G64 P0.002 Q0
 X2.9986 Y6.0015
 Z1
 G1 Z0

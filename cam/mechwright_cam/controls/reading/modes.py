@@ -165,12 +165,13 @@ class Modal(Compensation):
         corners = self.dialect.corners
         if self.side and corners.tolerance:
             raise fail(block.line, f"{spell(code)} while compensation is on; write it before")
-        bound = 0.0
+        bound = rounding = 0.0
         if code == 640:
             given = [words.pop(letter, None) if corners.tolerance else None for letter in "PQ"]
             blend, merge = (None if value is None else value * self.scale for value in given)
             bound = corners.bound(blend, merge)
-        self._set(off_path=bound)
+            rounding = max(blend or 0.0, 0.0)
+        self._set(off_path=bound, path_mode=code, blend=rounding)
 
     def _number(self, block: Block, letter: str, code: int) -> int:
         """The number of an offset: as it is written, or the tool's where the control takes that."""

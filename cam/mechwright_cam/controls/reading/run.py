@@ -66,6 +66,10 @@ class State:
     """
     off_path: float = 0.0
     """How far the control may leave the programmed path between two moves, mm; inf without a bound."""
+    path_mode: int = 0
+    """G code in tenths of how corners are taken: 610, 611 or 640; 0 if the program never said."""
+    blend: float = 0.0
+    """What of ``off_path`` is for rounding corners, mm; 0 in an exact mode."""
 
 
 COLUMNS: dict[str, int | slice] = {
@@ -189,6 +193,11 @@ class Run:
         """(n,) whether the step moves the tool in work coordinates."""
         moving: NDArray[np.bool_] = self.cutting | (self.kind == Kind.RAPID)
         return moving
+
+    def only(self, steps: Ints) -> "Run":
+        """Some of the steps, without remarks and what else counts steps."""
+        names = (*COLUMNS, *(name for name in ("piece", "machine_xy", "file") if getattr(self, name).size))
+        return replace(self, **{name: getattr(self, name)[steps] for name in names}, remarks=(), writes=())
 
     def of_states(self, value: "Callable[[State], Any]") -> NDArray[Any]:
         """(n,) a value of the state that each step runs in."""

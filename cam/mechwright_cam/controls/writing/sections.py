@@ -43,18 +43,22 @@ class Sections(Drilling):
             self.comment(out, OPERATION_COMMENT + operation.name)
             moves, begins = operation.moves, bool(operation.moves) and not named
             if begins:
+                self._take_corners(out, operation)
                 self._machine_place(out, machine.change_x, machine.change_y)
                 self.tool_change(out, section)
                 named = True
             elif out.program.posting.restart and self._can_restart(out, operation):
                 self.comment(out, f"restart point: T{section.tool.number} in the spindle")
                 self.restate(out)
+                self._take_corners(out, operation)
                 out.lost_height()
                 begins = True
             if begins:
                 out.lost_place()
                 self._begin(out, section, moves[0])
                 moves = moves[1:]
+            else:
+                self._take_corners(out, operation)
             for move in moves:
                 if move is last and isinstance(move, Pause):
                     # The next section starts the spindle: here it would turn beside the operator's hands.
@@ -64,15 +68,25 @@ class Sections(Drilling):
         self._halt(out)
 
     def safe_start(self, out: Writer) -> None:
-        """Set every mode that the program relies on."""
+        """Set every mode that the program relies on; an operation may ask for other corners."""
         out.line(*self.modes)
-        out.line(*self.blending(out.program.posting.exact_stop))
+        out.corners = self.blending(out.program.posting.exact_stop)
+        out.line(*out.corners)
 
     def restate(self, out: Writer) -> None:
         """State the modes once more, at a restart point."""
         self.end_drilling(out)
         self.safe_start(out)
         self.retract(out)
+
+    def _take_corners(self, out: Writer, operation: Operation) -> None:
+        """State how an operation takes its corners, where that is otherwise than before it."""
+        exact = out.program.posting.exact_stop
+        words = [] if exact or operation.tolerance is None else self.rounding(operation.tolerance)
+        words = words or self.blending(exact)
+        if words != out.corners:
+            out.corners = words
+            out.line(*words)
 
     def _can_restart(self, out: Writer, operation: Operation) -> bool:
         """Whether an operation starts above everything, at a stated place."""

@@ -92,6 +92,10 @@ class Spelling(Control):
         """The words that choose how corners are taken."""
         return ["G61" if exact else "G64"]
 
+    def rounding(self, tolerance: float) -> list[str]:  # noqa: ARG002 - for controls that can be asked
+        """The words that keep within a tolerance of the path, mm, 0 for exact; none if there are none."""
+        return []
+
     def tool_words(self, tool: Tool) -> list[str]:
         """The lines that set a tool's measured length."""
         return [f"G10 L1 P{tool.number} Z{self.length(tool.length or 0.0)}"]

@@ -32,6 +32,7 @@ class Writer:
         self.tool = 0
         self.resumed: ToolSection | None = None
         self.cycle: tuple[str, ...] = ()
+        self.corners: list[str] = []
         # By identity: the program holds its moves as long as it is written.
         self._ends: dict[tuple[int, float, float], str] = {}
         self._arcs: dict[tuple[int, float, float], tuple[str, str, bool]] = {}

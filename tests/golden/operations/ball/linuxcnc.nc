@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T49 H49 D 6 mm: ball-6, ball)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: dish: rough)
+G64 P0.02 Q0
 T49 M6
 G54 S11671 M3
 G0 X1.7971 Y0
@@ -87,6 +88,7 @@ X-0.4927 Y1.7609 I-1.6882 J0.7021
 X-1.6212 Y-0.8458 I0.496 J-1.7624
 G0 Z5
 (operation: dish: finish)
+G64 P0.002 Q0
 X1.9982 Y0
 Z1
 G1 Z0

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore: bore)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X2.8 Y0
@@ -30,6 +31,7 @@ X2.8 Y0 I2.8 J0
 G1 X0 F1960
 G0 Z5
 (operation: bore: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-4.3
 G3 X2.9994 Y0 I1.4997 J0 F840
@@ -42,6 +44,7 @@ X2.9994 Y0 I2.9994 J0
 X0 Y0 I-1.4997 J0
 G0 Z5
 (operation: seat: bore)
+G64 P0.02 Q0
 X3.2
 Z1
 G1 Z0 F1960
@@ -65,6 +68,7 @@ X5.8 Y0 I5.8 J0
 G1 X0 F1960
 G0 Z5
 (operation: seat: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-2
 G3 X5.9994 Y0 I2.9997 J0 F1176

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T48 H48 D 6 mm: bull-6-r1, bull nose)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: dish: rough)
+G64 P0.02 Q0
 T48 M6
 G54 S11671 M3
 G0 X-5.7421 Y-1.7421
@@ -38,6 +39,7 @@ G3 X-7.8 Y1.9551 I0.1094 J-1.8055
 G1 Y-1.9327
 G0 Z5
 (operation: dish: finish)
+G64 P0.002 Q0
 X3.7474 Y0.9985
 Z1
 G1 Z-2

@@ -6,9 +6,10 @@
 (T23 H23 D 8 mm: mill-8, end mill)
 (T40 H40 D 6 mm: chamfer-6, chamfer mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: window: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X-5.7822 Y2.1556
@@ -45,6 +46,7 @@ G1 X-5.022 Y2.7981
 G3 X-5.7822 Y2.1556 I0.0289 J-0.8052
 G0 Z5
 (operation: window: finish)
+G64 P0.002 Q0
 X4 Y-1.0015
 Z1
 G1 Z-3.3

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X-7.4953 Y3.0538
@@ -33,6 +34,7 @@ G2 X-7.4974 Y-3.0279 I-0.0465 J0.5136
 G1 X-7.4953 Y3.0538
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X4.996 Y0.0015
 Z1
 G1 Z-2

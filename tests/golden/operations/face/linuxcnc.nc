@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T20 H20 D 16 mm: mill-16, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: face: face)
+G64 P0.02 Q0
 T20 M6
 G54 S4377 M3
 G0 X-29 Y-10

@@ -6,9 +6,10 @@
 (T26 H26 D 4 mm: mill-4, end mill)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: seat: bore)
+G64 P0.02 Q0
 T26 M6
 G54 S12000 M3
 G0 X15.8 Y0
@@ -35,6 +36,7 @@ X15.8 Y0 I0.8 J0
 G1 X15 F1008
 G0 Z5
 (operation: seat: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-1
 G3 X15.9994 Y0 I0.4997 J0 F336
@@ -50,6 +52,7 @@ M9
 M5
 G53 G0 Z0
 (operation: recess: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X-6.6753 Y1.4243
@@ -99,6 +102,7 @@ G1 X-5.9116
 G3 X-6.6753 Y1.4243 I-0.0678 J-0.8262
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X2 Y-0.0015
 Z1
 G1 Z-2

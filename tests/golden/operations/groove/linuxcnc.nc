@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: groove: rough)
+G64 P0.02 Q0
 T24 M6
 G54 S11671 M3
 G0 X-23.0256 Y-3.9591
@@ -24,6 +25,7 @@ G1 X-20
 G2 X-23.0256 Y3.9591 I0.0173 J3.2237
 G0 Z5
 (operation: groove: finish)
+G64 P0.002 Q0
 X-23.0015 Y-5.0427
 Z1
 G1 Z-2

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: seat: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X3.7989 Y0
@@ -23,6 +24,7 @@ X-1.0684 Y-3.6456 I2.3496 J-2.9881
 X3.7989 Y0 I1.0655 J3.6494
 G0 Z5
 (operation: seat: finish)
+G64 P0.002 Q0
 X1.9982 Y-2
 Z1
 G1 Z-2

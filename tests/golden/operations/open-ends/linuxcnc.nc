@@ -6,9 +6,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T27 H27 D 3 mm: mill-3, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: outside: rough)
+G64 P0.02 Q0
 T27 M6
 G54 S12000 M3
 G0 X-19.4869 Y-16.5
@@ -98,6 +99,7 @@ G1 Y-10
 G2 X16.6067 Y-16.5 I-6.708 J0.0107
 G0 Z5
 (operation: outside: finish)
+G61
 X-12.4659 Y-17.2515
 Z1
 G1 Z-4.3

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: clear)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X2.7997 Y-0.0007
@@ -51,6 +52,7 @@ X-1.2977 Y-4.6199 I2.9312 J-3.8001
 X4.7991 Y0 I1.295 J4.6239
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X0.9983 Y-4
 Z1
 G1 Z-3

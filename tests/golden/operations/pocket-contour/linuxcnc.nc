@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X-6.5995 Y2.5983
@@ -39,6 +40,7 @@ G3 X-9.8 Y4.912 I0.0126 J-0.8223
 G1 X-9.7996 Y2.9252
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X4 Y1.9985
 Z1
 G1 Z-2

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
+G64 P0.02 Q0
 T24 M6
 G54 S11671 M3
 G0 X-11.3981 Y-6.3981
@@ -57,6 +58,7 @@ X4.1204 Y5.9018 I7.1946 J0.2381
 X4.6848 Y-5.4646 I-4.1233 J-5.902
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X10.9985 Y-3.3673
 Z1
 G1 Z-1

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: window: rough)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X-7.3052 Y-3.7368
@@ -44,6 +45,7 @@ G1 X-7.8 Y-2.9411
 G3 X-7.3052 Y-3.7368 I0.8112 J-0.0473
 G0 Z5
 (operation: window: finish)
+G64 P0.002 Q0
 X4.996 Y-0.0015
 Z1
 G1 Z-4.3

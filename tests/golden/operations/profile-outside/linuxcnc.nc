@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: bore: bore)
+G64 P0.02 Q0
 T23 M6
 G54 S8754 M3
 G0 X1.8 Y0
@@ -36,6 +37,7 @@ X1.8 Y0 I1.8 J0
 G1 X0 F1960
 G0 Z13
 (operation: bore: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-4.3
 G3 X1.9994 Y0 I0.9997 J0 F653

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T25 H25 D 5 mm: mill-5, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: keyway: rough)
+G64 P0.02 Q0
 T25 M6
 G54 S12000 M3
 G0 X-9.2967 Y0.0106
@@ -35,6 +36,7 @@ G1 X-8.9277
 G3 X-9.2967 Y0.0106 I-0.0497 J-0.3166
 G0 Z5
 (operation: keyway: finish)
+G64 P0.002 Q0
 X2.6965 Y-0.2337
 Z1
 G1 Z-1.5

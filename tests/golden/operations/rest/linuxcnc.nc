@@ -6,9 +6,10 @@
 (T21 H21 D 12 mm: mill-12, end mill)
 (T26 H26 D 4 mm: mill-4, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: recess: rough)
+G64 P0.02 Q0
 T21 M6
 G54 S5836 M3
 G0 X-6.7981 Y2.7981
@@ -62,6 +63,7 @@ G3 X-10.49 Y-6.7981 I0.3066 J-0.0014
 G1 X-6.5042 Y-6.7984
 G0 Z5
 (operation: recess: finish)
+G64 P0.002 Q0
 X2.4991 Y4.9985
 Z1
 G1 Z-2

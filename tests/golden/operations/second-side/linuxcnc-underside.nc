@@ -6,9 +6,10 @@
 (origin G55, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: counterbore: bore)
+G64 P0.02 Q0
 T24 M6
 G55 S11671 M3
 G0 X3.3904 Y0
@@ -38,6 +39,7 @@ X4.8 Y0 I4.8 J0
 G1 X0 F1470
 G0 Z5
 (operation: counterbore: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-3
 G3 X4.9994 Y0 I2.4997 J0 F919

@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: slot: rough)
+G64 P0.02 Q0
 T24 M6
 G54 S11671 M3
 G0 X10.9246 Y-0.8
@@ -29,6 +30,7 @@ X-10.9246 Y-0.8 I0.6402 J0.5509
 G1 X10.9246
 G0 Z5
 (operation: slot: finish)
+G64 P0.002 Q0
 X1.5 Y-0.5015
 Z1
 G1 Z-2

@@ -7,7 +7,7 @@
 (T1 H1 D 6 mm: spot-6, spot drill)
 (T7 H7 D 5 mm: drill-5, drill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: spot drill)
 T1 M6

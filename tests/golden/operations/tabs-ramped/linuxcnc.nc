@@ -5,9 +5,10 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: outside: rough)
+G64 P0.02 Q0
 T24 M6
 G54 S11671 M3
 G0 X15.1297 Y-18.1972
@@ -33,6 +34,7 @@ G1 Y-10
 G2 X15.1297 Y-18.1972 I-8.2045 J0.0062
 G0 Z5
 (operation: outside: finish)
+G61
 X1.827 Y-18.2015
 Z1
 G1 Z-3
@@ -61,6 +63,7 @@ G1 X0.75
 G3 X-0.327 Y-18.2015 I0 J-3 F735
 G0 Z5
 (operation: outside over the tabs: rough)
+G64 P0.02 Q0
 X15.1297 Y-18.1972
 Z1
 G1 Z-3 F1470
@@ -98,6 +101,7 @@ G2 X23.1946 Y-10.291 Z-4.3 I-8.2045 J0.0067
 X15.1297 Y-18.1972 I-8.1991 J0.2972
 G0 Z5
 (operation: outside over the tabs: finish)
+G61
 X1.827 Y-18.2015
 Z1
 G1 Z-4.3

@@ -5,7 +5,7 @@
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: outside: rough)
 T23 M6
@@ -61,6 +61,7 @@ G1 X0
 G3 X1.249 Y19.2015 I0 J4 F980
 G0 Z5
 (operation: outside below the tabs: rough)
+G64 P0.02 Q0
 X-9.2459 Y19.2343
 Z1
 G1 Z-2 F1960
@@ -90,6 +91,7 @@ G2 X-21.1539 Y16.8342 I9.2164 J-0.0115
 G1 X-21.1568 Y16.8782
 G0 Z5
 (operation: outside below the tabs: finish)
+G64 P0.002 Q0
 X-9.2631 Y19.2142
 Z1
 G1 Z-2

@@ -6,9 +6,10 @@
 (T27 H27 D 3 mm: mill-3, end mill)
 (T45 H45 D 4.5 mm: thread-m6, thread mill)
 G17 G21 G40 G49 G80 G90 G94
-G64 P0.002
+G64 P0.002 Q0
 G53 G0 Z0
 (operation: core: bore)
+G64 P0.02 Q0
 T27 M6
 G54 S12000 M3
 G0 X0.7588 Y0
@@ -57,6 +58,7 @@ X0.7588 Y0 I0.7588 J0
 G1 X0 F756
 G0 Z5
 (operation: core: finish)
+G64 P0.002 Q0
 Z1
 G1 Z-4.3
 G3 X0.9582 Y0 I0.4791 J0 F295
