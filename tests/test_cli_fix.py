@@ -214,7 +214,7 @@ def test_a_thin_plate_has_lower_tabs_unless_their_height_is_given(run: Run, tmp_
     code, out, _ = run("check", path)
     assert code == 1
     assert (
-        "cam.hold.tab_height: 1 mm is not below the thickness of 1 mm; set it to 0.5, or leave it out" in out
+        "cam.hold.tab_height: 1 mm is not below the thickness of 1 mm; set cam.hold.tab_height = 0.5" in out
     )
 
 
