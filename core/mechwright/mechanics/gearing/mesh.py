@@ -61,7 +61,8 @@ class Mesh:
     depth
         Depth (n,), mm.
     gap
-        Least normal distance (n,), mm, of the outlines in position; 0 where they overlap.
+        Normal distance (n,), mm, where the least turn brings the outlines together; 0 where they overlap.
+        Beside a fillet that a cutter left they may be nearer, which takes more of a turn.
     overlap
         Largest overlap area over the positions, mm²; 0 where no depth is above the allowance.
     """
