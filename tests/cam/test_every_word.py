@@ -31,6 +31,10 @@ def test_a_word_is_read_or_refused_in_every_block(control: str, tmp_path: Path) 
         ("G81 X1 Y1 Z-1 R1 Q1 F100", "line 3: Q means nothing in this line"),
         ("G81 X1 Y1 Z-1 R1 P1 F100", "line 3: P means nothing in this line"),
         ("F100\nG41.1 D2 G1 X20 Y20\nG99\nG1 X60", "line 5: G99 while compensation is on"),
+        (
+            "F100\nG41.1 D2 G1 X20 Y20\nG1 Y40\nG40 X0 G18",
+            "line 6: the plane changes while compensation is on",
+        ),
     ],
 )
 def test_what_linuxcnc_refuses_is_refused(lines: str, said: str, tmp_path: Path) -> None:

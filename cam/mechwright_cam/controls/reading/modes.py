@@ -131,6 +131,7 @@ class Modal(Compensation):
         self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
 
     def _modes(self, block: Block, words: dict[str, float]) -> None:
+        before = self.side
         for code in block.g:
             if code in {900, 910}:
                 self.absolute = code == 900
@@ -141,7 +142,7 @@ class Modal(Compensation):
                 self._without_compensation(block, spell(code))
                 self.to_initial = code == 980
             elif code in PLANES:
-                if self.side:
+                if self.side or (before and code != self.plane):  # G40 in the same line comes too late
                     raise fail(block.line, "the plane changes while compensation is on; write G40 before")
                 self.plane = code
                 if code == 170:
