@@ -103,7 +103,7 @@ def test_a_gear_as_freecad_posts_it_is_refused_for_its_six_reasons(command_line,
     )
 
     # Each of them is what it says: without it, the part is still cut free where tabs should hold it.
-    mended = freecad_gear(rim, 0.003).replace("G17 G54 G40", "G64 P0.002\nG17 G54 G40", 1)
+    mended = freecad_gear(rim, 0.003).replace("G17 G54 G40", "G61\nG17 G54 G40", 1)
     mended = mended.replace("M6 ", "G53 G0 Z0\nM6 ")
     assert said(mended).keys() == {"tabs"}
 
