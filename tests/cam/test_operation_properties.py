@@ -46,6 +46,12 @@ def test_any_part_is_proven_or_refused(operation: str) -> None:
     every()
 
 
+def test_a_ramp_to_and_fro_beside_a_wall_is_no_climb_milling() -> None:
+    outcome = run("underside-rim", 725)
+    assert any(not one.job.settings.climb for one in outcome.made)
+    check(outcome)
+
+
 @pytest.mark.parametrize("operation", OPERATIONS)
 def test_a_program_without_one_feature_is_not_proven(operation: str) -> None:
     """Each is found that is missing, whatever it is: the first proven part of each operation is taken apart."""

@@ -178,12 +178,25 @@ def against(scene: Scene) -> tuple[int, Tool, float] | None:
         if float(turned.path.sum()) <= LASTS * tool.diameter:
             continue
         skin = skin.only(np.isin(skin.step, _at_walls(scene, skin.step)))
+        skin = skin.only(~_to_and_fro(scene, skin))
         side = skin.side if cam.climb else -skin.side
         wrong = side > ONE_SIDED
         length = float(skin.path[wrong].sum())
         if length > LASTS * tool.diameter and _volume(skin, wrong) > _volume(skin, side < -ONE_SIDED):
             return int(skin.step[wrong][0]), tool, length
     return None
+
+
+RETURNED = 0.25
+"""A way down that goes back by this part of its length goes to and fro."""
+
+
+def _to_and_fro(scene: Scene, loads: Loads) -> NDArray[np.bool_]:
+    """(n,) which pieces of path are of a ramp that goes down to and fro, and so mills either way."""
+    paths = scene.paths
+    ramp = np.abs(paths.end[loads.step, 2] - paths.start[loads.step, 2]) > NEAR
+    ways = [float(loads.path[ramp & (way * loads.side > ONE_SIDED)].sum()) for way in (1, -1)]
+    return ramp if min(ways) > RETURNED * max(ways) else np.zeros_like(ramp)
 
 
 AT_WALL = 0.02
