@@ -10,6 +10,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
+collect_ignore = ["cam/planner_machine"]
+"""Files of a machine that LinuxCNC runs."""
+
 REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
 PROGRAMS = {
     "rs274": "linuxcnc-uspace",

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from by_night import by_night
 
 from mechwright import GROUND, Channel, Instance, Joint, Loop, Motion, Outline, Part, Poses, circle
 from mechwright.contracts import materials
@@ -181,6 +182,7 @@ sys.stdout.buffer.write(mjcf.assembly(design.name, design.parts(), motion, 3))
 """
 
 
+@by_night
 def test_the_same_design_gives_the_same_bytes():
     call = [sys.executable, "-c", CHILD, str(ROOT / "examples/geneva-straight.toml")]
     one, two = (subprocess.run(call, capture_output=True, check=True).stdout for _ in range(2))

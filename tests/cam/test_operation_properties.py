@@ -11,7 +11,7 @@ from random_parts import OPERATIONS, Outcome, named, run, without
 
 from mechwright_cam.plane.contour import LEFT
 
-SLOW = {"adaptive", "slot"}
+SLOW = {"adaptive", "open-profile", "slot", "underside-rim"}
 REASON = re.compile(r"(error \[cam\.[a-z-]+\] )?(cam\.[a-z_.]+: |part plate)")
 """How the reasons of planning begin: with the key of the design file, or with the part."""
 

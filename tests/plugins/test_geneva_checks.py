@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from by_night import examples
 
 from mechwright.contracts.finding import Severity, errors
 from mechwright.mechanics.laws import LAWS
@@ -272,14 +273,14 @@ def test_regimes_load_the_island_or_the_hub_side():
 class TestSweepAgainstCheck:
     """The array conditions and the checks of single designs decide alike."""
 
-    def designs(self, count=400):
+    def designs(self, count):
         rng = np.random.default_rng(11)
         half = rng.uniform(35, 70, count).round(2)
         offset = (rng.uniform(1, 15, count) * np.where(rng.random(count) < 0.5, 1, -1)).round(2)
         return half, offset, rng.uniform(1, 8, count).round(2)
 
     def test_both_decide_alike(self):
-        half, offset, radius = self.designs()
+        half, offset, radius = self.designs(examples(150, 400))
         law = LAWS["cycloidal"]()
         start = GenevaParams(**REFERENCE | {"pin_diameter": 1})
         good = sound(
@@ -291,7 +292,7 @@ class TestSweepAgainstCheck:
             radius + 0.025,
             walls_of(mechanism_of(start)),
         )
-        assert 40 < good.sum() < 360
+        assert 0.1 < good.mean() < 0.9
         differ = []
         for k in range(half.size):
             table = {"crank_half_angle": half[k], "offset_angle": offset[k], "roller_radius": radius[k]}

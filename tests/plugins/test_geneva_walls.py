@@ -6,6 +6,7 @@ import geneva_undercut as undercut
 import numpy as np
 import pytest
 import shapely
+from by_night import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -129,7 +130,7 @@ def clean_designs(draw):
     return slots, law, half, offset, radius
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(15, 120))
 @given(clean_designs())
 def test_no_wall_comes_nearer_to_the_way_than_the_roller(design):
     """The distance of every wall point from the whole centre line is r."""
