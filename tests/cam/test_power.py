@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from by_control import BY_NAME, prove, simulated
 from golden_operations import CONTROLS, made
@@ -15,17 +16,16 @@ from test_simulation import row
 from mechwright.contracts.materials import Material, material
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machined, machine
+from mechwright_cam.operations.bending import bent
 from mechwright_cam.program.moves import Operation, Program, ToolSection
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.power import WATTS, available, milling_force, slower
 
-FACTS = next(
-    iter(
-        json.loads((Path(__file__).parents[1] / "data" / "cutting.json").read_text(encoding="utf-8")).values()
-    )
-)
+FACTS, RULES = json.loads(
+    (Path(__file__).parents[1] / "data" / "cutting.json").read_text(encoding="utf-8")
+).values()
 
 
 def stuff(force: float, exponent: float) -> Material:
@@ -41,6 +41,56 @@ def test_power_and_torque_are_those_of_the_exact_integral(fact) -> None:
     watts = removal * WATTS * float(milling_force(stuff(given["kc11"], given["mc"]), given["fz"], engagement))
     found = watts if fact["unit"] == "W" else watts / (2 * math.pi * given["rpm"] / 60)
     assert found == pytest.approx(fact["expected"], rel=1e-5)
+
+
+def rules(name: str) -> list[dict[str, object]]:
+    return [fact for fact in RULES if fact["name"] == name]
+
+
+@pytest.mark.parametrize("fact", rules("cut.power_hm"), ids=lambda fact: f"{fact['inputs']['d']}")
+def test_the_handbooks_rule_with_the_mean_chip_is_little_above_it(fact) -> None:
+    given = fact["inputs"]
+    d, wide, fz = given["d"], given["ae"], given["fz"]
+    engagement = math.acos(1 - 2 * wide / d)
+    removal = wide * given["ap"] * given["rpm"] * given["teeth"] * fz
+    mean = 2 * wide * fz / (d * engagement)
+    rule = removal * given["kc11"] * mean ** -given["mc"] / 6e4
+    assert rule == pytest.approx(fact["expected"], rel=1e-9)
+    ours = removal / 1000 * WATTS * float(milling_force(stuff(given["kc11"], given["mc"]), fz, engagement))
+    assert 1.02 < rule / ours < 1.045
+
+
+@pytest.mark.parametrize("fact", rules("cut.peak_tooth_force"), ids=lambda fact: f"{fact['inputs']['d']}")
+def test_no_torque_is_above_that_of_all_teeth_at_their_peak(fact) -> None:
+    given = fact["inputs"]
+    d, engagement = given["d"], math.acos(1 - 2 * given["ae"] / given["d"])
+    chip = given["fz"] * math.sin(min(engagement, math.pi / 2))
+    peak = given["kc11"] * given["ap"] * chip ** (1 - given["mc"])
+    assert peak == pytest.approx(fact["expected"], rel=1e-9)
+    removal = given["ae"] * given["ap"] * given["teeth"] * given["fz"] / 1000  # in a turn, cm³
+    force = float(milling_force(stuff(given["kc11"], given["mc"]), given["fz"], engagement))
+    torque = removal * WATTS * force / (2 * math.pi) * 60
+    engaged = given["teeth"] * engagement / (2 * math.pi)
+    assert 0.3 < torque / (peak * engaged * d / 2000) < 1
+
+
+@pytest.mark.parametrize("fact", rules("cut.deflection_end_load"), ids=lambda fact: f"{fact['inputs']['d']}")
+def test_a_cutter_bends_as_a_rod_of_its_core(fact) -> None:
+    given = fact["inputs"]
+    length, core = given["L"], given["d_eff"] * given["d"]
+    found = bent(given["F"], length, length, core, given["d"], given["E_MPa"])
+    assert found == pytest.approx(fact["expected"], rel=1e-7)
+    assert bent(given["F"], length, length / 2, core, given["d"], given["E_MPa"]) < found
+
+
+def test_a_load_at_the_end_bends_more_than_one_along_the_cut() -> None:
+    (fact,) = rules("cut.deflection_tip_distributed")
+    given = fact["inputs"]
+    length, deep, core = given["L"], given["ap"], given["d_eff"] * given["d"]
+    at = length - deep + deep * (np.arange(2000) + 0.5) / 2000
+    one = at**2 * (3 * length - at) / (6 * given["E_MPa"] * math.pi * core**4 / 64)
+    assert given["F"] * one.mean() == pytest.approx(fact["expected"], rel=1e-6)
+    assert bent(given["F"], length, length, core, given["d"], given["E_MPa"]) > 1.5 * fact["expected"]
 
 
 @pytest.mark.parametrize(("over", "deep"), [(6.0, 2.0), (3.0, 2.0), (1.0, 3.0)])
