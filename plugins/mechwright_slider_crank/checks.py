@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
+from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_slider_crank.course import TURN_BACK, course_of, ends_of, least_of, period_of, reach, turns
@@ -38,7 +39,7 @@ MOST_BEND = 0.5
 @kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    return until_error(params, _joined, _turns, _webs, _drawn, _carried, _figures)
+    return until_error(params, _joined, _accelerates, _turns, _webs, _drawn, _carried, _figures)
 
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:
@@ -56,6 +57,11 @@ def _joined(params: SliderCrankParams) -> Iterator[Finding]:
         "mm",
         f"make offset at most {0.99 * limit:.4g} mm either way",
     )
+
+
+def _accelerates(params: SliderCrankParams) -> Iterator[Finding]:
+    course = course_of(params)
+    return of_acceleration("slider-crank.acceleration", course, params.acceleration_ratio, params.speed)
 
 
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:

@@ -58,10 +58,9 @@ def turns(params: SliderCrankParams) -> bool:
 def course_of(params: SliderCrankParams) -> Course:
     """One period of the crank of a design that can be put together."""
     sense = -1.0 if params.clockwise else 1.0
-    if params.linkage.at_limit:
-        return Course(0.0, sense * turns_to_close(params.offset) * math.tau)
     if turns(params):
-        return Course(0.0, sense * math.tau)
+        count = turns_to_close(params.offset) if params.linkage.at_limit else 1
+        return Course(0.0, sense * count * math.tau, acceleration_ratio=params.acceleration_ratio)
     swing = reach(params.crank, params.rod, params.offset, TURN_BACK)
     assert swing is not None  # noqa: S101 - the checks come first
     low, high = (end + params.linkage.direction for end in swing)

@@ -2,9 +2,10 @@
 
 from mechwright import Plugin, hookimpl
 from mechwright_slider_crank.family import SliderCrankFamily
+from mechwright_slider_crank.poles_page import SliderCrankPoles
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The mechanism family."""
-    return [SliderCrankFamily]
+    """The mechanism family, and the page of its poles."""
+    return [SliderCrankFamily, SliderCrankPoles]
