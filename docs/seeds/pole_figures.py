@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from signed_distances import SignedDistances, of_four_bar, of_slider_crank
 
+from mechwright.build.figures.sheet import INK, Window, linkage
 from mechwright.build.poles import Coupler, planes
-from mechwright.build.poles.sheet import INK, Window, linkage
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.poles_page import FourBarPoles
 from mechwright_four_bar.reach import bar_of
