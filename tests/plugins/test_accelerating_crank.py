@@ -85,9 +85,15 @@ def test_poles_where_the_instant_centre_is_at_infinity(name):
     assert value(fact) == pytest.approx(complex(w, sign * inputs["a"] - inputs["k"] * w), abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("degrees", "place"), [(10, (187.650627, 110.311020)), (360, (-383.889939, 79.458772))]
-)
+REST = {
+    10: (187.650627, 110.311020),
+    60: (143.851166, -193.474845),
+    180: (304.003339, 144.794168),
+    360: (-383.889939, 79.458772),
+}
+
+
+@pytest.mark.parametrize(("degrees", "place"), REST.items())
 def test_a_crank_from_rest_with_a_constant_acceleration(degrees, place):
     phi = math.radians(degrees)
     body = coupler({"a": 50, "c": 150, "e": 20}, phi, 1 / (2 * phi))
@@ -212,3 +218,40 @@ def test_a_crank_that_comes_to_run_too_fast_is_told_with_the_ratio_that_works(fa
     assert told(acceleration_ratio=-1.5) == []
     slower = float(warning.remedy.split("at most ")[1].split()[0])
     assert told(acceleration_ratio=1.5, speed=slower * 0.999) == []
+
+
+@pytest.mark.parametrize("ratio", [0.4, 1.7])
+def test_loci_of_opposite_ratios_are_mirror_images(ratio):
+    phi = np.linspace(0.1, 6.2, 40)
+
+    def pole(linkage, angle, k):
+        crank = Turning.of(angle, 1.0, k)
+        if isinstance(linkage, FourBar):
+            return acceleration_pole(close(linkage, angle).bodies(linkage, crank)["coupler"]).fixed
+        return acceleration_pole(linkage.bodies(angle, crank).rod).fixed
+
+    ahead, behind = SliderCrank(50.0, 150.0, 20.0, branch=1), SliderCrank(50.0, 150.0, 20.0, branch=-1)
+    mirrored = pole(behind, math.pi - phi, -ratio)
+    np.testing.assert_allclose(-np.conj(mirrored), pole(ahead, phi, ratio), rtol=1e-9)
+    left, right = FourBar(40, 120, 80, 100, branch=1), FourBar(40, 120, 80, 100, branch=-1)
+    np.testing.assert_allclose(np.conj(pole(right, -phi, -ratio)), pole(left, phi, ratio), rtol=1e-7)
+
+
+def test_in_a_toggle_the_pole_is_the_crank_pin_whatever_the_ratio():
+    linkage = SliderCrank(50.0, 60.0, 20.0)
+    toggle = math.asin((20 - 60) / 50)
+    for ratio in (-2.0, 0.0, 2.0):
+        away = []
+        for step in (1e-4, 1e-8):
+            crank = Turning.of([toggle + step], 1.0, ratio)
+            rod = linkage.bodies(crank.theta, crank).rod
+            away.append(abs(acceleration_pole(rod).fixed - rod.origin.position)[0])
+        assert away[1] < 1e-4
+        assert away[1] < 0.01 * away[0]
+
+
+def test_how_far_loci_reach():
+    phi = np.radians(np.linspace(0, 360, 36001))
+    for ratio, low, high in ((0.0, -390.857, 390.693), (0.5, -594.975, 591.654)):
+        pole = acceleration_pole(coupler({"a": 50, "c": 150, "e": 20}, phi, ratio)).fixed
+        assert (pole.real.min(), pole.real.max()) == pytest.approx((low, high), abs=2e-3)

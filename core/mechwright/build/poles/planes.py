@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mechwright.build.poles.coupler import Coupler
 from mechwright.build.figures.sheet import INK, Window, linkage
+from mechwright.build.poles.coupler import Coupler
 from mechwright.mechanics.planar import Plane
 
 COLOURS = ("#b3261e", "#1f5fa8", "#2e7d32", "#8a5a00", "#6a3d9a")
