@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from mechwright.build.poles.page import page as page_of
 from mechwright.build.poles.planes import MARKED
 from mechwright.mechanics.planar import Turning, acceleration_pole
 from mechwright.testing.commands import run
@@ -110,6 +111,7 @@ def test_given_ratios_take_no_unknown():
 PAGES = (
     (SliderCrankPoles(), SLIDER, {"offset": 12, "acceleration_ratio": 0.2}),
     (SliderCrankPoles(), SLIDER, {"rod": 35}),
+    (SliderCrankPoles(), SLIDER, {"crank": 50, "rod": 30, "slide_direction": 120, "clockwise": True}),
     (SliderCrankPoles(), SLIDER, {"rod": 40, "slide_direction": 70}),
     (FourBarPoles(), FOUR, {"ground_angle": 25, "branch": "crossed", "direction": "cw"}),
     (FourBarPoles(), FOUR, {"crank": 70, "coupler": 60, "follower": 75, "ground": 110}),
@@ -132,6 +134,7 @@ def test_loci_and_circles_of_the_page_are_those_of_the_motion(page, family, tabl
     radius = abs(found.inflection[0]) / 2
     away = np.abs(shown.poles_of_all_ratios(phi) - (found.instant_centre + found.inflection / 2)[0])
     np.testing.assert_allclose(away, radius, rtol=1e-6)
+    assert page_of("d", "D", shown).count("<svg") == 6
     joints, _ = shown.drawn(phi)
     assert abs(joints["B"] - joints["A"]) == pytest.approx(shown.length)
     assert joints["A"] == pytest.approx(params.crank * np.exp(1j * phi))

@@ -39,6 +39,11 @@ class Coupler:
         """Crank angles (n,), rad, of a locus."""
         return self.course.way(1 + round(abs(np.degrees(self.course.travel)) / STEP))
 
+    @property
+    def assemblies(self) -> int:
+        """How many assemblies the linkage keeps apart, 1 or 2."""
+        return len(self.moved(self.crank(self.course.start)))
+
     def body(self, phi: Array | float, ratio: Array | float, assembly: int = 0) -> BodyMotion:
         """The coupler with the crank so."""
         return self.moved(self.crank(phi, ratio))[assembly]

@@ -45,7 +45,7 @@ def _loci(
 ) -> str:
     joints, lines = linked
     curves = [coupler.locus(ratio)[plane] for ratio in ratios]
-    other = [coupler.locus(ratios[0], 1)[plane]] if len(coupler.moved(coupler.crank(0.0))) > 1 else []
+    other = [coupler.locus(ratios[0], 1)[plane]] if coupler.assemblies > 1 else []
     window = _window([*joints.values(), *marks.values()], curves + other)
     drawn = linkage(window, joints, lines)
     drawn += [window.line(one, COLOURS[0], 1.0, stroke_dasharray=window.dashes()) for one in other]
