@@ -8,7 +8,7 @@ from shapely import Polygon
 
 from mechwright.contracts.part import Pocket
 from mechwright.geometry import Loop
-from mechwright_cam.pages.svg import path, place
+from mechwright.output.svg import path, place
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_geneva.family import Geneva
 

@@ -10,6 +10,8 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
+from accelerating_crank import accelerating_crank
+from pole_figures import draw, figures
 from signed_distances import of_four_bar, of_slider_crank
 
 from mechwright.mechanics.planar import acceleration_pole
@@ -170,7 +172,7 @@ def slider_crank() -> list[str]:
         "| claim | verdict |",
         "| --- | --- |",
         "| the pole depends on sizes and position only, not on the crank's speed | true for constant "
-        "speed: ω cancels |",
+        "speed: ω cancels; with an accelerating crank it depends on k besides |",
         "| on the ground the locus has degree 24 and 12-fold circular points, symmetric about Y | true, "
         "also where "
         "the crank cannot turn; of degree 12 with 6-fold points only where c = a + e or c = the "
@@ -337,8 +339,8 @@ def errata() -> list[str]:
     ]
 
 
-PARTS: list[Callable[[], list[str]]] = [slider_crank, four_bar]
-"""One for each mechanism, in the order of the page."""
+PARTS: list[Callable[[], list[str]]] = [figures, slider_crank, four_bar, accelerating_crank]
+"""In the order of the page."""
 
 
 def page() -> str:
@@ -358,4 +360,5 @@ def page() -> str:
 
 
 if __name__ == "__main__":
+    draw()
     PAGE.write_text(page(), encoding="utf-8")

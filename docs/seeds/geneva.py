@@ -7,14 +7,15 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import geneva_driver as driver
 import geneva_printed as printed
 import geneva_undercut as undercut
 import numpy as np
 
 from mechwright.mechanics.laws import LAWS, Law
+from mechwright_geneva.figures import straight_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.mechanism import mechanism_of
-from mechwright_geneva.motion import straight_peaks
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES
 
@@ -129,6 +130,11 @@ def against_straight() -> Iterator[list[str]]:
         yield row
 
 
+def figures() -> str:
+    rows = [f"| {shows} | ![{shows}](../images/{name}.svg) |" for name, shows, _ in driver.SLOTS]
+    return "\n".join(rows)
+
+
 def page() -> str:
     """The whole page."""
     m = mechanism_of(REFERENCE)
@@ -239,8 +245,45 @@ crank angle. Bold: higher than straight. From six slots on the cycloid accelerat
 slot.
 
 {table(["n", "θw'", "θw''", "θw'''", "cycloidal", "modified sine", "modified trapezoid"], against_straight())}
+
+## A driver whose speed varies
+
+Equations (6) and (7) with (8), ωd constant, and (9) are one case. In general ωw = θw' w, αw = θw'' \
+w² + θw' α, jw = θw''' w³ + 3 θw'' w α + θw' j, w, α and j signed; backwards w < 0. The design of \
+the walls above:
+
+{table(["θd, deg", "w", "α", "j", "ωw", "αw", "jw"], driver.instants())}
+
+Peaks over a stroke, rad/s, rad/s², rad/s³; harmonic is w = 2π (1 + v cos(θd - θd0)):
+
+{table(["driver", "time, s", "ωw", "αw", "jw"], driver.peaks())}
+
+Which wall carries follows from the torque J (θw'' w² + θw' α) with the load and from the lever, \
+which changes its sign in the middle. J = 0.01 kg m², 60 rev/min, clearance 0.08 mm; the angles of \
+the crank at which the wall changes, the wall from there on, and the speed with which the roller \
+meets it:
+
+{table(["case", "direction", "changes, deg"], driver.carried())}
+
+![Torque over the stroke, by the wall that carries](../images/geneva-walls.svg)
+
+With inertia alone the torque and the lever change their signs together, and the right wall carries \
+all of it, forwards and backwards alike. So a machine that runs both ways needs both walls as soon \
+as it carries a load.
+
+## Figures
+
+| figure | ours |
+| --- | --- |
+{figures()}
+
+The source's loop is that of its printed numbers, of another law and without the chain rule; the \
+picture has equation (33). Its figures of undercut are lost; those designs are ours. Figures 1 and \
+3, an envelope and the inversion, are what the walls are made of; 8 to 20 show parts and assembly, \
+which `build` writes as solids and drawings.
 """
 
 
 if __name__ == "__main__":
+    driver.draw()
     PAGE.write_text(page(), encoding="utf-8")

@@ -6,6 +6,8 @@
 import math
 from pathlib import Path
 
+from auxiliary_circle import EXAMPLES
+
 from mechwright.errors import KinematicsError
 from mechwright_slider_crank.figures import crank_turns, least_transmission_angle
 from mechwright_slider_crank.kinematics import SliderCrank
@@ -83,6 +85,15 @@ def trends() -> list[str]:
     return rows
 
 
+def limits_over_ratios() -> list[str]:
+    """Least crank, largest rod and largest offset of a stroke of 1."""
+    rows = ["| K | least a/H | largest b/H | largest e/H |", "| --- | --- | --- | --- |"]
+    for ratio in (1.1, 1.2, 1.4, 1.5, 2.0, 2.5, 2.9):
+        found = ranges(1.0, ratio)
+        rows.append(f"| {ratio:g} | {found.crank[0]:.6f} | {found.rod[1]:.6f} | {found.offset[1]:.6f} |")
+    return rows
+
+
 def page() -> str:
     allowed, top = ranges(STROKE, RATIO), best(STROKE, RATIO)
     theta = math.degrees(rocking_angle(RATIO))
@@ -107,6 +118,17 @@ def page() -> str:
         f"them is "
         "no mechanism at all.",
         "",
+        "Figure by figure:",
+        "",
+        "| figure | shows | ours |",
+        "| --- | --- | --- |",
+        "| 1 | the circle over the stroke and its triangle | ![circle](../images/circle-1-stroke.svg) |",
+        *(
+            f"| {one.figure} | [{one.given}](offset-slider-crank-{one.name}.md), step by step | "
+            f"![{one.given}](../images/circle-{one.name}.svg) |"
+            for one in EXAMPLES
+        ),
+        "",
         "## Where solutions exist",
         "",
         f"For this example θ = {theta:g}°, the crank lies between {allowed.crank[0]:.6f} and "
@@ -119,6 +141,14 @@ def page() -> str:
         f"{degrees(top):.6f}° (a = {top.crank:.6f}, b = {top.rod:.6f} mm).",
         "",
         *trends(),
+        "",
+        "Over the place of A on its arc from C1 to C1′, the three answers marked:",
+        "",
+        "![Crank, rod and offset over the place of A](../images/circle-family.svg)",
+        "",
+        "The limits over K, parts of the stroke:",
+        "",
+        *limits_over_ratios(),
         "",
         "## Claims",
         "",

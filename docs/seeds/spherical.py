@@ -14,7 +14,7 @@ import numpy as np
 from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
 from mechwright.arrays import Array
-from mechwright_cam.pages.svg import path as polyline
+from mechwright.output.svg import path as polyline
 from mechwright_spherical import printed
 from mechwright_spherical.drive import external, internal
 from mechwright_spherical.fivebar import AdjustableFiveBar, projected

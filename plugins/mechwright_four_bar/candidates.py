@@ -31,6 +31,8 @@ class Found:
         The coupler point in the coupler's frame, x + i y, mm.
     sense
         +1 for a crank that turns counter-clockwise, -1 for the other.
+    acceleration_ratio
+        Of the crank, per radian.
     """
 
     bar: FourBar
@@ -39,6 +41,7 @@ class Found:
     pivot: complex = 0j
     point: complex | None = None
     sense: int = 1
+    acceleration_ratio: float = 0.0
 
     def table(self) -> dict[str, object]:
         """The table ``[parameters]``; what the synthesis does not say is left to its defaults."""
@@ -52,6 +55,8 @@ class Found:
             "branch": "open" if bar.branch > 0 else "crossed",
             "direction": "ccw" if self.sense > 0 else "cw",
         }
+        if self.acceleration_ratio:
+            table["acceleration_ratio"] = self.acceleration_ratio
         if self.pivot:
             table |= {"pivot_x": self.pivot.real, "pivot_y": self.pivot.imag}
         if self.point is not None:

@@ -10,8 +10,8 @@ import numpy as np
 from flint import acb, arb, ctx
 
 from mechwright import Array
-from mechwright.mechanics.planar import Plane
 from mechwright_four_bar.dimensions import FourBar
+from mechwright_four_bar.pole_equations import PoleProblem
 
 BITS = 160
 """Working precision: some 48 digits, of which a position a hair from a toggle takes a third."""
@@ -23,10 +23,11 @@ NEWTON_STEPS = 3
 """Steps from a solution of ten digits to one of more than a double holds; each doubles them."""
 
 
-def pole_ball(lengths: Sequence[arb], theta: arb, phi: arb, branch: int) -> acb:
+def pole_ball(lengths: Sequence[arb], theta: arb, phi: arb, branch: int, ratio: float = 0.0) -> acb:
     """Acceleration pole of the coupler from balls for crank, coupler, follower, ground, mm, and angles, rad.
 
-    The precision is that of ``flint.ctx``; the ball is infinite where the loop does not certainly close.
+    ``ratio`` is the crank's acceleration ratio. The precision is that of ``flint.ctx``; the ball is infinite
+    where the loop does not certainly close.
     """
     a, c, b, f = lengths
     crank = acb(a) * acb(0, phi).exp()
@@ -40,18 +41,18 @@ def pole_ball(lengths: Sequence[arb], theta: arb, phi: arb, branch: int) -> acb:
     r = acb(0, -1) * crank
     w, v = -(r * p.conjugate()).real / (c * sine), -(r * s.conjugate()).real / (b * sine)
     r = crank + c * w * w * s - b * v * v * p
-    alpha = -(r * p.conjugate()).real / (c * sine)
-    return crank * (1 + 1 / acb(-w * w, alpha))
+    alpha = -(r * p.conjugate()).real / (c * sine) + ratio * w
+    return crank * (1 + acb(1, -ratio) / acb(-w * w, alpha))
 
 
-def certain_residual(bar: FourBar, phi: Sequence[float] | Array, targets: Plane) -> float:
-    """A distance, mm, that no pole of this very linkage exceeds from its target (n,).
+def certain_residual(bar: FourBar, phi: Sequence[float] | Array, problem: PoleProblem) -> float:
+    """A distance, mm, that no pole of this very linkage exceeds from its place (n,).
 
     The doubles of ``bar`` and ``phi`` (n,) are taken as exact; infinite where the loop does not certainly
     close.
     """
     with ctx.workprec(BITS):
-        errors = _errors(_balls([*bar.lengths, bar.ground_angle, *phi]), bar.branch, targets)
+        errors = _errors(_balls([*bar.lengths, bar.ground_angle, *phi]), bar.branch, problem)
         worst = 0.0
         for error in errors:
             bound = error.abs_upper()
@@ -62,7 +63,7 @@ def certain_residual(bar: FourBar, phi: Sequence[float] | Array, targets: Plane)
 
 
 def polished(
-    bar: FourBar, phi: Array, targets: Plane, free: Sequence[Sequence[int]]
+    bar: FourBar, phi: Array, problem: PoleProblem, free: Sequence[Sequence[int]]
 ) -> tuple[FourBar, Array]:
     """The nearest exact solution, rounded once.
 
@@ -70,8 +71,8 @@ def polished(
     ----------
     bar, phi
         An approximate solution.
-    targets
-        (n,) mm.
+    problem
+        Its poles.
     free
         What may change: groups of indices into crank, coupler, follower, ground, ground angle, then the crank
         angles. The members of a group move by the same amount.
@@ -80,15 +81,13 @@ def polished(
         values = _balls([*bar.lengths, bar.ground_angle, *phi])
         step = arb(2) ** -DIFFERENCE
         for _ in range(NEWTON_STEPS):
-            error = _numbers(_errors(values, bar.branch, targets), arb(1))
+            errors = _errors(values, bar.branch, problem)
+            error = _numbers(errors, arb(1))
             slopes = []
             for group in free:
                 moved = [value + step if i in group else value for i, value in enumerate(values)]
                 change = [
-                    one - two
-                    for one, two in zip(
-                        _errors(moved, bar.branch, targets), _errors(values, bar.branch, targets), strict=True
-                    )
+                    one - two for one, two in zip(_errors(moved, bar.branch, problem), errors, strict=True)
                 ]
                 slopes.append(_numbers(change, step))
             matrix = np.column_stack(slopes)
@@ -108,11 +107,12 @@ def _balls(numbers: Sequence[float]) -> list[arb]:
     return [arb(float(number)) for number in numbers]
 
 
-def _errors(values: Sequence[arb], branch: int, targets: Plane) -> list[acb]:
+def _errors(values: Sequence[arb], branch: int, problem: PoleProblem) -> list[acb]:
+    """By how much poles miss their places, of balls for lengths, ground angle and crank angles."""
     lengths, theta, angles = values[:4], values[4], values[5:]
     return [
-        pole_ball(lengths, theta, angle, branch) - acb(float(target.real), float(target.imag))
-        for angle, target in zip(angles, targets, strict=True)
+        pole_ball(lengths, theta, angle, branch, float(ratio)) - acb(float(target.real), float(target.imag))
+        for angle, ratio, target in zip(angles, problem.each_ratio, problem.targets, strict=True)
     ]
 
 

@@ -11,6 +11,7 @@ from itertools import combinations
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
@@ -51,6 +52,7 @@ def findings(params: FourBarParams) -> tuple[Finding, ...]:
     return until_error(
         params,
         _joined,
+        _accelerates,
         _turning,
         _transmission,
         _room,
@@ -81,6 +83,11 @@ def _joined(params: FourBarParams) -> Iterator[Finding]:
         )
     elif is_lever(params) and within(params) is None:
         yield _out_of_reach(params, bar)
+
+
+def _accelerates(params: FourBarParams) -> Iterator[Finding]:
+    course = course_of(params)
+    return of_acceleration("four-bar.acceleration", course, params.acceleration_ratio, params.speed)
 
 
 def _out_of_reach(params: FourBarParams, bar: FourBar) -> Finding:

@@ -19,7 +19,7 @@ from mechwright_four_bar.reach import bar_of, course_of, is_lever, toggles, tran
 
 
 def motion_of(params: FourBarParams, samples: int) -> Motion:
-    """Sample one turn of the crank at constant speed, or one swing there and back, both ends included.
+    """Sample one turn of the crank, or one swing there and back, both ends included.
 
     At a change point the linkage goes smoothly on, and a period may be two turns.
 
@@ -40,7 +40,7 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
         "time": Channel(period.time, "s"),
         "omega_a": Channel(drive.omega, "rad/s"),
     }
-    if is_lever(params):
+    if is_lever(params) or params.acceleration_ratio:
         channels |= {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
     for name, angle, suffix in (("coupler", "sigma", "_c"), ("follower", "psi", "_b")):
         channels |= turning_channels(bodies[name].turning, angle, suffix)

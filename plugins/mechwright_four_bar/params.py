@@ -5,7 +5,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
-from mechwright.units import Degrees, Millimetres, RevPerMin, Unit
+from mechwright.mechanics.planar.course import MOST_RATIO
+from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
 
 Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 """A coordinate."""
@@ -56,8 +57,15 @@ class FourBarParams(Parameters):
         60.0,
         ge=0.001,
         le=20000,
-        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+        description="Speed of the crank; of a lever, swings there and back in a minute.",
         json_schema_extra=FIRST,
+    )
+    acceleration_ratio: Ratio = Field(
+        0.0,
+        ge=-MOST_RATIO,
+        le=MOST_RATIO,
+        description="Acceleration of the crank over the square of its speed, per radian, counter-clockwise "
+        "positive, constant over the period; speed is then that at its start.",
     )
     direction: Literal["ccw", "cw"] = Field(
         "ccw", description="Sense of the crank, or of a lever's first swing, seen from above."

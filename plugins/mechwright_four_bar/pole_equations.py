@@ -2,10 +2,11 @@
 
 With the ground line as unit (A0 = 0, B0 = 1) and the crank at angle φ from it, the pole is at
 
-    γ(a, b, c, φ) = a e^{iφ} (1 + 1/(i α - w²)),
+    γ(a, b, c, φ) = a e^{iφ} (1 + (1 - i k)/(i α - w²)),
 
-w and α being the coupler's first and second derivative by the crank angle. The true pole is s γ with
-s = f e^{iθ}: length and direction of the ground enter linearly. They are eliminated where they are not
+w being the coupler's speed over the crank's, α its acceleration over the square of the crank's speed, and k
+that of the crank: α = α₀ + k w with the coupler's second derivative by the crank angle. The true pole is s γ
+with s = f e^{iθ}: length and direction of the ground enter linearly. They are eliminated where they are not
 prescribed, by the least squares of s γ_j - t_j.
 
 The dyad of c and b must span the diagonal D between A and B0. Searched are therefore
@@ -43,10 +44,11 @@ def random_shapes(count: int, rng: np.random.Generator) -> Array:
     return np.column_stack([rng.uniform(low, high, count) for low, high in ranges])
 
 
-def unit_pole(a: Array, b: Array, c: Array, phi: Array, branch: int) -> Plane:
+def unit_pole(a: Array, b: Array, c: Array, phi: Array, branch: int, ratio: Array | float = 0.0) -> Plane:
     """Acceleration pole of the coupler over a ground of length 1 along X, for arrays that broadcast.
 
-    Lengths are positive, in ground lengths; ``phi`` in rad; the result is NaN where the loop is open.
+    Lengths are positive, in ground lengths; ``phi`` in rad; ``ratio`` is the crank's acceleration ratio; the
+    result is NaN where the loop is open.
     """
     crank = np.exp(1j * phi)
     d = 1 - a * crank
@@ -59,8 +61,8 @@ def unit_pole(a: Array, b: Array, c: Array, phi: Array, branch: int) -> Plane:
     r = -1j * a * crank
     w, v = lever * (r * np.conj(p)).real / c, lever * (r * np.conj(s)).real / b
     r = a * crank + c * w**2 * s - b * v**2 * p
-    alpha = lever * (r * np.conj(p)).real / c
-    pole: Plane = a * crank * (1 + 1 / (1j * alpha - w**2))
+    alpha = lever * (r * np.conj(p)).real / c + ratio * w
+    pole: Plane = a * crank * (1 + (1 - 1j * ratio) / (1j * alpha - w**2))
     return pole
 
 
@@ -82,6 +84,8 @@ class PoleProblem:
         +1 or -1 at all poles.
     full_turn
         Whether only linkages whose crank turns fully are searched, or all that reach the positions.
+    ratios
+        Acceleration ratios of the crank at the poles (n,), or one for all.
 
     The unknowns (m,) are ln a, x and y, and the crank angles from the ground line: one if ``turns`` are
     given, else n.
@@ -93,6 +97,12 @@ class PoleProblem:
     ground: float | None
     branch: int
     full_turn: bool
+    ratios: Array | float = 0.0
+
+    @property
+    def each_ratio(self) -> Array:
+        """Acceleration ratios (n,)."""
+        return np.broadcast_to(np.asarray(self.ratios, dtype=float), self.targets.shape)
 
     @property
     def unknowns(self) -> int:
@@ -123,7 +133,7 @@ class PoleProblem:
     def _poles(self, unknowns: Array) -> tuple[Plane, Plane]:
         """γ (..., n) and s (..., 1)."""
         a, b, c = (length[..., None] for length in self.lengths(unknowns))
-        gamma = unit_pole(a, b, c, self.angles(unknowns), self.branch)
+        gamma = unit_pole(a, b, c, self.angles(unknowns), self.branch, self.ratios)
         if self.ground_angle is None:
             size = np.sum(np.abs(gamma) ** 2, axis=-1, keepdims=True)
             return gamma, np.sum(np.conj(gamma) * self.targets, axis=-1, keepdims=True) / size

@@ -101,8 +101,8 @@ def _solutions(problem: PoleProblem, unknowns: Array) -> list[PoleSolution]:
     rows = np.array([_features(bar, phi) for bar, phi in bars])
     solutions: list[PoleSolution] = []
     for index in distinct(rows, ROUGHLY_SAME):
-        bar, phi = polished(bars[index][0], bars[index][1], problem.targets, _free(problem))
-        residual = certain_residual(bar, phi, problem.targets)
+        bar, phi = polished(bars[index][0], bars[index][1], problem, _free(problem))
+        residual = certain_residual(bar, phi, problem)
         if residual <= RESIDUAL:
             solutions.append(PoleSolution(bar, phi % math.tau, residual))
     if not solutions:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from mechwright import Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
 from mechwright_four_bar.candidates import Found, buildable
 from mechwright_four_bar.dimensions import Kind
 from mechwright_four_bar.params import FourBarParams
@@ -22,6 +23,7 @@ def problem_of(wanted: PolesRequirement, full_turn: bool) -> PoleProblem:
         wanted.ground,
         1,
         full_turn,
+        np.array(wanted.acceleration_ratios),
     )
 
 
@@ -44,20 +46,23 @@ def through_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Fou
         if one.bar.least_transmission_angle() < least:
             angle = math.degrees(one.bar.least_transmission_angle())
             rejected.because("poles.transmission", f"the transmission angle falls to {angle:.3g} degrees")
+    common = common_ratio(wanted.acceleration_ratios)
     candidates, reason = buildable(
-        (_found(one) for one in good),
+        (_found(one, common or 0.0) for one in good),
         wanted.designs,
         rejected,
         lambda part: progress(0.5 + 0.3 * part, "designs"),
     )
     if candidates:
-        notes = tuple(_notes(problem, turning, len(candidates)))
-        return Synthesis(tuple(candidates), notes, rejected.reasons)
+        notes = _notes(problem, turning, len(candidates))
+        if common is None:
+            notes.append(of_several_ratios("poles.ratios", wanted.acceleration_ratios))
+        return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
     refusal = _refusal(wanted, result.nearest, turning, bool(good), reason, progress)
     return Synthesis((), (refusal,), rejected.reasons)
 
 
-def _found(one: PoleSolution) -> Found:
+def _found(one: PoleSolution, ratio: float) -> Found:
     figures = {
         "least_transmission_angle": Scalar(one.bar.least_transmission_angle(), "rad"),
         **{
@@ -66,7 +71,7 @@ def _found(one: PoleSolution) -> Found:
         },
         "double_crank": Scalar(float(one.bar.kind is Kind.DOUBLE_CRANK), ""),
     }
-    return Found(one.bar, Scalar(one.residual, "mm"), figures)
+    return Found(one.bar, Scalar(one.residual, "mm"), figures, acceleration_ratio=ratio)
 
 
 def _notes(problem: PoleProblem, turning: list[PoleSolution], given: int) -> list[Finding]:

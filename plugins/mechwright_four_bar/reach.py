@@ -101,4 +101,4 @@ def course_of(params: FourBarParams) -> Course:
         one, two = ends if params.swing_from is not None or sense > 0 else ends[::-1]
         return Course(one, two - one, rocks=True)
     turns = turns_to_close(bar) if bar.lines_up else 1
-    return Course(0.0, sense * turns * math.tau)
+    return Course(0.0, sense * turns * math.tau, acceleration_ratio=params.acceleration_ratio)

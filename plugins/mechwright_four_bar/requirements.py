@@ -6,10 +6,12 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
+from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.units import Degrees, Millimetres, Unit
 
 Coordinate = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
+AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit("")]
 
 NEAREST_POLE = 0.01
 """mm. A pole nearer to A0 asks for a coupler that hardly turns; nothing of that kind can be built."""
@@ -97,6 +99,13 @@ class PolesRequirement(Parameters):
         max_length=5,
         description="Crank angle at each pole from that at the first, the first 0; [] for any angles.",
     )
+    acceleration_ratios: tuple[AccelerationRatio, ...] = Field(
+        (0.0,),
+        min_length=1,
+        max_length=5,
+        description="Acceleration of the crank over the square of its speed at each pole, per radian, "
+        "counter-clockwise positive, or one for all.",
+    )
     ground_angle: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
         None, description="Direction from A0 to B0; left out, any."
     )
@@ -118,6 +127,11 @@ class PolesRequirement(Parameters):
                 raise ValueError(f"crank_turns has {len(self.crank_turns)} angles for {count} poles")
             if self.crank_turns[0] != 0 or len({turn % 360 for turn in self.crank_turns}) < count:
                 raise ValueError("crank_turns starts with 0 and holds no angle twice")
+        if len(self.acceleration_ratios) not in {1, count}:
+            raise ValueError(
+                f"acceleration_ratios has {len(self.acceleration_ratios)} numbers for {count} poles; "
+                "give one for all, or one for each"
+            )
         if self.ground is not None and self.ground_angle is None:
             raise ValueError("ground needs a ground_angle; give both, or the angle alone")
         if len(set(self.poles)) < count:

@@ -3,12 +3,16 @@
 With the roller's normal n, its centre C and its speed D over the wheel (equations of the facts, section 11):
 
     lever of the wheel   a b |sin φ|/D,  cos δ = lever/|C|
-    N = T_w/lever,  T_w = J θw'' ω² + T_load,  crank torque T_w θw'
+    N = T_w/lever,  T_w = J (θw'' ω² + θw' α) ± T_load,  crank torque ± T_w θw', - backwards
     R = r (1 ∓ κ r),  p = sqrt(N E*/(π L R)),  1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2
 
 At mid stroke of a curved slot the normal lies on the line of centres, δ = 90 degrees: no force turns the
-wheel there. Inertia does not need one, since θw'' passes 0 as well and N stays finite; a constant torque
-does. In the blocked zone about it the wheel's own kinetic energy has to carry the load.
+wheel there. Inertia does not need one at constant speed, since θw'' passes 0 as well and N stays finite; a
+constant torque does, and so does an acceleration of the driver. In the blocked zone about it the wheel's own
+kinetic energy has to carry the load.
+
+The wall whose lever has the torque's sign carries: it changes where the lever changes its sign, in the middle
+of the stroke, and where the torque does. If both do there, nothing changes.
 """
 
 import math
@@ -52,7 +56,9 @@ class Contact:
     pressure_angle
         δ, rad.
     wall
-        LEFT or RIGHT: the wall that carries.
+        LEFT or RIGHT: the wall that ``force`` is on.
+    carrier
+        LEFT or RIGHT: the wall that carries the whole torque, in the blocked zone as well.
     force
         N. In the blocked zone that of the inertia alone.
     pressure
@@ -66,6 +72,7 @@ class Contact:
     lever: Array
     pressure_angle: Array
     wall: NDArray[np.int_]
+    carrier: NDArray[np.int_]
     force: Array
     pressure: Array
     crank_torque: Array
@@ -78,53 +85,75 @@ class Drive:
 
     Parameters
     ----------
-    omega
-        Crank speed, rad/s.
+    omega, alpha
+        Crank speed, rad/s, below 0 backwards, and its acceleration, rad/s²: numbers or (k,).
     inertia, torque
         Of the load, kg·m² and N·m.
     radius, length
         Of the roller, mm.
     stiffness
         E*, MPa.
+    sense
+        +1 forwards, -1 backwards.
     """
 
-    omega: float
+    omega: "float | Array"
     inertia: float
     torque: float
     radius: "float | Array"
     length: float
     stiffness: float
+    alpha: "float | Array" = 0.0
+    sense: int = 1
+
+    def accelerating(self, run: Stroke) -> Array:
+        """J θw'' ω², N·m: what needs no push in the middle of a curved slot."""
+        return np.asarray(self.inertia * run.second * self.omega**2)
+
+    def pushing(self, run: Stroke) -> Array:
+        """J θw' α and the load, N·m."""
+        return np.asarray(self.inertia * run.first * self.alpha + self.sense * self.torque)
 
 
-def contact(mechanism: Mechanism, run: Stroke) -> Contact:
-    """The contact over a stroke, at the driver's constant speed."""
+def contact(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Contact:
+    """The contact over a stroke; ``stroke`` (k,) is its number, counted as θd is: the speed depends on it."""
+    drive = drive_of(mechanism, run, stroke)
+    return _straight(run, drive) if mechanism.straight else curved(run, drive)
+
+
+def drive_of(mechanism: Mechanism, run: Stroke, stroke: "int | Array" = 0) -> Drive:
+    """What loads the contact over a stroke."""
     m, params = mechanism, mechanism.params
-    drive = Drive(
-        params.speed * math.tau / 60,
+    turning = m.driver.at(m.crank_half - run.phi + stroke * m.pitch)
+    return Drive(
+        turning.omega,
         params.load_inertia,
         params.load_torque,
         m.roller,
         max(m.params.roller_length, _SHORTEST),
         stiffness(params.material, params.roller_material),
+        turning.alpha,
+        m.driver.sense,
     )
-    return _straight(run, drive) if m.straight else curved(run, drive)
 
 
 def _straight(run: Stroke, drive: Drive) -> Contact:
     """Along a radial wall: the whole radius is lever, the pressure angle 0, the wall flat."""
     reach = np.abs(run.centre)
-    torque = drive.inertia * run.second * drive.omega**2 + drive.torque
+    torque = drive.accelerating(run) + drive.pushing(run)
     # A push ahead is on the right of the way in and on the left of the way out.
     ahead = np.where(run.phi >= 0, RIGHT, LEFT)
     force = np.abs(torque) / reach * 1e3
     none = np.zeros(reach.shape)
+    wall = np.where(torque >= 0, ahead, -ahead)
     return Contact(
         reach,
         none,
-        np.where(torque >= 0, ahead, -ahead),
+        wall,
+        wall,
         force,
         np.sqrt(force * drive.stiffness / (math.pi * drive.length * drive.radius)),
-        torque * run.first,
+        drive.sense * torque * run.first,
         none.astype(bool),
     )
 
@@ -136,7 +165,8 @@ def curved(run: Stroke, drive: Drive) -> Contact:
     delta = np.arccos(np.clip(lever / np.abs(run.centre), 0, 1))
     blocked = delta > BLOCKED
     middle = np.abs(np.sin(run.phi)) < _MIDDLE
-    torque = drive.inertia * run.second * drive.omega**2 + np.where(blocked, 0.0, drive.torque)
+    pushed = drive.pushing(run)
+    torque = drive.accelerating(run) + np.where(blocked, 0.0, pushed)
     # At mid stroke the ratio of θw'' and sin φ tends to that of their derivatives, and the lever to
     # a b sin φ/D.
     limit = (
@@ -145,11 +175,13 @@ def curved(run: Stroke, drive: Drive) -> Contact:
     push = torque / np.where(middle, 1.0, signed)
     push = np.where(middle, np.where(run.third < 0, RIGHT, LEFT) * limit, push) * 1e3
     wall = np.where(push > 0, LEFT, RIGHT)
+    whole = (drive.accelerating(run) + pushed) * signed
+    carrier = np.where(whole == 0, wall, np.where(whole > 0, LEFT, RIGHT))
     # An undercut wall has no contact there; feasible designs have none.
     radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), _SHARPEST)
     force = np.abs(push)
     pressure = np.sqrt(force * drive.stiffness / (math.pi * drive.length * radius))
-    return Contact(lever, delta, wall, force, pressure, torque * run.first, blocked)
+    return Contact(lever, delta, wall, carrier, force, pressure, drive.sense * torque * run.first, blocked)
 
 
 def stiffness(wheel: str, roller: str) -> float:
@@ -192,32 +224,42 @@ class Loads:
 
 @kept
 def loads(mechanism: Mechanism) -> Loads:
-    """The peaks of the contact over one stroke."""
+    """The peaks of the contact over the strokes of a turn; over one where all are alike."""
     u = np.linspace(0, 1, _SAMPLES)
     run = mechanism.stroke(u)
-    found = contact(mechanism, run)
     time = 2 * mechanism.crank_half
-    zone = np.flatnonzero(found.blocked)
-    force, force_at, island = _peak(mechanism, u, found, "force")
-    pressure, pressure_at, _ = _peak(mechanism, u, found, "pressure")
-    torque, _, _ = _peak(mechanism, u, found, "crank_torque")
+    strokes = mechanism.strokes if mechanism.driver.varies else mechanism.strokes[:1]
+    found = [(stroke, contact(mechanism, run, stroke)) for stroke in strokes]
+
+    def peak(name: str) -> tuple[float, float, bool]:
+        each = [(*_peak(mechanism, u, one, stroke, name), stroke) for stroke, one in found]
+        most, at, island, stroke = max(each, key=lambda one: one[0])
+        return most, time * at + stroke * mechanism.pitch, island
+
+    force, force_at, island = peak("force")
+    pressure, pressure_at, _ = peak("pressure")
+    torque, _, _ = peak("crank_torque")
+    first = found[0][1]
+    zone = np.flatnonzero(first.blocked)
     return Loads(
         force,
-        time * force_at,
+        force_at,
         pressure,
-        time * pressure_at,
+        pressure_at,
         torque,
         island and not mechanism.straight,
-        time * float(np.mean(found.pressure_angle > math.pi / 4)),
+        time * float(np.mean(first.pressure_angle > math.pi / 4)),
         float(run.theta[zone[-1]] - run.theta[zone[0]]) if zone.size else 0.0,
     )
 
 
-def _peak(mechanism: Mechanism, u: Array, found: Contact, name: str) -> tuple[float, float, bool]:
+def _peak(
+    mechanism: Mechanism, u: Array, found: Contact, stroke: int, name: str
+) -> tuple[float, float, bool]:
     """Largest magnitude of one quantity, its u, and whether the island carries there."""
     most = int(np.argmax(np.abs(getattr(found, name))))
     near = np.linspace(u[max(most - 1, 0)], u[min(most + 1, u.size - 1)], _SAMPLES)
-    fine = contact(mechanism, mechanism.stroke(near))
+    fine = contact(mechanism, mechanism.stroke(near), stroke)
     values = np.abs(getattr(fine, name))
     best = int(np.argmax(values))
     return float(values[best]), float(near[best]), bool(fine.wall[best] == mechanism.side)

@@ -27,7 +27,7 @@ class Geneva(Family[GenevaParams]):
         return findings(params)
 
     def solve(self, params: GenevaParams, samples: int) -> "Motion":
-        """One turn of the driver at constant speed."""
+        """One turn of the driver, from the first entry."""
         from mechwright_geneva.motion import motion_of
 
         return motion_of(params, samples)

@@ -7,6 +7,7 @@ from mechwright import Finding, Stage, kept, of_stage
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright.tolerances import exceeds, falls_short
+from mechwright_geneva.driver import driver_of
 from mechwright_geneva.mechanism import frame_of
 from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.sizes import sized
@@ -33,7 +34,7 @@ def feasibility(params: GenevaParams) -> tuple[Finding, ...]:
     if not errors(found):
         sizes = sized(params)
         found += _straight(sizes) if params.law == "straight" else _angles(sizes)
-        found += [*_centres(params), *_rollers(sizes), *_floor(sizes)]
+        found += [*_centres(params), *_rollers(sizes), *_driver(sizes), *_floor(sizes)]
     return tuple(found)
 
 
@@ -51,6 +52,25 @@ def _law(params: GenevaParams) -> Iterator[Finding]:
             fault.value,
             fault.limit,
             remedy=fault.remedy,
+        )
+
+
+def _driver(params: Sizes) -> Iterator[Finding]:
+    """A driver that slows down and stops before its turn is over."""
+    driver = driver_of(params, math.radians(params.crank_half_angle))
+    stops, given = driver.stops(), params.driver_acceleration
+    if stops is not None and given is not None and not exceeds(stops, math.tau):
+        least = driver.speed**2 / (2 * math.tau)
+        faster = math.sqrt(-2 * given * math.tau) * 60 / math.tau
+        yield Finding.error(
+            "geneva.driver-stops",
+            "driver_acceleration",
+            f"the driver stands still after {math.degrees(stops):.4g} degrees of its turn",
+            given,
+            -least,
+            "rad/s^2",
+            f"keep driver_acceleration above {-math.floor(least * 1e4) / 1e4:g}, or begin with more than "
+            f"{math.ceil(faster * 10) / 10:g} rev/min",
         )
 
 

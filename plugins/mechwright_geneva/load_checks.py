@@ -10,10 +10,11 @@ from mechwright import Finding, Severity
 from mechwright.tolerances import exceeds
 from mechwright_geneva.contact import loads, strength
 from mechwright_geneva.cures import walls_of
+from mechwright_geneva.figures import peaks_of, straight_peaks
 from mechwright_geneva.horns import clear
 from mechwright_geneva.mechanism import Mechanism
-from mechwright_geneva.motion import peaks_of, straight_peaks
 from mechwright_geneva.sound import LEAST_BITE, sound
+from mechwright_geneva.walls import switches
 
 
 def load_findings(m: Mechanism) -> Iterator[Finding]:
@@ -21,7 +22,9 @@ def load_findings(m: Mechanism) -> Iterator[Finding]:
     if not m.straight:
         yield from _against_straight(m)
         yield from _middle(m)
+        yield from _ramp(m)
     yield from _pressure(m)
+    yield _walls(m)
 
 
 def _against_straight(m: Mechanism) -> Iterator[Finding]:
@@ -67,12 +70,14 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
     params = m.params
     if params.load_torque == 0:
         return
-    omega = params.speed * math.tau / 60
+    strokes = m.strokes if m.driver.varies else m.strokes[:1]
+    middles = m.driver.at(m.crank_half + m.pitch * np.array(strokes, dtype=float))
+    omega = float(np.abs(middles.omega).min())
     work = params.load_torque * loads(m).carried
     energy = params.load_inertia * (m.wheel_half / m.crank_half * float(m.law.at(0.5).v) * omega) ** 2 / 2
     stalls = work >= energy
     lost = 1.0 if stalls else 1 - math.sqrt(1 - work / energy)
-    least = params.speed * math.sqrt(work / energy) if energy > 0 else None
+    least = omega * math.sqrt(work / energy) * 60 / math.tau if energy > 0 else None
     yield Finding(
         "geneva.singular",
         Severity.ERROR if stalls else Severity.WARNING,
@@ -84,9 +89,61 @@ def _middle(m: Mechanism) -> Iterator[Finding]:
         work * 1e3,
         energy * 1e3,
         "mJ",
-        f"run above {math.ceil(least):g} rev/min, raise load_inertia, or use straight slots"
+        f"run {'above' if not m.driver.varies else 'there above'} {math.ceil(least):g} rev/min, raise "
+        "load_inertia, or use straight slots"
         if stalls and least is not None
         else "raise load_inertia, or use straight slots where a torque has to be held at every instant",
+    )
+
+
+def _ramp(m: Mechanism) -> Iterator[Finding]:
+    """An acceleration of the driver in the middle of a stroke, which the roller cannot give to the wheel."""
+    strokes = m.strokes if m.driver.varies else m.strokes[:1]
+    middles = m.driver.at(m.crank_half + m.pitch * np.array(strokes, dtype=float))
+    ratio = m.wheel_half / m.crank_half * float(m.law.at(0.5).v)
+    worst = int(np.argmax(np.abs(middles.alpha)))
+    alpha = float(middles.alpha[worst])
+    if abs(alpha) * ratio <= _STEADY * float(middles.omega[worst]) ** 2 or m.params.load_inertia == 0:
+        return
+    moment = m.params.load_inertia * ratio * abs(alpha)
+    yield Finding.warning(
+        "geneva.ramp",
+        "driver_law",
+        f"the driver accelerates by {alpha:.4g} rad/s^2 in the middle of a stroke, where the roller cannot "
+        f"turn "
+        f"the wheel: {moment:.4g} N·m are missing, and the wheel coasts through the clearance",
+        moment,
+        0.0,
+        "N*m",
+        "have the driver reach its speed while the wheel rests; at constant speed the wheel needs no torque "
+        "there",
+    )
+
+
+_STEADY = 1e-6
+"""Acceleration of the driver over the square of its speed that is rounding."""
+
+_NAMED = 6
+"""Changes of walls that a finding names; summary.json has all."""
+
+
+def _walls(m: Mechanism) -> Finding:
+    found = switches(m)
+    if not found:
+        wall = "one wall, the same on the way back," if not m.straight else "one wall"
+        return Finding.note("geneva.walls", f"{wall} carries all of the stroke", 0.0)
+    said = []
+    for one in found[:_NAMED]:
+        met = "which it does not come to" if one.impact is None else f"met with {one.impact:.3g} mm/s"
+        said.append(
+            f"{math.degrees(one.theta):.4f} degrees at {abs(one.omega) * 60 / math.tau:.4g} rev/min to the "
+            f"{one.wall} wall, {met}"
+        )
+    more = f", and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
+    return Finding.note(
+        "geneva.walls",
+        f"the roller changes walls across {m.params.groove_clearance:g} mm at {'; '.join(said)}{more}",
+        float(len(found)),
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from mechwright import kept
 from mechwright.mechanics.laws import Law
+from mechwright_geneva.driver import Driver, driver_of
 from mechwright_geneva.horns import greatest_disc
 from mechwright_geneva.kinematics import Frame, Stroke, regime, stroke
 from mechwright_geneva.law import law_of
@@ -97,6 +98,16 @@ class Mechanism:
     def pitch(self) -> float:
         """Crank angle from one roller to the next."""
         return math.tau / self.params.rollers
+
+    @cached_property
+    def driver(self) -> Driver:
+        """How the driver turns."""
+        return driver_of(self.params, self.crank_half)
+
+    @property
+    def strokes(self) -> range:
+        """The numbers of the strokes of a turn, counted as θd is: backwards below 0."""
+        return range(0, self.driver.sense * self.params.rollers, self.driver.sense)
 
     @cached_property
     def side(self) -> int:

@@ -177,7 +177,28 @@ class GenevaParams(Parameters):
     material: MaterialName = Field("steel", description="Material of the plates.", json_schema_extra=FIRST)
     roller_material: MaterialName = Field("steel", description="Material of rollers and pins.")
     speed: RevPerMin = Field(
-        60.0, ge=0.001, le=20000, description="Constant speed of the driver.", json_schema_extra=FIRST
+        60.0,
+        ge=0.001,
+        le=20000,
+        description="Speed of the driver: constant, mean, at the first entry, or that it comes to from rest.",
+        json_schema_extra=FIRST,
+    )
+    driver_law: Literal["constant", "accelerating", "from-rest", "harmonic"] = Field(
+        "constant",
+        description=(
+            "Speed of the driver: constant; accelerating all along from speed at the first entry; from rest "
+            "at the first entry up to speed; or varying once a turn, fastest in the middle of a stroke."
+        ),
+    )
+    driver_acceleration: Annotated[float, Field(ge=-1e6, le=1e6), Unit("rad/s^2")] | None = Field(
+        None, description="Acceleration of the driver that accelerates; below 0 it slows down."
+    )
+    driver_variation: Annotated[float, Field(gt=0, le=0.9), Unit("")] | None = Field(
+        None, description="Share of speed by which a harmonic driver is faster, and slower."
+    )
+    driver_direction: Literal["forwards", "backwards"] = Field(
+        "forwards",
+        description="Sense of the driver: clockwise, the wheel counter-clockwise, or backwards.",
     )
     load_inertia: Annotated[float, Field(ge=0, le=1e4), Unit("kg*m^2")] = Field(
         0.01,
@@ -215,7 +236,21 @@ class GenevaParams(Parameters):
                 raise ValueError(
                     f'{law} is given but law is "{self.law}"; set law = "{law}", or leave it out'
                 )
+        self._driven("driver_acceleration", self.driver_acceleration, ("accelerating", "from-rest"))
+        self._driven("driver_variation", self.driver_variation, ("harmonic",))
+        if self.driver_law == "from-rest" and (self.driver_acceleration or 0) <= 0:
+            raise ValueError("driver_acceleration: from rest it is above 0; driver_direction has the sense")
         return self
+
+    def _driven(self, key: str, value: float | None, laws: tuple[str, ...]) -> None:
+        """Whether what a law of the driver needs is there, and with no other law."""
+        if self.driver_law in laws and value is None:
+            raise ValueError(f'driver_law = "{self.driver_law}" needs {key}; give it, or name another law')
+        if self.driver_law not in laws and value is not None:
+            raise ValueError(
+                f'{key} is given but driver_law is "{self.driver_law}"; set it to "{laws[0]}", or leave '
+                f"{key} out"
+            )
 
 
 class Sizes(GenevaParams):

@@ -16,9 +16,9 @@ from mechwright import Array, Candidate, Finding, Progress, Rejected, Scalar, Sy
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.checks import findings
 from mechwright_geneva.contact import Drive, curved, loads, stiffness, strength
+from mechwright_geneva.figures import peaks_of
 from mechwright_geneva.kinematics import Frame, stroke
 from mechwright_geneva.mechanism import mechanism_of
-from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.openings import driver_radius
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement

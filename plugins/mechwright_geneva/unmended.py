@@ -11,9 +11,9 @@ from mechwright import Finding, Stage, kept, of_stage, until_error
 from mechwright_geneva.body_checks import body_findings
 from mechwright_geneva.clearance_checks import clearance_findings
 from mechwright_geneva.feasible import feasibility
+from mechwright_geneva.figures import dwell_share, peaks_of
 from mechwright_geneva.load_checks import load_findings
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
-from mechwright_geneva.motion import peaks_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.slot_checks import REGIMES, slot_findings
 from mechwright_geneva.wheel import Wheel
@@ -45,7 +45,7 @@ def _figures(m: Mechanism) -> Iterator[Finding]:
     yield Finding.note(
         "geneva.motion",
         f"per crank speed: velocity {peaks.v:.5g}, acceleration {peaks.a:.5g}, jerk {peaks.j:.5g}; the "
-        f"wheel rests for {100 * (1 - m.params.rollers * m.crank_half / math.pi):.1f} % of the time",
+        f"wheel rests for {100 * dwell_share(m):.1f} % of the time",
         peaks.a,
     )
     wheel = Wheel(m)

@@ -8,6 +8,7 @@ import numpy as np
 from mechwright import Finding, GeometryError, MechwrightError, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.planar import swing
+from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.mechanics.planar.dynamics import Forces
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_slider_crank.course import (
@@ -54,7 +55,7 @@ MOST_BEND = 0.5
 @kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    return until_error(params, _joined, _turns, _webs, _drawn, _carried, _figures)
+    return until_error(params, _joined, _accelerates, _turns, _webs, _drawn, _carried, _figures)
 
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:
@@ -95,6 +96,11 @@ def _out_of_reach(params: SliderCrankParams) -> Finding:
         f"keep swing_from and swing_to within {said}",
         proposed=(*swing.shortened(found, params.swing_from, params.swing_to), swing.LEFT_OUT),
     )
+
+
+def _accelerates(params: SliderCrankParams) -> Iterator[Finding]:
+    course = course_of(params)
+    return of_acceleration("slider-crank.acceleration", course, params.acceleration_ratio, params.speed)
 
 
 def _turns(params: SliderCrankParams) -> Iterator[Finding]:

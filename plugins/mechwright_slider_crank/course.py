@@ -105,7 +105,7 @@ def course_of(params: SliderCrankParams) -> Course:
         return Course(ends[0], ends[1] - ends[0], rocks=True)
     sense = -1.0 if params.clockwise else 1.0
     count = turns_to_close(params.offset) if params.linkage.at_limit else 1
-    return Course(0.0, sense * count * math.tau)
+    return Course(0.0, sense * count * math.tau, acceleration_ratio=params.acceleration_ratio)
 
 
 def period_of(params: SliderCrankParams, samples: int = _SAMPLES) -> tuple[Array, Array, Bodies]:

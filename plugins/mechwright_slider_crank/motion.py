@@ -27,7 +27,7 @@ _GRID, _ROUNDS, _CLOSER = 720, 5, np.linspace(-1, 1, 17)
 
 
 def motion_of(params: SliderCrankParams, samples: int) -> Motion:
-    """Sample one turn of the crank at constant speed, or a lever's swing there and back, both ends included.
+    """Sample one turn of the crank, or a lever's swing there and back, both ends included.
 
     At its limit, c = a + |e|, the linkage goes smoothly through both assemblies, in two turns of the crank.
 
@@ -51,7 +51,7 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
         "omega_a": Channel(drive.omega, "rad/s"),
         **(
             {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
-            if course.rocks
+            if course.rocks or params.acceleration_ratio
             else {}
         ),
         **_slider(linkage, bodies),
@@ -105,8 +105,8 @@ def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[
     linkage = params.linkage
     ends = ends_of(params)
 
-    def sizes(phi: Array, drive: Turning | None = None) -> dict[str, Array]:
-        bodies = linkage.bodies(phi, params.omega) if drive is None else linkage.bodies(drive.theta, drive)
+    def sizes(drive: Turning) -> dict[str, Array]:
+        bodies = linkage.bodies(drive.theta, drive)
         slider = bodies.slider.origin
         rates = {"v_max": np.abs(slider.velocity), "a_max": np.abs(slider.acceleration)}
         if masses is None:
@@ -133,14 +133,16 @@ def _figures(params: SliderCrankParams, masses: dict[str, Mass] | None) -> dict[
     }
 
 
-def _most(params: SliderCrankParams, sizes: Callable[..., dict[str, Array]]) -> dict[str, float]:
+def _most(params: SliderCrankParams, sizes: Callable[[Turning], dict[str, Array]]) -> dict[str, float]:
     """Greatest values over a period; of a lever among as many samples as its ends are sought in."""
-    course = course_of(params)
+    course, speed = course_of(params), abs(params.omega)
     if course.rocks:
-        _, drive = course.period(_LEVER_SAMPLES, abs(params.omega))
-        return {name: float(size.max()) for name, size in sizes(drive.theta, drive).items()}
-    turned = abs(course.travel) / math.tau
-    return peaks(lambda angle: sizes(turned * angle))
+        _, drive = course.period(_LEVER_SAMPLES, speed)
+        return {name: float(size.max()) for name, size in sizes(drive).items()}
+    turned = course.travel / math.tau
+    # A crank that accelerates does not end as it has begun.
+    end = math.inf if params.acceleration_ratio == 0 else math.tau
+    return peaks(lambda angle: sizes(course.turning(course.start + turned * angle, speed)), end)
 
 
 def _in_one_assembly(ends: Limits) -> dict[str, Scalar]:
@@ -169,20 +171,23 @@ def _mass_figures(params: SliderCrankParams, masses: dict[str, Mass]) -> dict[st
     }
 
 
-def peaks(functions: Callable[[Array], dict[str, Array]]) -> dict[str, float]:
-    """Greatest values of functions of period 2π, independent of any sampling of the motion.
+def peaks(functions: Callable[[Array], dict[str, Array]], end: float = math.inf) -> dict[str, float]:
+    """Greatest values of functions from 0 to 2π, independent of any sampling of the motion.
+
+    They have that period, or end there: then no value beyond ``end`` or before 0 is asked for.
 
     >>> found = peaks(lambda t: {"sine": 3 + np.sin(t - 1), "cosine": np.cos(t)})
     >>> round(found["sine"], 12), round(found["cosine"], 12)
     (4.0, 1.0)
     """
-    grid = np.linspace(0, math.tau, _GRID, endpoint=False)
+    grid = np.linspace(0, math.tau, _GRID + 1)
+    begin = -math.inf if math.isinf(end) else 0.0
     found = {}
     for name, values in functions(grid).items():
         centre, half = float(grid[np.argmax(values)]), math.tau / _GRID
         best = float(values.max())
         for _ in range(_ROUNDS):
-            at = centre + half * _CLOSER
+            at = np.clip(centre + half * _CLOSER, begin, end)
             near = functions(at)[name]
             best, centre = max(best, float(near.max())), float(at[np.argmax(near)])
             half /= 8

@@ -6,7 +6,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
-from mechwright.units import Degrees, Millimetres, Newtons, RevPerMin, Unit
+from mechwright.mechanics.planar.course import MOST_RATIO
+from mechwright.units import Degrees, Millimetres, Newtons, Ratio, RevPerMin, Unit
 from mechwright_slider_crank.kinematics import SliderCrank
 
 LONGEST = 2000.0
@@ -45,8 +46,15 @@ class SliderCrankParams(Parameters):
         60.0,
         ge=0.001,
         le=20000,
-        description="Constant speed of the crank; of a lever, swings there and back in a minute.",
+        description="Speed of the crank; of a lever, swings there and back in a minute.",
         json_schema_extra=FIRST,
+    )
+    acceleration_ratio: Ratio = Field(
+        0.0,
+        ge=-MOST_RATIO,
+        le=MOST_RATIO,
+        description="Acceleration of the crank over the square of its speed, per radian, counter-clockwise "
+        "positive, constant over the turn; speed is then that at its start.",
     )
     clockwise: bool = Field(False, description="Whether the crank turns clockwise, or a lever begins so.")
     swing_from: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(

@@ -3,10 +3,11 @@
 In the slide frame, with p = a exp(i φ) the crank pin and t = e - Im p its distance from the slide line, the
 pole is at
 
-    G = p (1 + 1/z),   z = i α - ω²,   ω = -Re p/w,   α = (Im p + t ω²)/w,   w = ±√(c² - t²),
+    G = p (1 + (1 - i k)/z),   z = i α - ω²,   ω = -Re p/w,   α = (Im p + t ω²)/w + k ω,   w = ±√(c² - t²),
 
-ω and α being the rod's first and second derivative by the crank angle. A crank turns fully if and only if
-both c - e and c + e are longer than it. Searched are therefore
+ω being the rod's speed over the crank's, α its acceleration over the square of the crank's speed, and k that
+of the crank. A crank turns fully if and only if both c - e and c + e are longer than it.
+Searched are therefore
 
     ln a,   ln(c - e - a),   ln(c + e - a),
 
@@ -51,6 +52,8 @@ class PoleProblem:
         (n,) crank angles from the first place, rad, the first one 0; None where they are free.
     branch
         +1 with the slider ahead of the crank pin, -1 behind, at all poles.
+    ratios
+        Acceleration ratios k of the crank at the poles (n,), or one for all.
 
     The unknowns (m,) are the three logarithms above, and one crank angle if ``turns`` are given, else n.
     """
@@ -58,6 +61,12 @@ class PoleProblem:
     targets: Plane
     turns: Array | None
     branch: int
+    ratios: Array | float = 0.0
+
+    @property
+    def each_ratio(self) -> Array:
+        """Acceleration ratios (n,)."""
+        return np.broadcast_to(np.asarray(self.ratios, dtype=float), self.targets.shape)
 
     def angles(self, unknowns: Array) -> Array:
         """Crank angles (..., n), rad, at the poles."""
@@ -71,7 +80,7 @@ class PoleProblem:
 
     def poles(self, unknowns: Array) -> Plane:
         """Acceleration poles (..., n)."""
-        return _poles(unknowns, self.angles(unknowns), self.branch)
+        return _poles(unknowns, self.angles(unknowns), self.branch, self.ratios)
 
     def residual(self, unknowns: Array) -> Array:
         """(..., 2n) real and imaginary parts of what the poles miss their places by."""
@@ -87,15 +96,16 @@ class PoleProblem:
         minus, plus = below + a + y, above + a - y  # c - t and c + t
         w, t = self.branch * np.sqrt(minus * plus), (plus - minus) / 2
         omega = -x / w
-        alpha = (y + t * omega**2) / w
-        z = 1j * alpha - omega**2
+        steady = (y + t * omega**2) / w
+        k = self.ratios
+        z, drive = 1j * (steady + k * omega) - omega**2, 1 - 1j * k
 
         def change(pin_: Plane, minus_: Array, plus_: Array) -> Plane:
             """The pole's derivative from those of the pin, of c - t and of c + t: the chain rule."""
             w_, t_ = (minus_ * plus + minus * plus_) / (2 * w), (plus_ - minus_) / 2
             omega_ = -(pin_.real + omega * w_) / w
-            alpha_ = (pin_.imag + t_ * omega**2 + 2 * t * omega * omega_ - alpha * w_) / w
-            pole_: Plane = pin_ * (1 + 1 / z) - pin * (1j * alpha_ - 2 * omega * omega_) / z**2
+            alpha_ = (pin_.imag + t_ * omega**2 + 2 * t * omega * omega_ - steady * w_) / w + k * omega_
+            pole_: Plane = pin_ * (1 + drive / z) - pin * drive * (1j * alpha_ - 2 * omega * omega_) / z**2
             return pole_
 
         none = np.zeros_like(y)
@@ -122,10 +132,10 @@ class PoleProblem:
         grid = np.linspace(-math.pi, math.pi, ANGLES, endpoint=False)
         with np.errstate(all="ignore"):
             if self.turns is None:
-                places = _poles(lengths, grid, self.branch)
-                miss = np.abs(places[:, None] - self.targets[:, None])
+                places = _poles(lengths[:, None], grid, self.branch, self.each_ratio[:, None])
+                miss = np.abs(places - self.targets[:, None])
             else:
-                places = _poles(lengths[:, None], grid[:, None] + self.turns, self.branch)
+                places = _poles(lengths[:, None], grid[:, None] + self.turns, self.branch, self.ratios)
                 miss = np.abs(places - self.targets).max(axis=-1)[:, None]
             # The nearest angle, or by chance another near one: a pole's path may come by several times.
             chance = np.exp(rng.standard_exponential(miss.shape))
@@ -135,7 +145,8 @@ class PoleProblem:
     def _through_a_pole(self, count: int, rng: np.random.Generator) -> Array:
         """Logarithms (k, 3), k at most ``count``, of linkages that turn and have a pole at some angle.
 
-        Crank and crank angle given, G = p (1 + 1/z) says z, thus ω and α, thus w and t, thus rod and offset.
+        Crank and crank angle given, G = p (1 + (1 - i k)/z) says z, thus ω and α, thus w and t, thus rod and
+        offset.
         """
         found = np.empty((0, 3))
         for _ in range(ROUNDS):
@@ -143,9 +154,11 @@ class PoleProblem:
             log_a, phi = _logarithms(rng, CRANKS, size), rng.uniform(-math.pi, math.pi, size)
             pin = np.exp(log_a + 1j * phi)
             with np.errstate(all="ignore"):
-                z = 1 / (rng.choice(self.targets, size) / pin - 1)
+                pole = rng.integers(len(self.targets), size=size)
+                k = self.each_ratio[pole]
+                z = (1 - 1j * k) / (self.targets[pole] / pin - 1)
                 w = self.branch * np.abs(pin.real) / np.sqrt(-z.real)
-                t = (pin.imag - z.imag * w) / z.real
+                t = (pin.imag - k * pin.real - z.imag * w) / z.real
                 e, c = t + pin.imag, np.hypot(w, t)
                 below, above = c - e - np.exp(log_a), c + e - np.exp(log_a)
                 good = (np.minimum(below, above) > 0) & (c < LONGEST_ROD)
@@ -160,13 +173,13 @@ def _logarithms(rng: np.random.Generator, limits: tuple[float, float], size: int
     return rng.uniform(math.log(limits[0]), math.log(limits[1]), size)
 
 
-def _poles(unknowns: Array, phi: Array, branch: int) -> Plane:
-    """Acceleration poles (..., n) of unknowns (..., m) at crank angles (..., n)."""
+def _poles(unknowns: Array, phi: Array, branch: int, ratios: Array | float) -> Plane:
+    """Acceleration poles (..., n) of unknowns (..., m) at crank angles and acceleration ratios (..., n)."""
     a, below, above = np.moveaxis(np.exp(unknowns[..., :3]), -1, 0)[..., None]
     pin = a * np.exp(1j * phi)
     minus, plus = below + a + pin.imag, above + a - pin.imag
     w, t = branch * np.sqrt(minus * plus), (plus - minus) / 2
     omega = -pin.real / w
-    alpha = (pin.imag + t * omega**2) / w
-    pole: Plane = pin * (1 + 1 / (1j * alpha - omega**2))
+    alpha = (pin.imag + t * omega**2) / w + ratios * omega
+    pole: Plane = pin * (1 + (1 - 1j * ratios) / (1j * alpha - omega**2))
     return pole

@@ -51,8 +51,8 @@ class Found:
         a, c, e, mm.
     branch
         +1 with the slider ahead of the crank pin, -1 behind.
-    angles
-        Crank angles at the poles from the slide's direction, rad.
+    angles, ratios
+        Crank angles at the poles from the slide's direction, rad, and its acceleration ratios there.
     residual
         Certified bound of the distance of any pole from its place, mm.
     """
@@ -62,6 +62,7 @@ class Found:
     offset: float
     branch: int
     angles: tuple[float, ...]
+    ratios: tuple[float, ...]
     residual: float
 
     @property
@@ -76,6 +77,7 @@ def through_poles(
     starts: int,
     seed: int,
     heard: Callable[[float, str], None],
+    ratios: Array | float = 0.0,
 ) -> tuple[list[Found], float]:
     """Find slider-cranks through two poles with a rotation between them, or three with free angles.
 
@@ -89,6 +91,8 @@ def through_poles(
         Random starts for each assembly.
     heard
         Told of the progress.
+    ratios
+        Acceleration ratios of the crank at the poles, (2,) or (3,), or one for all, per radian.
 
     Returns
     -------
@@ -106,7 +110,7 @@ def through_poles(
         def alive(part: float, number: int = number, what: str = what) -> None:
             heard((number + part) / 2, what)
 
-        problem = PoleProblem(poles / scale, turns, branch)
+        problem = PoleProblem(poles / scale, turns, branch, ratios)
         rng = np.random.default_rng([seed, number])
         x, costs = least_squares(
             problem.residual, problem.starts(starts, rng), _STEPS, _ARRIVED, alive, problem.slopes
@@ -139,19 +143,28 @@ def _certified(problem: PoleProblem, row: Array, scale: float) -> Found:
     first = np.angle(np.exp(1j * first))
     with ctx.workdps(_DIGITS):
         worst = max(
-            _distance(a, c, e, problem.branch, float(phi), float(turn), complex(place) * scale)
-            for phi, turn, place in zip(first, turns, problem.targets, strict=True)
+            _distance(
+                (a, c, e),
+                problem.branch,
+                arb(float(phi)) + arb(float(turn)),
+                float(ratio),
+                complex(place) * scale,
+            )
+            for phi, turn, ratio, place in zip(first, turns, problem.each_ratio, problem.targets, strict=True)
         )
-    return Found(a, c, e, problem.branch, tuple(float(phi) for phi in first + turns), worst)
+    angles = tuple(float(phi) for phi in first + turns)
+    return Found(a, c, e, problem.branch, angles, tuple(problem.each_ratio.tolist()), worst)
 
 
-def _distance(a: float, c: float, e: float, branch: int, phi: float, turn: float, place: complex) -> float:
+def _distance(
+    lengths: tuple[float, float, float], branch: int, angle: arb, ratio: float, place: complex
+) -> float:
     """Upper bound of the pole's distance from its place, in interval arithmetic."""
-    angle = arb(phi) + arb(turn)
+    a, c, e = lengths
     x, y = arb(a) * angle.cos(), arb(a) * angle.sin()
     t = arb(e) - y
     w = branch * (arb(c) ** 2 - t * t).sqrt()
     omega = -x / w
-    alpha = (y + t * omega * omega) / w
-    found = acb(x, y) * (1 + 1 / acb(-omega * omega, alpha))
+    alpha = (y + t * omega * omega) / w + ratio * omega
+    found = acb(x, y) * (1 + acb(1, -ratio) / acb(-omega * omega, alpha))
     return float(abs(found - acb(place.real, place.imag)).abs_upper())

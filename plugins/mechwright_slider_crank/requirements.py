@@ -5,12 +5,14 @@ from typing import Annotated, Self
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
+from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.units import Degrees, Millimetres, Ratio, Unit
 from mechwright_slider_crank.params import LONGEST
 
 Length = Annotated[float, Field(ge=0.5, le=LONGEST), Unit("mm")]
 Coordinate = Annotated[float, Field(ge=-LONGEST, le=LONGEST), Unit("mm")]
 Turn = Annotated[float, Field(ge=-360, le=360), Unit("deg")]
+AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit("")]
 
 
 class StrokeRequirement(Parameters):
@@ -50,6 +52,13 @@ class PolesRequirement(Parameters):
         max_length=2,
         description="Crank angle from the first pole to the second; [] with three poles: free angles.",
     )
+    acceleration_ratios: tuple[AccelerationRatio, ...] = Field(
+        (0.0,),
+        min_length=1,
+        max_length=3,
+        description="Acceleration of the crank over the square of its speed at each pole, per radian, "
+        "counter-clockwise positive, or one for all.",
+    )
     slide_direction: Degrees = Field(0.0, ge=-360, le=360, description="Direction of the slide.")
     starts: int = Field(6000, ge=10, le=100_000, description="Random starting points for each assembly.")
     seed: int = Field(1, ge=0, le=2**31, description="Seed of the random starting points.")
@@ -60,6 +69,11 @@ class PolesRequirement(Parameters):
             raise ValueError(
                 f"rotations: {len(self.poles)} poles with {len(self.rotations)} rotations; give two poles "
                 "and one rotation, or three poles and rotations = []"
+            )
+        if len(self.acceleration_ratios) not in {1, len(self.poles)}:
+            raise ValueError(
+                f"acceleration_ratios: {len(self.acceleration_ratios)} for {len(self.poles)} poles; give one "
+                "for all, or one for each"
             )
         if len(set(self.poles)) < len(self.poles):
             raise ValueError("poles: two of them are the same; leave one out")

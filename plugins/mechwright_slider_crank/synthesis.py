@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.planar.accelerating import common_ratio, of_several_ratios
 from mechwright_slider_crank.checks import findings
 from mechwright_slider_crank.figures import least_transmission_angle
 from mechwright_slider_crank.params import SliderCrankParams
@@ -105,9 +106,10 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
     """Slider-cranks through the poles, by transmission angle."""
     turn = np.exp(-1j * math.radians(wanted.slide_direction))
     places = np.array([complex(x, y) for x, y in wanted.poles]) * turn
-    solutions, best = through_poles(
-        places, np.radians(np.array(wanted.rotations, dtype=float)), wanted.starts, wanted.seed, progress
-    )
+    rotations = np.radians(np.array(wanted.rotations, dtype=float))
+    ratios = np.array(wanted.acceleration_ratios)
+    solutions, best = through_poles(places, rotations, wanted.starts, wanted.seed, progress, ratios)
+    common = common_ratio(wanted.acceleration_ratios)
     candidates: list[Candidate[Design]] = []
     notes: list[Finding] = []
     rejected = Rejected()
@@ -119,6 +121,7 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
                 "offset": found.offset,
                 "assembly": _side(found),
                 "slide_direction": wanted.slide_direction,
+                "acceleration_ratio": common or 0.0,
             }
         )
         if params is None:
@@ -137,6 +140,8 @@ def from_poles(wanted: PolesRequirement, progress: Progress) -> Synthesis[Design
             **angles,
         }
         candidates.append(Candidate(params, Scalar(found.residual, "mm"), figures))
+    if common is None and candidates:
+        notes.append(of_several_ratios("slider-crank.ratios", wanted.acceleration_ratios))
     if not candidates:
         notes.insert(0, _none_found(notes, best, wanted))
     return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)

@@ -11,8 +11,8 @@ from by_control import setup_html, steps
 from plate_shapes import slotted_plate, wavy_plate
 
 from mechwright.contracts.part import Instance, Part
+from mechwright.output import svg
 from mechwright_cam.controls.linuxcnc import LinuxCnc
-from mechwright_cam.pages import svg
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection

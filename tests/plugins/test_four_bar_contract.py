@@ -16,8 +16,10 @@ class TestFourBars(FamilyContract):
         {"crank": 70, "coupler": 70, "follower": 75, "ground": 20},
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
         {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
+        {"acceleration_ratio": -0.1},
     )
     refused = (
+        ({"swing_from": 10, "swing_to": 40, "acceleration_ratio": 0.1}, "acceleration_ratio"),
         ({"crank": 70, "coupler": 60, "swing_from": -60, "swing_to": 150}, "swing_to"),
         ({"swing_from": 10}, "swing_to"),
         ({"crank": 60}, "ground"),

@@ -87,12 +87,12 @@ def test_a_certificate_sees_what_rounding_hides():
     )
     bar, phi = one.bar, one.phi
     moved = FourBar(bar.crank * (1 + 1e-9), *bar.lengths[1:], bar.ground_angle, bar.branch)
-    assert certain_residual(bar, phi, asked.targets) < 1e-12
-    assert 1e-10 < certain_residual(moved, phi, asked.targets) < 1e-6
-    back, angles = polished(moved, phi, asked.targets, [[0], [1], [2], [3], [4], [5, 6, 7]])
-    assert certain_residual(back, angles, asked.targets) < 1e-12
+    assert certain_residual(bar, phi, asked) < 1e-12
+    assert 1e-10 < certain_residual(moved, phi, asked) < 1e-6
+    back, angles = polished(moved, phi, asked, [[0], [1], [2], [3], [4], [5, 6, 7]])
+    assert certain_residual(back, angles, asked) < 1e-12
     open_loop = FourBar(5.0, 1.0, 1.0, 1.0)
-    assert certain_residual(open_loop, phi, asked.targets) == math.inf
+    assert certain_residual(open_loop, phi, asked) == math.inf
 
 
 def synthesise(**table):

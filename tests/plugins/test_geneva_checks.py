@@ -107,6 +107,7 @@ ERRORS = [
     ("bore.keyway-width", "driver_keyway_width", {"driver_keyway_width": 3.3}),
     ("bore.keyway-relief", "keyway_relief", {"keyway_width": 4, "keyway_relief": 6}),
     ("geneva.singular", "load_torque", {"load_torque": 100}),
+    ("geneva.driver-stops", "driver_acceleration", {"driver_law": "accelerating", "driver_acceleration": -4}),
 ]
 
 
@@ -137,6 +138,7 @@ WARNINGS = [
     ("geneva.jump", "law", {"law": "simple-harmonic", "offset_angle": 4}),
     ("geneva.singular", "load_torque", {"load_torque": 0.5}),
     ("geneva.pressure", "load_inertia", {"load_inertia": 1.0}),
+    ("geneva.ramp", "driver_law", {"driver_law": "from-rest", "driver_acceleration": 10}),
     ("bore.keyway-series", "keyway_width", {"keyway_width": 3}),
     ("geneva.clearance", "groove_clearance", {"groove_clearance": 0.05}),
 ]

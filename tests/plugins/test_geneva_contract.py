@@ -41,6 +41,9 @@ class TestGeneva(FamilyContract):
             "hub_height": 4,
             "keyway_width": 2,
             "keyway_relief": 1.2,
+            "driver_law": "harmonic",
+            "driver_variation": 0.05,
+            "driver_direction": "backwards",
         },
         {
             **SMALL,
@@ -50,6 +53,8 @@ class TestGeneva(FamilyContract):
             "driver_keyway_width": 2,
             "counterbore_diameter": 16,
             "counterbore_depth": 2,
+            "driver_law": "from-rest",
+            "driver_acceleration": 10,
         },
         {
             **SMALL,
@@ -76,6 +81,9 @@ class TestGeneva(FamilyContract):
         ({"lock_radius": 90}, "lock_radius"),
         ({"floor": 9.8}, "floor"),
         ({"rollers": 4, "crank_half_angle": 50}, "rollers"),
+        ({"driver_law": "accelerating", "driver_acceleration": -4}, "driver_acceleration"),
+        ({"driver_acceleration": 4}, "driver_acceleration"),
+        ({"driver_law": "harmonic"}, "driver_variation"),
     )
     variations: ClassVar = {
         "polynomial": [[0, 0, 0, 0, 35, -84, 70, -20]],

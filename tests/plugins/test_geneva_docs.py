@@ -53,6 +53,16 @@ def test_the_page_on_the_source_is_what_the_code_says():
     assert seed.PAGE.read_text(encoding="utf-8") == seed.page(), "run: python docs/seeds/geneva.py"
 
 
+def test_pictures_of_the_page_on_the_source_are_up_to_date():
+    import geneva_driver
+
+    page = (ROOT / "docs" / "seeds" / "geneva.md").read_text(encoding="utf-8")
+    for name, content in geneva_driver.drawn().items():
+        shown = (geneva_driver.IMAGES / name).read_text(encoding="utf-8")
+        assert shown == content, "run: python docs/seeds/geneva.py"
+        assert f"../images/{name}" in page, name
+
+
 def test_the_page_on_the_source_has_the_corrected_numbers():
     page = (ROOT / "docs" / "seeds" / "geneva.md").read_text(encoding="utf-8")
     for number in ("13.552958847", "0.0640233873", "6.426627", "20.193217416", "13.808", "2.4373", "3.9408"):

@@ -13,10 +13,10 @@ import shapely
 
 from mechwright.mechanics.laws import LAWS
 from mechwright_geneva.contact import contact, loads
+from mechwright_geneva.figures import straight_peaks
 from mechwright_geneva.kinematics import LEFT, RIGHT, Frame, stroke
 from mechwright_geneva.limits import FINE_SAMPLES, measure
 from mechwright_geneva.mechanism import measure_at, mechanism_of
-from mechwright_geneva.motion import straight_peaks
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.slot import Slot

@@ -20,9 +20,11 @@ class TestSliderCrank(FamilyContract):
             "slide_direction": 30,
         },
         {"swing_from": 10, "swing_to": 100},
+        {"acceleration_ratio": 0.1, "speed": 30},
     )
     refused = (
         ({"rod": 40.01}, "rod"),
+        ({"rod": 35, "acceleration_ratio": 0.1}, "acceleration_ratio"),
         ({"rod": 30, "crank": 20, "offset": 60}, "offset"),
         ({"crank": 6, "rod": 60, "pin": 8}, "crank"),
         ({"rod": 110, "rod_width": 30}, "rod_width"),
@@ -45,6 +47,9 @@ class TestSliderCrank(FamilyContract):
     input_rate = "omega_a"
     requirements: ClassVar = {
         "stroke": ({}, {"stroke": 100, "time_ratio": 1.2, "rod": 150}),
-        "poles": ({"starts": 400}, {"starts": 400, "slide_direction": 20}),
+        "poles": (
+            {"starts": 400},
+            {"starts": 400, "slide_direction": 20, "acceleration_ratios": (0.0, 0.1)},
+        ),
     }
     max_examples = 20

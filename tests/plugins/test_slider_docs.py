@@ -52,6 +52,16 @@ def test_the_page_of_a_seed_is_up_to_date(name):
     assert module.PAGE.read_text(encoding="utf-8") == module.page(), f"run: python docs/seeds/{name}.py"
 
 
+def test_pictures_of_the_poles_are_up_to_date_and_on_the_page():
+    import pole_figures
+
+    page = (ROOT / "docs" / "seeds" / "acceleration-poles.md").read_text(encoding="utf-8")
+    for name, make in pole_figures.DRAWN.items():
+        picture = (pole_figures.IMAGES / f"{name}.svg").read_text(encoding="utf-8")
+        assert picture == make() + "\n", "run: python docs/seeds/acceleration_poles.py"
+        assert f"../images/{name}.svg" in page, name
+
+
 def test_the_locus_is_printed(capsys):
     assert main(["1", "3", "1/2", "coupler"]) == 0
     assert capsys.readouterr().out.startswith("rho^i x^j, degree 28, 14-fold circular points, 75 terms\n")

@@ -147,7 +147,8 @@ class Solve(Command):
     def run(self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) -> None:
         """Write the motion: tables, and a page that moves.
 
-        They are motion.csv, summary.json and motion.html.
+        They are motion.csv, summary.json and motion.html; poles.html and
+        construction.html of linkages.
         """
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform

@@ -1,1 +1,1 @@
-"""Output folders."""
+"""Output folders, and pictures that stand in them."""

@@ -7,8 +7,8 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart, MadeRing
+from mechwright.output import svg
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.pages import svg
 
 HIGH = 0.025
 """The largest deviation, corridor included, as a share of the part's larger side."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.as_made import MadeCurve
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 
 WIDTH, HEIGHT = 170.0, 62.0
 """Of the field of the plot, in units of the picture."""

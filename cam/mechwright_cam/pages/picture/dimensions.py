@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from mechwright.geometry.segments import Point
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.pages.picture.frame import Frame
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest

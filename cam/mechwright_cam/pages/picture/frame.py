@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.setup.job import Job
 
 DETAIL = 0.02

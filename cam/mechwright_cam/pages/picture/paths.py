@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mechwright.geometry.segments import Point
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.pages.picture.frame import Frame
 from mechwright_cam.pages.trace import Stroke, Traced
 from mechwright_cam.program.moves import Program

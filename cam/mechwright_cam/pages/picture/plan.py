@@ -8,7 +8,7 @@ import shapely
 from mechwright.contracts.details import Chamfer, Engraving, Thread, chamfer_lines
 from mechwright.contracts.sections import sections
 from mechwright.geometry.segments import Point
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, origin_mark
 from mechwright_cam.pages.picture.frame import DETAIL, Frame, outline_data
 from mechwright_cam.pages.picture.paths import path_layers

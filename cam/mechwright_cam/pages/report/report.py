@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from markupsafe import Markup
 
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.pages.setup_sheet.sheet import environment
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Proof

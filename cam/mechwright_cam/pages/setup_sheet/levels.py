@@ -1,6 +1,6 @@
 """A side view of the job: which height is which, and where the Z setter stands. Not to scale."""
 
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
 

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.part import Bore
+from mechwright.output.svg import signed
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.compensation import lines
-from mechwright_cam.pages.svg import signed
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 

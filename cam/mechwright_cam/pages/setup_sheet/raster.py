@@ -8,7 +8,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright_cam.pages import svg
+from mechwright.output import svg
 from mechwright_cam.proof.simulation import Simulation, deviation
 from mechwright_cam.setup.job import Job
 

@@ -7,13 +7,13 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
+from mechwright.output.svg import signed
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, quantity, steps
-from mechwright_cam.pages.svg import signed
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job

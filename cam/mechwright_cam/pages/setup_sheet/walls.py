@@ -9,8 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.output import svg
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.pages import svg
 from mechwright_cam.pages.picture import Frame
 from mechwright_cam.pages.picture.frame import outline_data
 from mechwright_cam.pages.setup_sheet.facts import MARKED

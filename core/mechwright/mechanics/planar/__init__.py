@@ -14,6 +14,7 @@ all rates, and where a crank turns with one radian per second they are rates per
 """
 
 from mechwright.mechanics.planar.course import Course
-from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning, acceleration_pole
+from mechwright.mechanics.planar.poles import acceleration_pole
+from mechwright.mechanics.planar.rigid import BodyMotion, Plane, PointMotion, Turning
 
 __all__ = ["BodyMotion", "Course", "Plane", "PointMotion", "Turning", "acceleration_pole"]

@@ -151,18 +151,3 @@ class Pole:
 
     fixed: Plane
     moving: Plane
-
-
-def acceleration_pole(body: BodyMotion) -> Pole:
-    """The point without acceleration, G = A - a_A / (i α - ω²); none where all points share one acceleration.
-
-    Examples
-    --------
-    >>> crank = BodyMotion.about(1 + 0j, Turning.of([0.0], 3.0))
-    >>> acceleration_pole(crank).fixed.tolist()
-    [(1+0j)]
-    """
-    value, factor = np.broadcast_arrays(body.origin.acceleration, body.turning.acceleration_factor)
-    finite = np.abs(value) < FARTHEST * np.abs(factor)
-    lever = np.where(finite, -value / np.where(finite, factor, 1.0), np.nan + 0j)
-    return Pole(body.origin.position + lever, lever / body.turning.direction)
