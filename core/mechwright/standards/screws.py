@@ -7,6 +7,7 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.holes import COARSE
 from mechwright.contracts.shape import Revolve, Shape, hexagon, ring
 from mechwright.errors import DesignError
+from mechwright.geometry.segments import Point
 from mechwright.standards.table import table
 
 Head = Literal["cap", "countersunk", "set"]
@@ -94,15 +95,17 @@ class Screw:
     def bought(self) -> Bought:
         """How it is ordered; its shank has the nominal diameter, so that it is seen where it meets a wall."""
         of, r, grade = self.of, self.of.size / 2, SET_GRADE if self.head == "set" else GRADE
+        above: tuple[Point, ...]
         if self.head == "cap":
             top, deep, big = of.head_height, of.socket, of.head / 2
-            profile = ((0.0, -self.length), (r, -self.length), (r, 0.0), (big, 0.0), (big, top), (0.0, top))
+            above = ((r, 0.0), (big, 0.0), (big, top), (0.0, top))
         elif self.head == "countersunk":
             top, deep, big = 0.0, of.sunk_socket, of.sunk_head / 2
-            profile = ((0.0, -self.length), (r, -self.length), (r, r - big), (big, 0.0), (0.0, 0.0))
+            above = ((r, r - big), (big, 0.0), (0.0, 0.0))
         else:
             top, deep = 0.0, of.set_socket
-            profile = ((0.0, -self.length), (r, -self.length), (r, 0.0), (0.0, 0.0))
+            above = ((r, 0.0), (0.0, 0.0))
+        profile = ((0.0, -self.length), (r, -self.length), *above)
         shape = Shape((Revolve(profile),), (hexagon(self.key, top - deep, top),))
         return Bought(
             f"{self.standard} - M{of.size:g} x {self.length:g} - {grade}", self.standard, None, shape
