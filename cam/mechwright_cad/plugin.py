@@ -2,6 +2,7 @@
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
+from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import (
     DxfExporter,
     GlbExporter,
@@ -25,5 +26,6 @@ def mechwright_register() -> list[type[Plugin]]:
         MjcfExporter,
         SolidFiles,
         MotionPage,
+        BillOfMaterials,
         Interference,
     ]

@@ -10,7 +10,7 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from mechwright.arrays import Array
-    from mechwright.build import Build, Inspection, Page, Wanted
+    from mechwright.build import Blank, Build, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.bought import Bought
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.build": "Build Inspection Page Wanted",
+    "mechwright.build": "Blank Build Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",
@@ -94,7 +94,7 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
-__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
+__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Table"]
 __all__ += ["FIRST", "MaterialName", "Parameters", "material"]
 __all__ += ["GROUND", "Array", "Channel", "Curve", "Joint", "Motion", "Poses", "Scalar", "Trace"]
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
@@ -103,7 +103,7 @@ __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
-__all__ += ["Build", "Design", "Wanted"]
+__all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]
 __all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances", "Zone"]

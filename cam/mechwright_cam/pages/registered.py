@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, cast, get_args
 
 from mechwright.build import Build, Page
 from mechwright.errors import DesignError
+from mechwright_cad.bill.page import HTML as BILL
+from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import Curves, DxfExporter
 
 if TYPE_CHECKING:
@@ -109,8 +111,15 @@ class SetupSheets(Page):
                 files=files[name],
             )
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
+        written = build.wanted.command in BillOfMaterials.commands
         made[SUMMARY] = summary_html(
-            sheets, control, name=build.design.name, tool_table=table, design=design, files=files
+            sheets,
+            control,
+            name=build.design.name,
+            tool_table=table,
+            design=design,
+            files=files,
+            bill=BILL if written else "",
         )
         return made
 
