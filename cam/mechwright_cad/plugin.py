@@ -12,6 +12,7 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
 )
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+from mechwright_cad.turned_drawing.page import TurnedDrawings
 
 
 @hookimpl
@@ -27,5 +28,6 @@ def mechwright_register() -> list[type[Plugin]]:
         SolidFiles,
         MotionPage,
         BillOfMaterials,
+        TurnedDrawings,
         Interference,
     ]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mechwright.build import Build, Page, RawStock
 from mechwright_cad.bill.lines import COLUMNS, Line, lines_of
+from mechwright_cad.turned_drawing.page import SUFFIXES
 
 STEM = "bill-of-materials"
 """Of both files."""
@@ -39,8 +40,18 @@ class BillOfMaterials(Page):
             if command in one.commands
             for blank in one.blanks(build)
         ]
-        lines = lines_of(build.parts, build.made(Solids).masses(), blanks, {})
+        lines = lines_of(build.parts, build.made(Solids).masses(), blanks, drawings_of(build))
         return {f"{STEM}.csv": bill_csv(lines), HTML: bill_html(build.design.name, lines)}
+
+
+def drawings_of(build: Build) -> dict[str, list[str]]:
+    """Names of the drawings that are written, by part: plates have theirs beside their programs."""
+    found = {
+        part.name: [part.name + end for end in SUFFIXES] for part in build.parts if part.kind == "turned"
+    }
+    if build.wanted.command == "build":
+        found |= {part.name: [f"{part.name}.dxf"] for part in build.parts if part.kind == "plate"}
+    return found
 
 
 def bill_csv(lines: list[Line]) -> str:
