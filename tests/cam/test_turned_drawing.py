@@ -221,3 +221,16 @@ def test_another_process_writes_the_same_bytes():
 def test_a_part_that_is_not_turned_has_no_such_drawing():
     with pytest.raises(GeometryError, match="part block is not turned"):
         turned_sheet(Part("block", None, 0.0, "steel", build=SHAFT.shape.solid))
+
+
+def test_drawings_of_plates_leave_out_what_is_turned_or_bought():
+    from mechwright.standards.bearings import bearing
+    from mechwright_cad.exporters import DxfExporter
+
+    parts = [
+        Part("spacer", None, 0.0, "brass", turned=SPACER),
+        Part("bearing", None, 0.0, "steel", bought=bearing("608").bought),
+    ]
+    assert [DxfExporter().part(part) for part in parts] == [None, None]
+    with pytest.raises(GeometryError, match="part block has no outline to draw"):
+        DxfExporter().part(Part("block", None, 0.0, "steel", build=SHAFT.shape.solid))

@@ -40,7 +40,8 @@ class DrawingFiles(Page):
         machining = _machining(build)
         drawing = DxfExporter(curve_kind(build.wanted.curves))
         parts = [*machining.plates, *machining.nests] if machining.made else []
-        return {f"{part.name}{drawing.suffix}": drawing.part(part) for part in parts}
+        made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
+        return {name: content for name, content in made if content is not None}
 
 
 class ProgramFiles(Page):

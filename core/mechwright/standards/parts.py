@@ -13,9 +13,12 @@ from mechwright.standards.keys import key
 STEEL = "steel"
 """Material of both."""
 
+GREY: Colour = (0.62, 0.64, 0.67)
+"""Colour of plain steel."""
+
 
 def dowel_part(
-    name: str, diameter: float, length: float, instances: Sequence[Instance], colour: Colour
+    name: str, diameter: float, length: float, instances: Sequence[Instance], colour: Colour = GREY
 ) -> Part:
     """A dowel on z = 0, mm: ISO 8734 or ISO 2338 where one is sold in this size, else turned to m6."""
     sold = dowel(diameter, length) or dowel(diameter, length, "ISO 2338")
@@ -26,7 +29,7 @@ def dowel_part(
 
 
 def key_part(
-    name: str, opening: Opening, length: float, instances: Sequence[Instance], colour: Colour
+    name: str, opening: Opening, length: float, instances: Sequence[Instance], colour: Colour = GREY
 ) -> Part:
     """The key of a keyway on z = 0, ``length`` mm long: DIN 6885 where it is sold so, else cut from a bar."""
     sold = key(opening.width, length)

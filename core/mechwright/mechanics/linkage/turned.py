@@ -4,11 +4,12 @@ from collections.abc import Sequence
 
 from mechwright.contracts.part import Colour, Instance, Part
 from mechwright.contracts.turned import Step, Turned, tube
+from mechwright.standards.parts import GREY
 
 PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
 """Of what is turned."""
 
-STEEL: Colour = (0.62, 0.64, 0.67)
+STEEL = GREY
 BRONZE: Colour = (0.76, 0.58, 0.30)
 
 
