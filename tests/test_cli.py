@@ -168,6 +168,8 @@ def test_a_build_is_complete_and_the_same_every_time(run: Run, tmp_path: Path) -
             "summary.json",
             "gear.step",
             "assembly.step",
+            "bill-of-materials.csv",
+            "bill-of-materials.html",
             "gear.dxf",
             "gear.nc",
             "tool.tbl",

@@ -87,7 +87,12 @@ def test_a_fault_outside_of_plugins_is_the_programs_own(odd: type[Odd]) -> None:
 def test_a_family_without_instances_has_no_assembly(run: Run, odd: type[Odd], tmp_path: Path) -> None:
     code, _, err = run("model", "-o", tmp_path / "out")
     assert (code, err) == (0, "")
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"plate.step", "manifest.json"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "plate.step",
+        "bill-of-materials.csv",
+        "bill-of-materials.html",
+        "manifest.json",
+    }
 
 
 def test_two_parts_of_one_name_are_refused(

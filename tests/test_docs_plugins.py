@@ -165,6 +165,18 @@ def test_the_page_tells_the_travels(flywheel):
     assert "angle,rad,0,6.28319\n" in files["travels.csv"]
 
 
+def test_the_raw_stock_has_one_sheet_for_each_thickness(flywheel):
+    sheets = one("RawStock", mechwright.RawStock)
+    assert [blank.parts for blank in sheets.blanks(flywheel)] == [("wheel",)]
+    disc = Outline(Loop((circle((0.0, 0.0), 40.0),)))
+    sizes = {"one": 3.0, "two": 3.0, "thick": 5.0}
+    flywheel.__dict__["parts"] = [Part(name, disc, size, "steel") for name, size in sizes.items()]
+    assert [(blank.parts, blank.size[2]) for blank in sheets.blanks(flywheel)] == [
+        (("one", "two"), 3.0),
+        (("thick",), 5.0),
+    ]
+
+
 def test_the_inspection_finds_what_is_too_heavy_and_nothing_else(flywheel):
     handling = one("Inspection", mechwright.Inspection)
     assert list(handling.findings(flywheel)) == []

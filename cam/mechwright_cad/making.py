@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 IN_SPACE = frozenset({"model", "build"})
 """Commands that make solids; the others look at plates alone, for which no CAD kernel is needed."""
 
-Made = tuple[list[Finding], dict[str, bytes]]
-"""What collides, and the files, name to content."""
+Made = tuple[list[Finding], dict[str, bytes], dict[str, float]]
+"""What collides; the files, name to content; and the mass of one of each part, g."""
 
 
 @dataclass(frozen=True)
@@ -99,11 +99,19 @@ def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dic
     return {MOTION: motion_html(design.name, design.family.title, parts, motion, solids=solids).encode()}
 
 
+def masses(parts: "Sequence[Part]") -> dict[str, float]:
+    """The mass of one of each part by its name, g; imports the CAD kernel."""
+    from mechwright_cad.solids.inertia import mass_moments
+
+    return {part.name: float(1000 * mass_moments(part)[3, 3]) for part in parts}
+
+
 def compared_and_made(work: Work) -> Made:
-    """Whether bodies collide; and the files of a build with its page, if none do."""
+    """Whether bodies collide; if none do, the files of a build with its page, and what its parts weigh."""
     met = collisions(work.design, work.parts, solids=True)
-    made = {} if errors(met) else work.files() | motion_page(work.design, work.parts, solids=True)
-    return met, made
+    if errors(met):
+        return met, {}, {}
+    return met, work.files() | motion_page(work.design, work.parts, solids=True), masses(work.parts)
 
 
 class Solids:
@@ -161,6 +169,10 @@ class Solids:
         if self._second is not None:
             return {name: content for name, content in self._result()[1].items() if name != MOTION}
         return self._work.files()
+
+    def masses(self) -> dict[str, float]:
+        """The mass of one of each part by its name, g."""
+        return masses(self._build.parts) if self._second is None else self._result()[2]
 
     def page(self) -> dict[str, bytes]:
         """The page on which the mechanism moves."""

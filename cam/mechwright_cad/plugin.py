@@ -2,6 +2,7 @@
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
+from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import (
     DxfExporter,
     GlbExporter,
@@ -11,6 +12,7 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
 )
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+from mechwright_cad.turned_drawing.page import TurnedDrawings
 
 
 @hookimpl
@@ -25,5 +27,7 @@ def mechwright_register() -> list[type[Plugin]]:
         MjcfExporter,
         SolidFiles,
         MotionPage,
+        BillOfMaterials,
+        TurnedDrawings,
         Interference,
     ]

@@ -10,9 +10,10 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from mechwright.arrays import Array
-    from mechwright.build import Build, Inspection, Page, Wanted
+    from mechwright.build import Blank, Build, Inspection, Page, RawStock, Wanted
     from mechwright.cli.command import Command
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
+    from mechwright.contracts.bought import Bought
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.exporter import Exporter
     from mechwright.contracts.family import Family
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.table import Table
     from mechwright.contracts.tolerance_settings import Tolerances
     from mechwright.contracts.tolerances import Contributor, Output, ToleranceModel, Zone
+    from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
     from mechwright.designs.design import Design
     from mechwright.errors import (
         DesignError,
@@ -56,9 +58,10 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.build": "Build Inspection Page Wanted",
+    "mechwright.build": "Blank Build Inspection Page RawStock Wanted",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
+    "mechwright.contracts.bought": "Bought",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
@@ -74,6 +77,7 @@ _HOMES = {
     "mechwright.contracts.table": "Table",
     "mechwright.contracts.tolerance_settings": "Tolerances",
     "mechwright.contracts.tolerances": "Contributor Output ToleranceModel Zone",
+    "mechwright.contracts.turned": "Groove KeySeat Step Turned",
     "mechwright.designs.design": "Design",
     "mechwright.errors": (
         "DesignError GeometryError KinematicsError MechwrightError OutputError PluginError ProgramError "
@@ -90,15 +94,16 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
-__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "Table"]
+__all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Table"]
 __all__ += ["FIRST", "MaterialName", "Parameters", "material"]
 __all__ += ["GROUND", "Array", "Channel", "Curve", "Joint", "Motion", "Poses", "Scalar", "Trace"]
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
+__all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]
-__all__ += ["Build", "Design", "Wanted"]
+__all__ += ["Blank", "Build", "Design", "Wanted"]
 __all__ += ["DesignError", "GeometryError", "KinematicsError", "MechwrightError", "OutputError"]
 __all__ += ["PluginError", "ProgramError", "ProofError", "ToolError"]
 __all__ += ["TOLERANCES", "Contributor", "Output", "ToleranceModel", "Tolerances", "Zone"]

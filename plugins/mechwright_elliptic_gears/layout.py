@@ -26,9 +26,6 @@ HEAD, HEAD_HEIGHT = 1.5, 0.4
 EYE = 2.0
 """Outside of the coupler's eyes over the pin: the usual edge distance, a diameter from the hole's middle."""
 
-RUNNING = 0.02
-"""By how much, mm, a shaft or pin is thinner where it turns: the middle of fit f7 at 6 to 18 mm."""
-
 AXIAL_PLAY = 0.1
 """Between coupler and the heads of its pins, mm, so that it turns freely."""
 

@@ -1,27 +1,22 @@
 """Round parts of a train, which are turned or bought: shafts, pins, spacers, dowels; and the keys.
 
-They are solids of their own and get no milling program.
+They get no milling program.
 """
 
-from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING
-
-from mechwright import Colour, Instance, Part
+from mechwright import Colour, Instance, KeySeat, Part, Step, Turned
+from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.turned import tube
 from mechwright.geometry.keyway import Opening
+from mechwright.standards.parts import dowel_part, key_part
 from mechwright_elliptic_gears.layout import (
     AXIAL_PLAY,
     DOWELS,
     HEAD,
     HEAD_HEIGHT,
-    RUNNING,
     SPACER,
     STUB,
     Layout,
 )
-
-if TYPE_CHECKING:
-    import cadquery as cq
 
 MATERIAL = "steel"
 """Of all round parts."""
@@ -32,108 +27,75 @@ _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.4
 def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
     """Everything that is no plate."""
     keyed = opening.has_keyway
-    shaft = layout.bore - RUNNING
     low, high, t = layout.lower, layout.upper, layout.thickness
     foot = layout.base + STUB * layout.bore
     # Seats are open at the upper end of the shaft, so that gears and keys can be put on from there.
-    seat = (opening.bore / 2 - opening.seat_depth, opening.width) if keyed else None
+    seat = opening if keyed else None
+    joints = ("joint-j", "joint-k")
     parts = [
-        _part(
-            "shaft-2",
-            partial(_shaft, shaft, foot + low + t, t, seat),
-            (Instance("gear-2", -foot),),
-            _STEEL,
-        ),
+        _part("shaft-2", _shaft(layout.bore, foot + low + t, t, seat), (Instance("gear-2", -foot),), _STEEL),
         _part(
             "shaft-4",
-            partial(_shaft, shaft, layout.base + high + t, high - low + t, seat),
+            _shaft(layout.bore, layout.base + high + t, high - low + t, seat),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
         _part(
             "shaft-5",
-            partial(_shaft, shaft, layout.base + high + t, 0.0, None),
+            _shaft(layout.bore, layout.base + high + t, 0.0, None),
             (Instance("axis-5", -layout.base),),
             _STEEL,
         ),
         _part(
             "hub-spacer",
-            partial(_ring, layout.bore, layout.spacer, layout.gap),
+            tube(layout.bore, layout.spacer, layout.gap),
             (Instance("axis-2"), Instance("base"), Instance("base", low + layout.thickness)),
             _BRASS,
         ),
-        _part(
-            "hub-spacer-5", partial(_ring, layout.bore, layout.spacer, high), (Instance("axis-5"),), _BRASS
-        ),
+        _part("hub-spacer-5", tube(layout.bore, layout.spacer, high), (Instance("axis-5"),), _BRASS),
         _part(
             "joint-spacer",
-            partial(_ring, layout.pin, SPACER * layout.pin, layout.gap),
-            tuple(Instance(body, high + layout.thickness) for body in ("joint-j", "joint-k")),
+            tube(layout.pin, SPACER * layout.pin, layout.gap),
+            tuple(Instance(body, high + layout.thickness) for body in joints),
             _BRASS,
         ),
         _part(
             "joint-pin",
-            partial(_pin, layout.pin, layout.thickness, layout.gap + layout.coupler + AXIAL_PLAY),
-            tuple(Instance(body, high) for body in ("joint-j", "joint-k")),
+            _pin(layout.pin, layout.thickness, layout.gap + layout.coupler + AXIAL_PLAY),
+            tuple(Instance(body, high) for body in joints),
             _DARK,
         ),
     ]
     if keyed:
         keys = (Instance("gear-2", low), Instance("gear-3", low), Instance("gear-3", high))
-        key = partial(_box, opening.bore / 2 - opening.seat_depth, opening.key_top, opening.width, t)
-        parts.append(_part("key", key, keys, _DARK))
+        parts.append(key_part("key", opening, t, keys, _DARK))
     else:
         at = tuple(Instance(body, low) for body in DOWELS)
-        parts.append(_part("dowel", partial(_cylinder, layout.dowel, high - low + t), at, _DARK))
+        parts.append(dowel_part("dowel", layout.dowel, high - low + t, at, _DARK))
     return tuple(parts)
 
 
-def _part(
-    name: str, build: "Callable[[], cq.Solid]", instances: tuple[Instance, ...], colour: Colour
-) -> Part:
-    return Part(name, None, 0.0, MATERIAL, instances=instances, colour=colour, build=build)
+def _part(name: str, turned: Turned, instances: tuple[Instance, ...], colour: Colour) -> Part:
+    return Part(name, None, 0.0, MATERIAL, instances=instances, colour=colour, turned=turned)
 
 
-def _cylinder(diameter: float, height: float) -> "cq.Solid":
-    import cadquery as cq
-
-    return cq.Solid.makeCylinder(diameter / 2, height)
-
-
-def _box(x0: float, x1: float, width: float, height: float, z: float = 0.0) -> "cq.Solid":
-    """From x0 to x1, ``width`` wide about the x axis."""
-    import cadquery as cq
-
-    return cq.Solid.makeBox(x1 - x0, width, height, cq.Vector(x0, -width / 2, z))
+def _running(diameter: float, length: float) -> Step:
+    """A length that turns in a hole of that diameter: in the middle of f7."""
+    fit = shaft_fit(diameter, "f7")
+    return Step(fit.middle, length, fit)
 
 
-def _shaft(
-    diameter: float, length: float, seat_length: float, seat: tuple[float, float] | None
-) -> "cq.Solid":
-    """A cylinder; with a key seat (its floor's x, its width) over the upper ``seat_length``."""
-    shaft = _cylinder(diameter, length)
-    if seat is None:
-        return shaft
-    floor, width = seat
-    return _cut(shaft, _box(floor, diameter, width, seat_length, length - seat_length))
+def _shaft(diameter: float, length: float, seat_length: float, opening: Opening | None) -> Turned:
+    """A cylinder; with a key seat over the upper ``seat_length``."""
+    seats: tuple[KeySeat, ...] = ()
+    if opening is not None:
+        floor = opening.bore / 2 - opening.seat_depth
+        seats = (KeySeat(length - seat_length, seat_length, opening.width, floor),)
+    return Turned((_running(diameter, length),), seats=seats)
 
 
-def _ring(inner: float, outer: float, height: float) -> "cq.Solid":
-    return _cut(_cylinder(outer, height), _cylinder(inner, height))
-
-
-def _pin(diameter: float, seat: float, running: float) -> "cq.Solid":
+def _pin(diameter: float, seat: float, running: float) -> Turned:
     """Seat, then the thinner part that turns, then the head, from below."""
-    import cadquery as cq
-
-    r, thin, head = diameter / 2, (diameter - RUNNING) / 2, HEAD * diameter / 2
-    top = seat + running
-    section = [(0, 0), (r, 0), (r, seat), (thin, seat), (thin, top), (head, top)]
-    end = top + HEAD_HEIGHT * diameter
-    points = [cq.Vector(x, 0, z) for x, z in (*section, (head, end), (0, end))]
-    face = cq.Face.makeFromWires(cq.Wire.makePolygon(points, close=True))
-    return cq.Solid.revolve(face, 360, cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
-
-
-def _cut(solid: "cq.Solid", tool: "cq.Solid") -> "cq.Solid":
-    return solid.cut(tool).Solids()[0]
+    pressed = Step(diameter, seat, shaft_fit(diameter, "m6"))
+    head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
+    return Turned((pressed, _running(diameter, running), head))

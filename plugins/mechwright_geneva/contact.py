@@ -22,15 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Array, kept, material
+from mechwright.mechanics.strength.hertz import YIELD, contact_modulus, line_pressure
 from mechwright_geneva.kinematics import LEFT, RIGHT, Stroke
 from mechwright_geneva.mechanism import Mechanism
 
 BLOCKED = math.radians(80)
 """Pressure angle from which friction of 0.18 (steel on steel, hardly oiled) stops the wheel."""
-
-YIELD = 1.67
-"""Hertz pressure over yield strength at which a line contact begins to yield below its surface (K. L.
-Johnson, Contact Mechanics, section 6.1)."""
 
 _MIDDLE = 1e-6
 """|sin φ| below which the limit at mid stroke is taken: the next term is smaller by its square."""
@@ -152,7 +149,7 @@ def _straight(run: Stroke, drive: Drive) -> Contact:
         wall,
         wall,
         force,
-        np.sqrt(force * drive.stiffness / (math.pi * drive.length * drive.radius)),
+        line_pressure(force, drive.length, drive.radius, drive.stiffness),
         drive.sense * torque * run.first,
         none.astype(bool),
     )
@@ -180,13 +177,13 @@ def curved(run: Stroke, drive: Drive) -> Contact:
     # An undercut wall has no contact there; feasible designs have none.
     radius = np.maximum(drive.radius * (1 - wall * run.curvature * drive.radius), _SHARPEST)
     force = np.abs(push)
-    pressure = np.sqrt(force * drive.stiffness / (math.pi * drive.length * radius))
+    pressure = line_pressure(force, drive.length, radius, drive.stiffness)
     return Contact(lever, delta, wall, carrier, force, pressure, drive.sense * torque * run.first, blocked)
 
 
 def stiffness(wheel: str, roller: str) -> float:
     """E* of two materials, MPa."""
-    return 1 / sum((1 - one.poisson**2) / one.modulus for one in (material(wheel), material(roller)))
+    return contact_modulus(material(wheel), material(roller))
 
 
 def strength(wheel: str, roller: str) -> float:

@@ -6,7 +6,6 @@ the rollers hang into the slots.
 """
 
 import math
-from typing import TYPE_CHECKING
 
 from mechwright import (
     Bore,
@@ -19,10 +18,12 @@ from mechwright import (
     Pocket,
     Point,
     Profile,
+    Step,
+    Turned,
     circle,
     kept,
 )
-from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.counterbore import counterbore
 from mechwright_geneva.crank import crank_loop
@@ -34,9 +35,6 @@ from mechwright_geneva.params import GenevaParams, Sizes
 from mechwright_geneva.relief import lock_loop
 from mechwright_geneva.tabs import tab_sites
 from mechwright_geneva.wheel import Wheel
-
-if TYPE_CHECKING:
-    import cadquery as cq
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
 
@@ -147,22 +145,16 @@ def _pin_fit(params: Sizes) -> Fit | None:
 
 
 def _roller(m: Mechanism) -> Part:
-    """The roller with its stud, a part to buy or to turn; a stud pressed in is shown as it then is."""
+    """The roller with its stud, which is turned; a stud pressed in, of h6, is shown as it then is."""
     params, fit = m.params, _pin_fit(m.params)
     shown = params.pin_diameter if fit is None else min(params.pin_diameter, fit.middle)
     foot = m.params.thickness - m.params.roller_length
     stud = params.axial_gap + params.crank_thickness
 
-    def build() -> "cq.Solid":
-        import cadquery as cq
-
-        roller = cq.Solid.makeCylinder(m.roller, m.params.roller_length)
-        pin = cq.Solid.makeCylinder(shown / 2, stud, cq.Vector(0, 0, m.params.roller_length))
-        fused = roller.fuse(pin)
-        return fused if isinstance(fused, cq.Solid) else fused.Solids()[0]
-
+    pressed = None if fit is None else shaft_fit(params.pin_diameter, "h6")
+    steps = (Step(2 * m.roller, params.roller_length), Step(shown, stud, pressed))
     instances = tuple(Instance(roller_body(k), foot) for k in range(params.rollers))
-    return Part("roller", None, 0, params.roller_material, instances, STEEL, build=build)
+    return Part("roller", None, 0, params.roller_material, instances, STEEL, turned=Turned(steps))
 
 
 def _plate(

@@ -32,6 +32,7 @@ from mechwright.mechanics.linkage import (
     web_link,
 )
 from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright.standards.parts import dowel_part
 from mechwright_slider_crank.course import course_of, ends_of
 from mechwright_slider_crank.figures import Limits
 from mechwright_slider_crank.params import SliderCrankParams
@@ -290,7 +291,7 @@ def parts_of(params: SliderCrankParams) -> tuple[Part, ...]:
         parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
     low, high = spans["dowel-1"]
     dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
-    parts.append(pin_part("dowel", sizes.dowel, high - low, dowels))
+    parts.append(dowel_part("dowel", sizes.dowel, high - low, dowels))
     under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
     if heights.layer["rail-1"] > 1:
         spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))

@@ -13,7 +13,7 @@ from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.frame import frame_of, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size
+from mechwright_spherical.places import gear_cones, gear_span, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.shells import Shells, Span
 from mechwright_spherical.solids import Slot, arc_body, cylinder, frustum, fused, shell, shell_strip
 from mechwright_spherical.stand import FLANGE_SCREWS, flange_diameter, post_direction
@@ -178,10 +178,12 @@ def _in_ground(linkage: Linkage, axis: Array) -> Array:
 def tool(params: SphericalParams, shells: Shells, at: Array) -> cq.Solid:
     """The tool: a pin in the coupler whose cone ends on the sphere."""
     low, high = shells.pins["tool"]
-    radius = params.hardware.pin_diameter / 2
-    tip = min(2 * radius, (high - low) / 2)
-    cone = cq.Solid.makeCone(0.0, radius, tip, cq.Vector(*(low * at).tolist()), cq.Vector(*at.tolist()))
-    return fused([cone, cylinder(at, (low + tip, high), 2 * radius)])
+    cone, shank = tool_of(params, shells).steps
+    radius, tip = shank.diameter / 2, low + cone.length
+    point = cq.Solid.makeCone(
+        0.0, radius, cone.length, cq.Vector(*(low * at).tolist()), cq.Vector(*at.tolist())
+    )
+    return fused([point, cylinder(at, (tip, high), shank.diameter)])
 
 
 def gear(params: SphericalParams, span: Span, half_angle: float) -> cq.Solid:

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from mechwright import Colour, Instance, Part
+from mechwright import Colour, Instance, Part, Step, Turned
 from mechwright_spherical.drive import Train, train_of
 from mechwright_spherical.flat import strip, strip_outline
 from mechwright_spherical.frame import ground_arcs, shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
 from mechwright_spherical.params import SphericalParams
-from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size
+from mechwright_spherical.places import gear_cones, link_arcs, pin_places, second_size, tool_of
 from mechwright_spherical.shells import Shells
 from mechwright_spherical.stand import base_outline
 
@@ -37,13 +37,21 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
     train = train_of(linkage, params.drive)
     return (
         *_links(params, linkage, shells),
-        *_pins(params, train),
+        *_pins(params, shells, train),
         *_gears(params, train),
         *_plates(params, linkage, shells),
     )
 
 
-def _solid(name: str, params: SphericalParams, body: str, kind: str, *, shown: bool = True) -> Part:
+def _solid(
+    name: str,
+    params: SphericalParams,
+    body: str,
+    kind: str,
+    *,
+    shown: bool = True,
+    turned: Turned | None = None,
+) -> Part:
     hardware = params.hardware
     return Part(
         name,
@@ -53,6 +61,7 @@ def _solid(name: str, params: SphericalParams, body: str, kind: str, *, shown: b
         instances=(Instance(body),) if shown else (),
         colour=COLOURS[kind],
         build=partial(_build, shape_of(params), name),
+        turned=turned,
     )
 
 
@@ -83,12 +92,18 @@ def _links(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterato
     yield _solid("coupler", params, "coupler", "coupler")
 
 
-def _pins(params: SphericalParams, train: Train | None) -> Iterator[Part]:
-    for name, (_, body, _) in pin_places(params).items():
-        yield _solid(name, params, body, "pin")
+def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Iterator[Part]:
+    diameter, spans = params.hardware.pin_diameter, shells.pins
+
+    def turned(span: str) -> Turned:
+        low, high = spans[span]
+        return Turned((Step(diameter, high - low),))
+
+    for name, (span, body, _) in pin_places(params).items():
+        yield _solid(name, params, body, "pin", turned=turned(span))
     if train is not None and train.idler_axis is not None:
-        yield _solid("shaft-idler", params, "idler", "pin")
-    yield _solid("tool", params, "coupler", "pin")
+        yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
+    yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))
 
 
 def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:

@@ -2,6 +2,7 @@
 
 import math
 
+from mechwright import Step, Turned
 from mechwright_spherical.drive import Train
 from mechwright_spherical.frame import shells_of
 from mechwright_spherical.linkage import Linkage, linkage_of
@@ -55,6 +56,14 @@ def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
     if "arm" in arcs:
         found["pin-b"] = ("b", "arm", arcs["arm"])
     return found
+
+
+def tool_of(params: SphericalParams, shells: Shells) -> Turned:
+    """The tool in the coupler, from its point on the sphere outwards."""
+    low, high = shells.pins["tool"]
+    diameter = params.hardware.pin_diameter
+    tip = min(diameter, (high - low) / 2)
+    return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip)))
 
 
 def gear_cones(train: Train) -> dict[str, tuple[str, float]]:

@@ -145,6 +145,8 @@ MET = Finding("interference.collision", Severity.ERROR, "", "one and two stand i
 @pytest.mark.parametrize("fault", [None, ProofError("the program gouges"), ToolError("no such mill")])
 def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, monkeypatch, command_line):
     class Programs:
+        made = jobs = ()
+
         @property
         def findings(self):
             if fault is not None:
@@ -154,7 +156,8 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     def nothing(self, build):
         return {}
 
-    monkeypatch.setattr("mechwright_cam.machining.Machining", lambda build: Programs())
+    for module in ("as_made", "pages.seen", "machining"):  # the first two have names of their own
+        monkeypatch.setattr(f"mechwright_cam.{module}.Machining", lambda build: Programs())
     for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets"):
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.files", nothing)
     monkeypatch.setattr(Solids, "warm", lambda self: None)
@@ -164,7 +167,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     monkeypatch.setattr(Solids, "files", lambda self: pytest.fail("there are none"))
     (tmp_path / "pair.toml").write_text('format = 1\nfamily = "elliptic-gears"\n[parameters]\nteeth = 21\n')
     code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
-    assert code == 1
+    assert code == 1, said
     assert str(MET) in said
     assert "gouges" not in said
     assert "mill" not in said
@@ -172,6 +175,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     monkeypatch.setattr(Solids, "collisions", lambda self: [])
     monkeypatch.setattr(Solids, "files", lambda self: {"x.step": b"x"})
     monkeypatch.setattr(Solids, "page", lambda self: {"motion.html": b"x"})
+    monkeypatch.setattr(Solids, "masses", lambda self: {"gear": 1.0})
     code, _, said = command_line("build", tmp_path / "pair.toml", "-o", tmp_path / "out")
     assert code == {ProofError: 1, ToolError: 2}.get(type(fault), 0)
     assert fault is None or str(fault) in said
@@ -184,7 +188,7 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
         exporters = [build.host.get(Exporter, name) for name in ("step", "stl")]
         with closing(Beside([])) as second:
             second.ask(compared_and_made, Work(build.design, exporters, motion, sample))
-            findings, files = second.result(tuple)
+            findings, files, grams = second.result(tuple)
         solids = build.made(Solids)
         assert not solids.beside
         assert files.keys() == {"gear.step", "gear.stl", "assembly.step", "motion.html"}
@@ -192,3 +196,5 @@ def test_a_second_process_compares_and_writes_the_same(tmp_path):
         assert solids.page() == {"motion.html": files["motion.html"]}
         assert [f.code for f in findings] == ["interference.clear"]
         assert solids.collisions() == findings
+        assert solids.masses() == grams
+        assert grams.keys() == {"gear"}

@@ -117,11 +117,11 @@ def test_a_fit_beyond_the_tables_is_refused():
     big = Part(
         "base",
         Outline(
-            Loop((circle((0, 0), 150),)),
+            Loop((circle((0, 0), 300),)),
         ),
         8.0,
         "steel",
-        machined=(Bore("bore", (0.0, 0.0), 200.0, 0, 4), Profile("outside", SQUARE, "outside", 0, 8)),
+        machined=(Bore("bore", (0.0, 0.0), 402.0, 0, 4), Profile("outside", SQUARE, "outside", 0, 8)),
     )
-    with pytest.raises(GeometryError, match="the table goes up to 180 mm"):
+    with pytest.raises(GeometryError, match="the table goes up to 400 mm"):
         fitted(big, "bore", "H7")

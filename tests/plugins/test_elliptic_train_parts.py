@@ -148,7 +148,7 @@ def test_round_parts_are_sound_solids_of_the_right_size():
     plain, keyed = parts_of(DOWELLED)["shaft-4"].build().Volume(), parts["shaft-4"].build().Volume()
     # The seat: 2.5 mm below the crest, 4 mm wide, over both gears and the spacer between them.
     assert plain - keyed == pytest.approx(4 * 2.5 * 22, rel=0.06)
-    assert parts["key"].build().Volume() == pytest.approx(4 * 4 * 10, rel=1e-9)
+    assert parts["key"].build().Volume() == pytest.approx((16 - 2 * 0.16**2) * 10, rel=1e-9)
 
 
 def test_a_key_of_no_standard_width_has_a_seat_as_deep_as_its_keyway():

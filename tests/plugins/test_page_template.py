@@ -7,7 +7,7 @@ import json
 import pytest
 from templates import EXAMPLES, copied, installed_into, passed, run
 
-NAMES = {"bill-of-materials.csv", "bill-of-materials.html"}
+NAMES = {"saw-list.csv", "saw-list.html"}
 DESIGN = EXAMPLES / "elliptic-pair.toml"
 
 
@@ -37,9 +37,9 @@ def test_the_page_is_one_file_and_a_registration(copy):
 def test_the_listing_names_it(installed, tmp_path):
     command = ["-m", "mechwright", "families", "--json"]
     told = json.loads(run(command, installed, cwd=tmp_path).stdout)
-    assert "bill-of-materials" in told["pages"]
+    assert "saw-list" in told["pages"]
     assert told["broken"] == []
-    assert "bill-of-materials" not in json.loads(run(command, cwd=tmp_path).stdout)["pages"]
+    assert "saw-list" not in json.loads(run(command, cwd=tmp_path).stdout)["pages"]
 
 
 def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
@@ -50,7 +50,7 @@ def test_model_and_build_write_it_and_cam_does_not(installed, tmp_path):
     )
     assert model.keys() >= NAMES <= build.keys()
     assert [build[name].read_bytes() for name in NAMES] == [model[name].read_bytes() for name in NAMES]
-    lines = list(csv.DictReader(io.StringIO(model["bill-of-materials.csv"].read_text(encoding="utf-8"))))
+    lines = list(csv.DictReader(io.StringIO(model["saw-list.csv"].read_text(encoding="utf-8"))))
     assert {f"{line['part']}.step" for line in lines} == {n for n in model if n.endswith(".step")} - {
         "assembly.step"
     }

@@ -90,7 +90,7 @@ def drawing(
     """The drawing of plates, of the recesses in them and of their details, with lines of text below."""
     import shapely
 
-    with _fixed_metadata():
+    with fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         document.linetypes.add("CENTER", _CENTRE_LINE, description="Center ____ _ ____ _")
@@ -122,7 +122,7 @@ def finished(document: "Drawing", box: tuple[float, float, float, float], text: 
         place = (x0, y0 - (2 + 1.6 * row) * TEXT_HEIGHT)
         note = document.modelspace().add_text(line, height=TEXT_HEIGHT, dxfattribs={"layer": "TEXT"})
         note.set_placement(place)
-    _order_classes(document)
+    order_classes(document)
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue().encode(document.output_encoding)
@@ -239,7 +239,7 @@ def _frame(document: "Drawing", bounds: tuple[float, float, float, float]) -> No
     document.set_modelspace_vport(1.2 * max(y1 - y0, x1 - x0), center=((x0 + x1) / 2, (y0 + y1) / 2))
 
 
-def _order_classes(document: "Drawing") -> None:
+def order_classes(document: "Drawing") -> None:
     """Bring the class table into one order; some of it comes out of sets, which differ by process."""
     document.classes.add_required_classes(document.dxfversion)
     classes = document.classes.classes
@@ -249,7 +249,7 @@ def _order_classes(document: "Drawing") -> None:
 
 
 @contextmanager
-def _fixed_metadata() -> Iterator[None]:
+def fixed_metadata() -> Iterator[None]:
     """No time stamps and random identifiers, so that the same outline gives the same bytes."""
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True

@@ -41,8 +41,13 @@ class DxfExporter(Exporter):
     def __init__(self, curves: Curves = "spline") -> None:
         self.curves = curves
 
-    def part(self, part: "Part") -> bytes:
-        """One drawing; raises GeometryError for a part that has no outline."""
+    def part(self, part: "Part") -> bytes | None:
+        """One drawing; None for what is turned, which has a drawing of its own, or bought.
+
+        Raises GeometryError for another part that has no outline.
+        """
+        if part.outline is None and part.kind in {"turned", "bought"}:
+            return None
         from mechwright_cad.exporters import dxf
 
         return dxf.part(part, self.curves)

@@ -8,7 +8,7 @@ from ezdxf.filemanagement import new
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cad.exporters.dxf import TEXT_HEIGHT, _fixed_metadata, finished
+from mechwright_cad.exporters.dxf import TEXT_HEIGHT, finished, fixed_metadata
 
 MARK = 1.0
 """Radius of the circle about a marked place, mm."""
@@ -30,7 +30,7 @@ def polylines(
     text
         Lines below the drawing, on the layer ``TEXT``.
     """
-    with _fixed_metadata():
+    with fixed_metadata():
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         for number, name in enumerate((*layers, "MARK", "TEXT"), start=1):

@@ -39,6 +39,8 @@ class Inertia:
 def mass_moments(part: Part) -> Array:
     """∫ p pᵀ dm with p = (x, y, z, 1), (4, 4), of a part in its own coordinates, in kg and mm.
 
+    A bought part with a mass of its own has that, spread over its envelope.
+
     Raises
     ------
     GeometryError
@@ -52,7 +54,10 @@ def mass_moments(part: Part) -> Array:
         raise GeometryError(
             f"part {part.name} is of {part.material}, whose density is {density:g} g/cm³: it has no mass"
         )
-    return found * density * KILOGRAMS
+    scale = density * KILOGRAMS
+    if part.bought is not None and part.bought.mass is not None:
+        scale = part.bought.mass / 1000 / float(found[3, 3])
+    return found * scale
 
 
 def _solid_moments(part: Part) -> Array:

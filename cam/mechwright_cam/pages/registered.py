@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, cast, get_args
 
 from mechwright.build import Build, Page
 from mechwright.errors import DesignError
+from mechwright_cad.bill.page import HTML as BILL
+from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import Curves, DxfExporter
 
 if TYPE_CHECKING:
@@ -38,7 +40,8 @@ class DrawingFiles(Page):
         machining = _machining(build)
         drawing = DxfExporter(curve_kind(build.wanted.curves))
         parts = [*machining.plates, *machining.nests] if machining.made else []
-        return {f"{part.name}{drawing.suffix}": drawing.part(part) for part in parts}
+        made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
+        return {name: content for name, content in made if content is not None}
 
 
 class ProgramFiles(Page):
@@ -109,8 +112,15 @@ class SetupSheets(Page):
                 files=files[name],
             )
         sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.made]
+        written = build.wanted.command in BillOfMaterials.commands
         made[SUMMARY] = summary_html(
-            sheets, control, name=build.design.name, tool_table=table, design=design, files=files
+            sheets,
+            control,
+            name=build.design.name,
+            tool_table=table,
+            design=design,
+            files=files,
+            bill=BILL if written else "",
         )
         return made
 

@@ -22,7 +22,7 @@ from mechwright_cam.shop.table import settings_of
 
 def plates(parts: Sequence[Part]) -> list[Part]:
     """The parts that are milled from a plate."""
-    return [part for part in parts if part.outline is not None]
+    return [part for part in parts if part.outline is not None and part.bought is None]
 
 
 def cut_plates(

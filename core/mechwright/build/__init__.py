@@ -3,5 +3,6 @@
 from mechwright.build.build import Build, Wanted
 from mechwright.build.inspection import Inspection
 from mechwright.build.page import Page
+from mechwright.build.stock import Blank, RawStock
 
-__all__ = ["Build", "Inspection", "Page", "Wanted"]
+__all__ = ["Blank", "Build", "Inspection", "Page", "RawStock", "Wanted"]

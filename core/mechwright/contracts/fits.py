@@ -1,35 +1,25 @@
-"""Fits of holes: limits of size after ISO 286-2.
+"""Fits of one hole or one shaft: limits of size after ISO 286-2.
 
-A hole of basic size D in a tolerance class lies between D + lower and D + upper; what is cut aims at the
-middle, so that cutter and machine may err to both sides.
+A hole or shaft of basic size D in a tolerance class lies between D + lower and D + upper; what is cut aims at
+the middle, so that cutter and machine may err to both sides.
 """
 
 from dataclasses import dataclass
 from typing import Literal
 
-from mechwright.errors import GeometryError
+from mechwright.contracts.limits import limits
+from mechwright.errors import DesignError, GeometryError
 
 HoleClass = Literal["F7", "H7", "N7", "P7"]
 """F7 runs on an h6 pin, H7 locates, N7 holds with light blows, P7 is pressed."""
 
-_STEPS = (3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0)
-"""Ranges of basic sizes, over the one and up to and including the next, mm (ISO 286-1)."""
-
-_GRADE_7 = (10, 12, 15, 18, 21, 25, 30, 35, 40)
-"""Standard tolerance IT7 of each range, micrometres (ISO 286-1)."""
-
-_LOWER: dict[HoleClass, tuple[int, ...]] = {
-    "F7": (6, 10, 13, 16, 20, 25, 30, 36, 43),
-    "H7": (0, 0, 0, 0, 0, 0, 0, 0, 0),
-    "N7": (-14, -16, -19, -23, -28, -33, -39, -45, -52),
-    "P7": (-16, -20, -24, -29, -35, -42, -51, -59, -68),
-}
-"""Lower limit deviation EI of each range, micrometres (ISO 286-2)."""
+ShaftClass = Literal["f7", "g6", "h6", "j6", "k6", "m6"]
+"""In H7 f7 and g6 run, h6 slides, j6 and k6 carry a bearing's inner ring or a hub, m6 is a dowel's."""
 
 
 @dataclass(frozen=True)
 class Fit:
-    """Limits of a hole: basic size, tolerance class, and limit deviations; mm.
+    """Limits of a hole or a shaft: basic size, tolerance class, and limit deviations; mm.
 
     >>> fit = hole_fit(6, "H7")
     >>> fit.text, fit.middle
@@ -49,21 +39,39 @@ class Fit:
     @property
     def text(self) -> str:
         """Size, class and limit deviations, as a drawing notes them."""
-        return f"{self.size:g} {self.name} ({_signed(self.lower)}/{_signed(self.upper)})"
+        return f"{self.size:g} {self.name} ({signed(self.lower)}/{signed(self.upper)})"
 
 
 def hole_fit(size: float, name: HoleClass) -> Fit:
-    """The limits of a hole; raises GeometryError for a size above 180 mm, where this table ends.
+    """The limits of a hole; raises GeometryError for a size above 400 mm, where the table ends.
 
     >>> hole_fit(6, "P7").text
     '6 P7 (-0.02/-0.008)'
     """
-    if not 0 < size <= _STEPS[-1]:
-        raise GeometryError(f"no fit for a hole of {size:g} mm; the table goes up to {_STEPS[-1]:g} mm")
-    row = next(i for i, most in enumerate(_STEPS) if size <= most)
-    lower = _LOWER[name][row]
-    return Fit(size, name, lower / 1000, (lower + _GRADE_7[row]) / 1000)
+    return _fit(size, name)
 
 
-def _signed(value: float) -> str:
+def shaft_fit(size: float, name: ShaftClass) -> Fit:
+    """The limits of a shaft or a seat; raises GeometryError as :func:`hole_fit` does.
+
+    >>> shaft_fit(12, "k6").text
+    '12 k6 (+0.001/+0.012)'
+    """
+    return _fit(size, name)
+
+
+def _fit(size: float, name: str) -> Fit:
+    try:
+        lower, upper = limits(size, name)
+    except DesignError as error:
+        raise GeometryError(str(error)) from error
+    return Fit(size, name, lower / 1000, upper / 1000)
+
+
+def signed(value: float) -> str:
+    """A limit deviation as drawings write it.
+
+    >>> signed(0.012), signed(-0.02), signed(0.0)
+    ('+0.012', '-0.02', '0')
+    """
     return f"{value:+g}" if value else "0"

@@ -11,8 +11,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeGuard
 
+from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
+from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
 from mechwright.geometry.segments import Point, Segment
@@ -193,9 +195,18 @@ class Part:
     machined
         Features in the order of the drawing; empty means: those of the outline.
     build
-        Makes the solid of a part that is no plate.
+        Makes the solid of a part that is no plate; left out, what ``turned`` or ``bought`` has.
     details
         Chamfers, threads and engravings of a plate's top face.
+    turned
+        What a turned part looks like: it gets a drawing of it.
+    bought
+        What a part is ordered as that is not made.
+
+    Raises
+    ------
+    GeometryError
+        It has no solid or more than one, a plate has no thickness, or it is turned and bought at once.
     """
 
     name: str
@@ -207,13 +218,30 @@ class Part:
     machined: tuple[Feature, ...] = ()
     build: "Callable[[], cq.Solid] | None" = None
     details: tuple[Detail, ...] = ()
+    turned: Turned | None = None
+    bought: Bought | None = None
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")
+        if self.turned is not None and self.bought is not None:
+            raise GeometryError(f"part {self.name} is turned or bought, not both")
+        if self.outline is None and self.build is None:
+            form = self.turned or self.bought
+            if form is not None and form.shape is not None:
+                object.__setattr__(self, "build", form.shape.solid)
         if (self.outline is None) == (self.build is None):
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
         if self.outline is not None and not self.thickness > 0:
             raise GeometryError(f"part {self.name} needs a thickness above 0 mm, not {self.thickness}")
+
+    @property
+    def kind(self) -> Literal["plate", "turned", "bought", "solid"]:
+        """How one comes by it: cut from a plate, turned, bought, or made by other means."""
+        if self.bought is not None:
+            return "bought"
+        if self.turned is not None:
+            return "turned"
+        return "solid" if self.outline is None else "plate"
 
     @property
     def outlines(self) -> tuple[Outline, ...]:

@@ -28,11 +28,13 @@ def summary_html(
     tool_table: str = "",
     design: str = "",
     files: Mapping[str, Sequence[str]] = MappingProxyType({}),
+    bill: str = "",
 ) -> str:
     """The page of a whole job; it leads to the sheet of each program.
 
     For each program there are its job, itself and its proof, as for
     :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``files`` has the names of its files by its own name.
+    ``bill`` is the name of the bill of materials, where one is written.
     """
     rows = [
         _row(job, program, proof or {}, file_names(program, control.suffix, files.get(program.name, ())))
@@ -46,6 +48,7 @@ def summary_html(
         .render(
             name=name,
             design=design,
+            bill=bill,
             table_words=control.table_words(tool_table) if tool_table else "",
             rows=rows,
             tools=_tools(programs, control),

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from mechwright_bill.page import STEM, Bill
+from mechwright_saw_list.page import STEM, SawList
 
 from mechwright import Build, Design, Family, Instance, Loop, Outline, Page, Parameters, Part, circle, host
 
@@ -37,13 +37,13 @@ class Sample(Family[Parameters]):
 @pytest.fixture(scope="module")
 def files():
     with Build(Design("sample", Sample(), Parameters(), Path("sample.toml"), ""), host()) as build:
-        made = Bill().files(build)
-        assert Bill().files(build) == made, "the same build gives the same bytes"
+        made = SawList().files(build)
+        assert SawList().files(build) == made, "the same build gives the same bytes"
     return made
 
 
 def test_it_is_registered():
-    assert isinstance(host().get(Page, "bill-of-materials"), Bill)
+    assert isinstance(host().get(Page, "saw-list"), SawList)
 
 
 def test_each_part_has_a_line_with_what_it_weighs(files):

@@ -1,10 +1,10 @@
 """What this plugin registers."""
 
 from mechwright import Plugin, hookimpl
-from mechwright_bill.page import Bill
+from mechwright_saw_list.page import SawList
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The page."""
-    return [Bill]
+    return [SawList]

@@ -1,4 +1,4 @@
-"""The bill of materials of a build: a line for each part."""
+"""The saw list of a build: a line for each part."""
 
 import csv
 import io
@@ -6,16 +6,16 @@ from dataclasses import asdict, dataclass
 
 from mechwright import Build, Page, Part, material
 
-STEM = "bill-of-materials"
+STEM = "saw-list"
 """Of both files."""
 
 HTML = """<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">
-<title>{{ design }}: bill of materials</title>
+<title>{{ design }}: saw list</title>
 <style>body{font-family:sans-serif}td,th{padding:.2em .6em;text-align:left}.n{text-align:right}</style>
-<h1>{{ design }}: bill of materials</h1>
+<h1>{{ design }}: saw list</h1>
 <table>
 <tr><th>part<th>count<th>material<th>least stock, mm<th>mass of one, g<th>mass of all, g
 {% for item in items -%}
@@ -31,7 +31,7 @@ HTML = """<!doctype html>
 
 @dataclass(frozen=True)
 class Item:
-    """A line of the bill: sizes of the box around one part, mm, and masses, g."""
+    """A line of the list: sizes of the box around one part, mm, and masses, g."""
 
     part: str
     count: int
@@ -43,12 +43,12 @@ class Item:
     total_g: float
 
 
-class Bill(Page):
-    """``bill-of-materials.csv`` and the same as HTML."""
+class SawList(Page):
+    """``saw-list.csv`` and the same as HTML."""
 
-    name = "bill-of-materials"
+    name = "saw-list"
     commands = frozenset({"model", "build"})
-    doing = "bill of materials"
+    doing = "saw list"
 
     def files(self, build: Build) -> dict[str, str]:
         """Both files; heavy libraries are imported only now."""

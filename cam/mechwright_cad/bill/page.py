@@ -1,0 +1,91 @@
+"""The bill of materials as CSV, and as a page. Imports jinja2 when the page is made."""
+
+import csv
+import io
+from pathlib import Path
+
+from mechwright.build import Build, Page, RawStock
+from mechwright_cad.bill.lines import COLUMNS, Line, lines_of
+from mechwright_cad.turned_drawing.page import SUFFIXES
+
+STEM = "bill-of-materials"
+"""Of both files."""
+
+HTML = f"{STEM}.html"
+
+
+class BillOfMaterials(Page):
+    """``bill-of-materials.csv`` and ``bill-of-materials.html``."""
+
+    name = STEM
+    commands = frozenset({"model", "build"})
+    doing = "bill of materials"
+
+    def late(self, build: Build) -> bool:
+        """Whether a second process weighs the parts."""
+        from mechwright_cad.making import Solids
+
+        return build.made(Solids).beside
+
+    def files(self, build: Build) -> dict[str, str]:
+        """Both files; none for a mechanism without parts."""
+        from mechwright_cad.making import Solids
+
+        if not build.parts:
+            return {}
+        command = build.wanted.command
+        blanks = [
+            blank
+            for one in build.host.all(RawStock)
+            if command in one.commands
+            for blank in one.blanks(build)
+        ]
+        lines = lines_of(build.parts, build.made(Solids).masses(), blanks, drawings_of(build))
+        return {f"{STEM}.csv": bill_csv(lines), HTML: bill_html(build.design.name, lines)}
+
+
+def drawings_of(build: Build) -> dict[str, list[str]]:
+    """Names of the drawings that are written, by part: plates have theirs beside their programs."""
+    found = {
+        part.name: [part.name + end for end in SUFFIXES] for part in build.parts if part.kind == "turned"
+    }
+    if build.wanted.command == "build":
+        found |= {part.name: [f"{part.name}.dxf"] for part in build.parts if part.kind == "plate"}
+    return found
+
+
+def bill_csv(lines: list[Line]) -> str:
+    """The lines under the names of their columns; masses to a hundredth of a gram."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for line in lines:
+        values = [getattr(line, column) for column in COLUMNS]
+        writer.writerow([f"{value:.2f}" if isinstance(value, float) else value for value in values])
+    return text.getvalue()
+
+
+def bill_html(design: str, lines: list[Line]) -> str:
+    """The same for people, with its sums."""
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    kinds = {
+        kind: [line for line in lines if line.kind == kind] for kind in ("made", "bought", "stock", "supply")
+    }
+    bodies = [line for line in lines if line.kind in {"made", "bought"}]
+    return environment.get_template("page.html").render(
+        design=design,
+        csv=f"{STEM}.csv",
+        kinds=kinds,
+        count=sum(line.qty for line in bodies),
+        mass=sum(line.mass_g for line in bodies),
+        raw=sum(line.mass_g for line in kinds["stock"]),
+    )

@@ -1,0 +1,218 @@
+"""The whole drawing of a turned part: which sheet and scale, where the views stand, and the title block."""
+
+from dataclasses import dataclass
+
+from mechwright.contracts.part import Part
+from mechwright.contracts.turned import KeySeat, Turned
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Point
+from mechwright_cad.turned_drawing import words
+from mechwright_cad.turned_drawing.dimensions import (
+    FREE,
+    ROW,
+    Label,
+    labels,
+    labels_height,
+    length,
+    rows_height,
+    upright,
+)
+from mechwright_cad.turned_drawing.sheet import HEIGHT, Sheet, Text, width_of
+from mechwright_cad.turned_drawing.view import OVERHANG, across, ring, side
+
+SHEETS = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
+"""A4 to A1, lying; mm."""
+
+SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+"""ISO 5455."""
+
+LEAST = 0.5
+"""A smaller scale than this is taken only where the largest sheet wants it."""
+
+MARGIN, EDGE = 10.0, 8.0
+"""From the paper's edge to the frame, and from the frame to what is drawn, mm."""
+
+TITLE = (125.0, 34.0)
+"""Width and height of the title block, mm."""
+
+LINE = 5.5
+"""From one line of notes to the next, mm."""
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """What a sheet has to hold: names of labels, lengths from the base line, cuts through seats."""
+
+    labels: tuple[tuple[float, float, str], ...]
+    lengths: tuple[float, ...]
+    seats: tuple[KeySeat, ...]
+
+    @classmethod
+    def of(cls, turned: Turned) -> "_Plan":
+        found = []
+        for at, step in zip(turned.starts, turned.steps, strict=True):
+            share = _AT_A_CONE if step.start is not None else _free(turned, at, step.length)
+            height = step.foot + share * (step.diameter - step.foot)
+            found.append((at + share * step.length, height, words.of_step(step)))
+        found += [(g.at + g.width / 2, g.diameter, words.of_groove(g)) for g in turned.grooves]
+        if turned.bore:
+            at, last = turned.starts[-1], turned.steps[-1]
+            found.append((at + 0.8 * last.length, turned.bore, words.of_bore(turned)))
+        ends = {turned.length, *turned.starts[1:]}
+        ends |= {groove.at for groove in turned.grooves}
+        for seat in turned.seats:
+            ends |= {seat.at, seat.at + seat.length}
+        kept = sorted(round(end, 6) for end in ends if end > 0)
+        return cls(tuple(found), tuple(dict.fromkeys(kept)), _different(turned.seats))
+
+    def size(self, turned: Turned, scale: float) -> tuple[float, float]:
+        """Width and height of all views with their dimensions, mm of the sheet."""
+        texts = max(width_of(text) + scale * at for at, _, text in self.labels)
+        long = max(scale * turned.length, texts) + 2 * ROW + OVERHANG
+        cut = _beside(turned, scale) if self.seats else 0.0
+        high = labels_height(len(self.labels)) + scale * turned.greatest + rows_height(len(self.lengths))
+        return long + len(self.seats) * cut, high
+
+
+_AT_A_CONE = 0.9
+"""Where on a cone the label of its larger end stands, in its length."""
+
+_PLACES = (0.5, 0.35, 0.65, 0.2, 0.8)
+"""Where on a step its label may stand, in its length: the first that is on no groove or seat."""
+
+
+def _free(turned: Turned, at: float, length: float) -> float:
+    taken = [(one.at, one.at + one.width) for one in turned.grooves]
+    taken += [(one.at, one.at + one.length) for one in turned.seats]
+    near = length / 10
+    for share in _PLACES:
+        if not any(low - near <= at + share * length <= high + near for low, high in taken):
+            return share
+    return _PLACES[0]
+
+
+def _different(seats: tuple[KeySeat, ...]) -> tuple[KeySeat, ...]:
+    """One of all seats with the same section."""
+    return tuple({(seat.width, seat.floor): seat for seat in reversed(seats)}.values())[::-1]
+
+
+def _beside(turned: Turned, scale: float) -> float:
+    """Width of a cut with its dimensions, mm."""
+    return _to_middle(turned, scale) + scale * turned.greatest / 2 + 3 * ROW + width_of("100.5 (0/-0.1)")
+
+
+def _to_middle(turned: Turned, scale: float) -> float:
+    """From the left of a cut to its middle, mm: half of it, or of its title."""
+    return ROW + max(scale * turned.greatest / 2 + OVERHANG, width_of(_CUT) / 2)
+
+
+_CUT = "Key seat"
+"""Title of a cut."""
+
+
+def turned_sheet(part: Part, design: str = "") -> Sheet:
+    """The drawing of a turned part; raises GeometryError for another."""
+    turned = part.turned
+    if turned is None:
+        raise GeometryError(f"part {part.name} is not turned: it has no drawing of this kind")
+    plan = _Plan.of(turned)
+    (wide, high), scale = _fitting(turned, plan)
+    sheet = Sheet(wide, high, scale)
+    used, needed = plan.size(turned, scale)
+    low = MARGIN + TITLE[1]
+    bottom = low + max((high - MARGIN - low - needed) / 2, 0.0) + rows_height(len(plan.lengths))
+    beside = max((wide - 2 * (MARGIN + EDGE) - used) / 2, 0.0)
+    left, axis = MARGIN + EDGE + ROW + beside, bottom + scale * turned.greatest / 2
+    side(sheet, turned, left, axis)
+    labels(
+        sheet,
+        [Label(left + scale * at, scale * size, text) for at, size, text in plan.labels],
+        axis,
+        axis + scale * turned.greatest / 2,
+    )
+    radius = {0.0: turned.steps[0].foot / 2} | {
+        round(at + step.length, 6): step.diameter / 2
+        for at, step in zip(turned.starts, turned.steps, strict=True)
+    }
+    for row, end in enumerate(plan.lengths, start=0):
+        foot = (left, axis - scale * radius[0.0])
+        at = (left + scale * end, axis - scale * radius.get(end, _radius(turned, end)))
+        y = axis - scale * turned.greatest / 2 - FREE - ROW * row
+        length(sheet, foot, at, y, words.number(end))
+    x = wide - MARGIN - EDGE - beside - len(plan.seats) * _beside(turned, scale)
+    for seat in plan.seats:
+        _cut(sheet, turned, seat, (x + _to_middle(turned, scale), axis))
+        x += _beside(turned, scale)
+    _frame(sheet, part, turned, design)
+    return sheet
+
+
+def _radius(turned: Turned, z: float) -> float:
+    """Of the step at a height, mm."""
+    for at, step in zip(turned.starts, turned.steps, strict=True):
+        if at <= z <= at + step.length:
+            return step.diameter / 2
+    return turned.greatest / 2
+
+
+def _fitting(turned: Turned, plan: _Plan) -> tuple[tuple[float, float], float]:
+    """The smallest sheet and the largest scale that hold all; the last of both where none does."""
+    for paper in SHEETS:
+        for scale in SCALES:
+            wide, high = plan.size(turned, scale)
+            room = paper[0] - 2 * (MARGIN + EDGE), paper[1] - 2 * MARGIN - TITLE[1] - EDGE
+            if wide <= room[0] and high <= room[1] and (scale >= LEAST or paper is SHEETS[-1]):
+                return paper, scale
+    return SHEETS[-1], SCALES[-1]
+
+
+def _cut(sheet: Sheet, turned: Turned, seat: KeySeat, centre: Point) -> None:
+    """The cut through a seat, with its width and what is left below it: d - t1, as it is measured."""
+    step = 2 * _radius(turned, seat.at + seat.length / 2)
+    left, right, floor, opposite = across(sheet, seat, step, centre)
+    top = centre[1] + sheet.scale * step / 2
+    y = top + ROW
+    sheet.add(Text((centre[0], y + 2 * ROW), _CUT, "TEXT", align="middle"))
+    length(sheet, (left[0], left[1] + 2.0), (right[0], right[1] + 2.0), y, f"{words.number(seat.width)} N9")
+    across_floor = step / 2 + seat.floor
+    deep = f"{words.number(across_floor)} (0/-{'0.1' if seat.width <= 6 else '0.2'})"
+    upright(sheet, (floor[0], floor[1]), opposite, centre[0] + sheet.scale * step / 2 + ROW, deep)
+
+
+def _frame(sheet: Sheet, part: Part, turned: Turned, design: str) -> None:
+    """Frame, title block (ISO 7200), the sign of first-angle projection, and the notes beside it."""
+    x1, y1 = sheet.width - MARGIN, sheet.height - MARGIN
+    sheet.lines([(MARGIN, MARGIN), (x1, MARGIN), (x1, y1), (MARGIN, y1), (MARGIN, MARGIN)], "FRAME")
+    x0, top = x1 - TITLE[0], MARGIN + TITLE[1]
+    sheet.lines([(x0, MARGIN), (x0, top), (x1, top)], "FRAME")
+    ratio = f"{sheet.scale:g} : 1" if sheet.scale >= 1 else f"1 : {1 / sheet.scale:g}"
+    count = max(1, len(part.instances))
+    rows = (
+        (("Part", part.name), ("Scale", ratio)),
+        (("Design", design or "-"), ("Sheet", "1 / 1")),
+        (("Material", part.material), ("Make", f"{count}")),
+    )
+    step = TITLE[1] / len(rows)
+    split = x0 + 0.6 * TITLE[0]
+    sheet.lines([(split, MARGIN), (split, top)], "DIM")
+    for k, row in enumerate(rows):
+        y = top - step * (k + 1)
+        if k < len(rows) - 1:
+            sheet.lines([(x0, y), (x1, y)], "DIM")
+        for x, (name, value) in zip((x0, split), row, strict=True):
+            sheet.add(Text((x + 2, y + step - 3.5), name, height=2.0))
+            sheet.add(Text((x + 2, y + 2), value, height=HEIGHT))
+    _first_angle(sheet, (x1 - 22.0, MARGIN + 2 * step + step / 2))
+    for k, line in enumerate(words.notes(turned)):
+        sheet.add(Text((MARGIN + EDGE, top - LINE * (k + 1)), line, height=2.5))
+
+
+def _first_angle(sheet: Sheet, at: Point) -> None:
+    """The sign of ISO 5456-2: a cone from the side, and to its right its end."""
+    x, y = at
+    sheet.lines([(x, y - 1.5), (x + 7, y - 3), (x + 7, y + 3), (x, y + 1.5), (x, y - 1.5)], "DIM")
+    sheet.lines([(x - 1.5, y), (x + 8.5, y)], "CENTRE")
+    for radius in (1.5, 3.0):
+        sheet.lines(ring((x + 14, y), radius), "DIM")
+    sheet.lines([(x + 10, y), (x + 18, y)], "CENTRE")
+    sheet.lines([(x + 14, y - 4), (x + 14, y + 4)], "CENTRE")

@@ -1,0 +1,31 @@
+"""The drawings of turned parts as files of a build."""
+
+from mechwright.build import Build, Page
+
+SUFFIXES = (".dxf", ".pdf")
+"""Of the files of one drawing."""
+
+
+class TurnedDrawings(Page):
+    """``NAME.dxf`` and ``NAME.pdf`` of every turned part."""
+
+    name = "turned-drawings"
+    commands = frozenset({"model", "build"})
+    doing = "drawings of turned parts"
+
+    def files(self, build: Build) -> dict[str, bytes]:
+        """File name to content; none where nothing is turned."""
+        parts = [part for part in build.parts if part.kind == "turned"]
+        if not parts:
+            return {}
+        from mechwright_cad.turned_drawing.drawing import turned_sheet
+        from mechwright_cad.turned_drawing.to_dxf import dxf
+        from mechwright_cad.turned_drawing.to_pdf import pdf
+
+        made = {}
+        for part in parts:
+            sheet = turned_sheet(part, build.design.name)
+            title = f"{build.design.name}: {part.name}"
+            for suffix, content in zip(SUFFIXES, (dxf(sheet), pdf(sheet, title)), strict=True):
+                made[part.name + suffix] = content
+        return made

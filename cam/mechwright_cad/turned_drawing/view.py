@@ -1,0 +1,113 @@
+"""Views of a turned part: its side, cut open above the axis where it has a bore, and cuts through seats."""
+
+import math
+from collections.abc import Iterator
+
+from mechwright.contracts.turned import KeySeat, Turned
+from mechwright.geometry.segments import Point
+from mechwright_cad.turned_drawing.sheet import Sheet
+
+OVERHANG = 3.0
+"""How far a centre line goes beyond its view, mm."""
+
+HATCH = 2.5
+"""Between lines of a cut face, mm."""
+
+_ARC = 72
+"""Straight pieces of a circle's line: 0.01 mm off a circle of 20 mm."""
+
+
+def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
+    """The part with its axis level, its foot at x = ``left``."""
+    s = sheet.scale
+    corners = [(left + s * z, s * r) for r, z in turned.profile]
+    inner, end = s * turned.bore / 2, left + s * turned.length
+    for sign in (1, -1):
+        points = [(x, axis + sign * y) for x, y in corners]
+        sheet.lines([(left, axis), *points, (end, axis)])
+        if sign < 0 or inner == 0:
+            for x, y in _edges(corners):
+                sheet.lines([(x, axis), (x, axis + sign * y)])
+    if inner > 0:
+        sheet.lines([(left, axis + inner), (end, axis + inner)])
+        _hatch(sheet, corners, inner, axis)
+    for seat in turned.seats:
+        x0, x1, half = left + s * seat.at, left + s * (seat.at + seat.length), s * seat.width / 2
+        sheet.lines(
+            [(x0, axis - half), (x1, axis - half), (x1, axis + half), (x0, axis + half), (x0, axis - half)]
+        )
+    sheet.lines([(left - OVERHANG, axis), (end + OVERHANG, axis)], "CENTRE")
+
+
+def _edges(corners: list[Point]) -> list[Point]:
+    """Where the outside has an edge between its ends, and how high it is seen there."""
+    highest: dict[float, float] = {}
+    for x, y in corners:
+        highest[x] = max(y, highest.get(x, 0.0))
+    ends = (corners[0][0], corners[-1][0])
+    return [(x, y) for x, y in highest.items() if x not in ends]
+
+
+def _hatch(sheet: Sheet, corners: list[Point], inner: float, axis: float) -> None:
+    """Lines at 45° over the cut above the axis, clipped to its profile."""
+    import shapely
+
+    low, high = corners[0][0], corners[-1][0]
+    face = shapely.Polygon([(low, inner), *corners, (high, inner)])
+    top = max(y for _, y in corners)
+    step, start = HATCH * math.sqrt(2), low - top
+    lines = [
+        shapely.LineString([(x, 0.0), (x + top, top)])
+        for x in (start + step * k for k in range(math.ceil((high - start) / step)))
+    ]
+    for line in lines:
+        for piece in shapely.get_parts(shapely.intersection(line, face)):
+            if piece.geom_type == "LineString" and piece.length > 0:
+                (x0, y0), (x1, y1) = shapely.get_coordinates(piece).tolist()
+                sheet.lines([(x0, axis + y0), (x1, axis + y1)], "HATCH")
+
+
+def across(sheet: Sheet, seat: KeySeat, diameter: float, centre: Point) -> tuple[Point, Point, Point, Point]:
+    """The cut through a seat; gives the ends of its mouth, the middle of its floor, and the point opposite.
+
+    The seat is on top: the floor's distance from the axis is up.
+    """
+    s, (cx, cy) = sheet.scale, centre
+    r, half, floor = s * diameter / 2, s * seat.width / 2, s * seat.floor
+    mouth = math.sqrt(max(r * r - half * half, floor * floor))
+    begin = math.atan2(mouth, half)
+    arc = list(_arc(centre, r, math.pi - begin, 2 * math.pi + begin))
+    sheet.lines([*arc, (cx + half, cy + floor), (cx - half, cy + floor), arc[0]])
+    _cut_face(sheet, [*arc, (cx + half, cy + floor), (cx - half, cy + floor)])
+    for a, b in (
+        ((cx - r - OVERHANG, cy), (cx + r + OVERHANG, cy)),
+        ((cx, cy - r - OVERHANG), (cx, cy + r + OVERHANG)),
+    ):
+        sheet.lines([a, b], "CENTRE")
+    return (cx - half, cy + mouth), (cx + half, cy + mouth), (cx + half, cy + floor), (cx, cy - r)
+
+
+def _cut_face(sheet: Sheet, ring: list[Point]) -> None:
+    import shapely
+
+    face = shapely.Polygon(ring)
+    x0, y0, x1, y1 = face.bounds
+    step, start = HATCH * math.sqrt(2), x0 - (y1 - y0)
+    for k in range(math.ceil((x1 - start) / step)):
+        x = start + step * k
+        line = shapely.LineString([(x, y0), (x + y1 - y0, y1)])
+        for piece in shapely.get_parts(shapely.intersection(line, face)):
+            if piece.geom_type == "LineString" and piece.length > 0:
+                sheet.lines(tuple(map(tuple, shapely.get_coordinates(piece).tolist())), "HATCH")
+
+
+def ring(centre: Point, radius: float) -> list[Point]:
+    """A circle's line."""
+    return list(_arc(centre, radius, 0.0, math.tau))
+
+
+def _arc(centre: Point, radius: float, start: float, end: float) -> Iterator[Point]:
+    count = math.ceil(_ARC * (end - start) / math.tau)
+    for k in range(count + 1):
+        angle = start + (end - start) * k / count
+        yield centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)

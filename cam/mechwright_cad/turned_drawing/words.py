@@ -1,0 +1,66 @@
+"""What a drawing says in words and numbers."""
+
+import re
+
+from mechwright.contracts.fits import signed
+from mechwright.contracts.turned import Groove, Step, Turned
+
+FINE, FAIR, PLAIN = "Ra 0.8", "Ra 1.6", "Ra 3.2"
+"""Roughness of seats that are pressed, of those that turn or slide, and of all else, µm."""
+
+_PRESSED = re.compile("[jkmnp][4-7]")
+
+SLENDER = 4.0
+"""From this length in diameters on a part is turned between centres."""
+
+
+def number(value: float) -> str:
+    """A length, mm, to a thousandth.
+
+    >>> number(12.0), number(9.7999999)
+    ('12', '9.8')
+    """
+    return f"{round(value, 3):g}"
+
+
+def of_step(step: Step) -> str:
+    """The diameter of a step, with fit and roughness where it has one.
+
+    >>> of_step(Step(8.0, 4.0)), of_step(Step(6.0, 4.0, start=0.0))
+    ('⌀8', '⌀0 to ⌀6, cone')
+    """
+    if step.start is not None:
+        return f"⌀{number(step.start)} to ⌀{number(step.diameter)}, cone"
+    if step.fit is None:
+        return f"⌀{number(step.diameter)}"
+    rough = FINE if _PRESSED.fullmatch(step.fit.name) else FAIR
+    return f"⌀{step.fit.text} {rough}"
+
+
+def of_groove(groove: Groove) -> str:
+    """The diameter and width of a groove."""
+    limits = f" (0/{signed(-groove.under)})" if groove.under else ""
+    return f"⌀{number(groove.diameter)}{limits}, {number(groove.width)} H13 wide"
+
+
+def of_bore(turned: Turned) -> str:
+    """The bore, all through."""
+    if turned.bore_fit is not None:
+        return f"⌀{turned.bore_fit.text} {FAIR}, through"
+    return f"⌀{number(turned.bore)} through"
+
+
+def notes(turned: Turned) -> list[str]:
+    """What holds for the whole part."""
+    found = [
+        "Tolerances ISO 2768-mK, principle ISO 8015",
+        f"Surfaces {PLAIN}, edges broken 0.2 (ISO 13715)",
+    ]
+    if turned.chamfer:
+        found.append(f"Both ends {number(turned.chamfer)} x 45°")
+    fits = [step for step in turned.steps if step.fit is not None]
+    if len(fits) > 1:
+        found.append("Run-out of fitted diameters to each other 0.02")
+    if turned.length > SLENDER * turned.greatest and turned.bore == 0:
+        found.append("Centre holes ISO 6411 may stay")
+    return [*found, turned.note] if turned.note else found

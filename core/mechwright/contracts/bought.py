@@ -1,0 +1,38 @@
+"""What a part that is bought is ordered as."""
+
+from dataclasses import dataclass
+
+from mechwright.contracts.shape import Shape
+from mechwright.errors import DesignError
+
+
+@dataclass(frozen=True)
+class Bought:
+    """A part to order: it is not made, and stands in the bill of materials under its designation.
+
+    Parameters
+    ----------
+    designation
+        As one orders it: ``"ISO 4762 - M4 x 12 - 8.8"``, ``"608-2Z"``.
+    standard
+        That fixes its sizes, such as ``"ISO 4762"``; empty where only its maker does.
+    mass
+        Of the catalogue, g, where the solid is an envelope whose volume says another; None: volume times
+        density.
+    shape
+        Its envelope at nominal sizes; None where the part gives its solid itself.
+    note
+        What a buyer or fitter has to know besides.
+    """
+
+    designation: str
+    standard: str = ""
+    mass: float | None = None
+    shape: Shape | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.designation.strip():
+            raise DesignError("a part that is bought needs the designation that it is ordered by")
+        if self.mass is not None and not self.mass > 0:
+            raise DesignError(f"{self.designation}: a mass of {self.mass:g} g; leave it out, or above 0")

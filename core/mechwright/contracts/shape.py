@@ -1,0 +1,103 @@
+"""The form of a part that is no plate, as plain numbers: what is turned about z, and upright prisms.
+
+A shape can be compared, kept and sent to another process; the CAD kernel is imported when its solid is made.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Point
+
+if TYPE_CHECKING:
+    import cadquery as cq
+
+
+@dataclass(frozen=True)
+class Revolve:
+    """A closed profile with corners (r, z), mm, r at least 0, turned about an upright ``axis`` (x, y).
+
+    The ``sweep`` is in degrees, from the direction of x on.
+    """
+
+    profile: tuple[Point, ...]
+    axis: Point = (0.0, 0.0)
+    sweep: float = 360.0
+
+    def solid(self) -> "cq.Solid":
+        """By the CAD kernel."""
+        import cadquery as cq
+
+        x, y = self.axis
+        wire = cq.Wire.makePolygon([cq.Vector(x + r, y, z) for r, z in self.profile], close=True)
+        return cq.Solid.revolve(wire, [], self.sweep, cq.Vector(x, y, 0), cq.Vector(x, y, 1))
+
+
+@dataclass(frozen=True)
+class Prism:
+    """A polygon with corners (x, y), mm, between two heights."""
+
+    corners: tuple[Point, ...]
+    low: float
+    high: float
+
+    def solid(self) -> "cq.Solid":
+        """By the CAD kernel."""
+        import cadquery as cq
+
+        wire = cq.Wire.makePolygon([cq.Vector(x, y, self.low) for x, y in self.corners], close=True)
+        return cq.Solid.extrudeLinear(wire, [], cq.Vector(0, 0, self.high - self.low))
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Pieces put together, less others.
+
+    Raises
+    ------
+    GeometryError
+        By :meth:`solid`: the pieces do not hang together, or the others leave nothing of them.
+
+    >>> round(Shape((ring(2, 6, 1),)).solid().Volume() / math.pi, 9)
+    8.0
+    """
+
+    pieces: tuple[Revolve | Prism, ...]
+    less: tuple[Revolve | Prism, ...] = ()
+
+    def solid(self) -> "cq.Solid":
+        """One solid."""
+        import cadquery as cq
+
+        first, *others = (piece.solid() for piece in self.pieces)
+        whole: cq.Shape = first.fuse(*others) if others else first
+        if self.less:
+            whole = whole.cut(*(piece.solid() for piece in self.less))
+        found = whole.Solids()
+        if len(found) != 1 or not isinstance(found[0], cq.Solid):
+            raise GeometryError(f"a shape falls into {len(found)} pieces; it has to be one")
+        return found[0]
+
+
+def ring(inner: float, outer: float, height: float, low: float = 0.0, chamfer: float = 0.0) -> Revolve:
+    """A ring between two diameters, or a disc where ``inner`` is 0, its edges chamfered, mm."""
+    r, big, high, c = inner / 2, outer / 2, low + height, chamfer
+    if c <= 0:
+        return Revolve(((r, low), (big, low), (big, high), (r, high)))
+    outside = ((big - c, low), (big, low + c), (big, high - c), (big - c, high))
+    if r == 0:
+        return Revolve(((0.0, low), *outside, (0.0, high)))
+    return Revolve(((r + c, low), *outside, (r + c, high), (r, high - c), (r, low + c)))
+
+
+def hexagon(across: float, low: float, high: float) -> Prism:
+    """A hexagon of this width across its flats, mm."""
+    radius = across / math.sqrt(3)
+    corners = (k * math.pi / 3 for k in range(6))
+    return Prism(tuple((radius * math.cos(a), radius * math.sin(a)) for a in corners), low, high)
+
+
+def box(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Prism:
+    """A box between two values of each coordinate, mm."""
+    return Prism(((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])), *z)

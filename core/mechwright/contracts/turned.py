@@ -1,0 +1,210 @@
+"""A part that is turned: one description from which its solid and its drawing both come.
+
+Glossary
+--------
+step
+    A length of one diameter, or a cone. Steps follow each other upwards from z = 0.
+groove
+    A ring cut into a step, such as a circlip's.
+key seat
+    A slot along the axis with a flat floor, on the side of +x; where it reaches the end of the part it is
+    open there.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from mechwright.contracts.fits import Fit
+from mechwright.contracts.shape import Revolve, Shape, box
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+
+SMALLEST = 0.001
+"""Below this diameter, mm, a cone ends in a point."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A length of one diameter, mm; the drawing notes the ``fit`` in place of the diameter.
+
+    A cone has the diameter ``start`` at its lower end, which may be 0, and ``diameter`` at its upper one.
+    """
+
+    diameter: float
+    length: float
+    fit: Fit | None = None
+    start: float | None = None
+
+    @property
+    def foot(self) -> float:
+        """Diameter at the lower end, mm."""
+        return self.diameter if self.start is None else self.start
+
+    @property
+    def least(self) -> float:
+        """Smaller of the diameters at both ends, mm."""
+        return min(self.foot, self.diameter)
+
+
+@dataclass(frozen=True)
+class Groove:
+    """A ring from ``at`` upwards, ``width`` wide, down to ``diameter``, mm, which has 0/-``under``."""
+
+    at: float
+    width: float
+    diameter: float
+    under: float = 0.0
+
+
+@dataclass(frozen=True)
+class KeySeat:
+    """A seat from ``at`` upwards, mm: its length, width, and the x of its ``floor``."""
+
+    at: float
+    length: float
+    width: float
+    floor: float
+
+
+@dataclass(frozen=True)
+class Turned:
+    """A turned part that stands on z = 0 with its axis upright.
+
+    Parameters
+    ----------
+    steps
+        From below.
+    bore
+        Diameter of the hole all through, mm; 0 for none.
+    bore_fit
+        Of that hole.
+    chamfer
+        At 45° on the outer edges of both ends, mm.
+    grooves, seats
+        What is cut into the steps.
+    note
+        A line more on its drawing.
+
+    Raises
+    ------
+    GeometryError
+        A size is not above 0, a groove or seat lies outside of the part or cuts nothing, or the bore or the
+        chamfer is as large as a step.
+
+    Examples
+    --------
+    >>> stud = Turned((Step(10.0, 8.0), Step(6.0, 12.0)))
+    >>> stud.length, stud.greatest, round(stud.shape.solid().Volume(), 3)
+    (20.0, 10.0, 967.611)
+    """
+
+    steps: tuple[Step, ...]
+    bore: float = 0.0
+    bore_fit: Fit | None = None
+    chamfer: float = 0.0
+    grooves: tuple[Groove, ...] = ()
+    seats: tuple[KeySeat, ...] = ()
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.steps or not all(step.diameter > 0 and step.length > 0 for step in self.steps):
+            raise GeometryError("a turned part has steps, each with a diameter and a length above 0 mm")
+        least = min(step.least for step in self.steps)
+        if not 0 <= self.bore < max(least, SMALLEST):
+            raise GeometryError(f"a bore of {self.bore:g} mm leaves nothing of a step of {least:g} mm")
+        first, last = self.steps[0], self.steps[-1]
+        share = 2 if first is last else 1
+        room = min(
+            (first.foot - self.bore) / 2,
+            (last.diameter - self.bore) / 2,
+            first.length / share,
+            last.length / share,
+        )
+        if self.chamfer and not 0 < self.chamfer < room:
+            raise GeometryError(
+                f"a chamfer of {self.chamfer:g} mm does not fit on both ends; one below {room:g} mm does"
+            )
+        for groove in self.grooves:
+            step = self._step_of(groove)
+            if not self.bore < groove.diameter < step.least:
+                raise GeometryError(
+                    f"a groove of {groove.diameter:g} mm diameter at {groove.at:g} mm; it has to be between "
+                    f"the bore, {self.bore:g} mm, and its step, {step.least:g} mm"
+                )
+        for seat in self.seats:
+            end = seat.at + seat.length
+            if not 0 <= seat.at < end <= self.length + TOLERANCES.closure:
+                raise GeometryError(
+                    f"a key seat from {seat.at:g} to {end:g} mm; the part is {self.length:g} mm long"
+                )
+            if not (self.bore / 2 < seat.floor < self.greatest / 2 and 0 < seat.width < self.greatest):
+                raise GeometryError(
+                    f"a key seat {seat.width:g} mm wide with its floor at {seat.floor:g} mm cuts nothing, or "
+                    f"the bore; the part has a radius of {self.greatest / 2:g} mm"
+                )
+
+    def _step_of(self, groove: Groove) -> Step:
+        end = groove.at + groove.width
+        for low, step in zip(self.starts, self.steps, strict=True):
+            if low <= groove.at < end <= low + step.length + TOLERANCES.closure:
+                return step
+        raise GeometryError(f"a groove from {groove.at:g} to {end:g} mm lies in no one step")
+
+    @cached_property
+    def starts(self) -> tuple[float, ...]:
+        """Where each step begins, mm."""
+        return tuple(sum(step.length for step in self.steps[:k]) for k in range(len(self.steps)))
+
+    @property
+    def length(self) -> float:
+        """Mm."""
+        return sum(step.length for step in self.steps)
+
+    @property
+    def greatest(self) -> float:
+        """Largest diameter, mm."""
+        return max(max(step.diameter, step.foot) for step in self.steps)
+
+    @cached_property
+    def profile(self) -> tuple[Point, ...]:
+        """Corners (r, z) of the outside from below, chamfers and grooves included; mm."""
+        corners: list[Point] = []
+        for low, step in zip(self.starts, self.steps, strict=True):
+            r, end = step.diameter / 2, low + step.length
+            corners.append((step.foot / 2, low))
+            for groove in sorted(self.grooves, key=lambda one: one.at):
+                if low <= groove.at < end:
+                    deep = groove.diameter / 2
+                    top = groove.at + groove.width
+                    corners += [(r, groove.at), (deep, groove.at), (deep, top), (r, top)]
+            corners.append((r, end))
+        c = self.chamfer
+        if c > 0:
+            (first, low), (last, high) = corners[0], corners[-1]
+            corners = [(first - c, low), (first, low + c), *corners[1:-1], (last, high - c), (last - c, high)]
+        kept: list[Point] = []
+        for corner in corners:
+            if not kept or corner != kept[-1]:
+                kept.append(corner)
+        return tuple(kept)
+
+    @property
+    def shape(self) -> Shape:
+        """The profile turned, less its key seats."""
+        r = self.bore / 2
+        ends = [(r, 0.0), *self.profile, (r, self.length)]
+        body = Revolve(tuple(one for k, one in enumerate(ends) if one != ends[k - 1]))
+        wide = self.greatest
+        return Shape(
+            (body,),
+            tuple(
+                box((seat.floor, wide), (-seat.width / 2, seat.width / 2), (seat.at, seat.at + seat.length))
+                for seat in self.seats
+            ),
+        )
+
+
+def tube(inner: float, outer: float, length: float, fit: Fit | None = None) -> Turned:
+    """A plain ring: a spacer, a bush; mm. The ``fit`` is its bore's."""
+    return Turned((Step(outer, length),), inner, fit)

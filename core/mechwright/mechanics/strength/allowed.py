@@ -1,0 +1,54 @@
+"""What materials bear in machine parts, MPa: handbook figures for the usual grades, none of them checked.
+
+Steel is S355 or C45 normalised, aluminium 6082-T6 (the stronger 7075-T6 bears about 1.7 times as much), brass
+CuZn39, POM a copolymer.
+"""
+
+from dataclasses import dataclass
+
+from mechwright.contracts.materials import material
+from mechwright.errors import DesignError
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """Stresses, MPa.
+
+    Parameters
+    ----------
+    endurance
+        Alternating bending, of a polished bar; of aluminium at 10⁸ turns.
+    key
+        Pressure of a key on the hub, one direction.
+    root
+        At the root of a tooth, one direction, safety of 1.5 in it.
+    contact
+        Hertz pressure of what runs for long.
+    """
+
+    endurance: float
+    key: float
+    root: float
+    contact: float
+
+
+ALLOWED = {
+    "steel": Allowed(300.0, 100.0, 160.0, 600.0),
+    "aluminium": Allowed(95.0, 80.0, 60.0, 200.0),
+    "brass": Allowed(100.0, 50.0, 60.0, 250.0),
+    "pom": Allowed(25.0, 20.0, 20.0, 60.0),
+}
+"""By material."""
+
+REVERSING_KEY, SHOCK_KEY, REVERSING_ROOT = 0.6, 0.5, 0.7
+"""What is left where a torque changes its direction, or comes in shocks."""
+
+PIN_SHEAR = {"steady": 80.0, "swelling": 60.0, "alternating": 40.0, "hardened": 120.0}
+"""Shear of pins, MPa: unhardened under three kinds of load, and hardened."""
+
+
+def allowed(name: str) -> Allowed:
+    """Of a material; raises DesignError that lists the known ones."""
+    if name not in ALLOWED:
+        raise DesignError(f"no allowed stresses for {material(name).name}; one of: {', '.join(ALLOWED)}")
+    return ALLOWED[name]

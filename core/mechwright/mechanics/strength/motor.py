@@ -1,0 +1,151 @@
+"""Which motor runs a drive: steppers by their falling torque, DC gear motors by a straight line.
+
+Sources: reflected inertia through a gear; a stepper's corner speed from the time that the voltage takes to
+turn the current of a phase over; the straight line of a DC motor between no load and stall.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.errors import DesignError
+from mechwright.standards.motors import GearMotor, Stepper
+
+MARGIN = 2.0
+"""Of a stepper's torque at its speed over the peak that is asked: it loses steps where it is overtaken."""
+
+SUSTAINED, PEAK = 0.25, 0.5
+"""Of a gear motor's stall torque that it may give for long, and for a moment."""
+
+HOLD_SHARE = 0.7
+"""Of the holding torque up to the corner speed; makers print 0.7 to 0.8."""
+
+INERTIA_RATIO = 10.0
+"""Greatest inertia of the load, seen by a stepper, in its rotor's."""
+
+RESONANCE = (60.0, 120.0)
+"""Full steps in a second at which steppers resonate without microsteps."""
+
+
+@dataclass(frozen=True)
+class Demand:
+    """What a drive asks at the motor's shaft: rev/min, N m, and what of the peak is of inertia."""
+
+    speed: float
+    peak: float
+    rms: float
+    inertia: float = 0.0
+
+
+def best_ratio(load: float, rotor: float) -> float:
+    """Gear ratio that accelerates an inertia quickest: √(J_L/J_M)."""
+    return math.sqrt(load / rotor)
+
+
+def geared_torque(
+    rotor: float, load: float, acceleration: float, torque: float, ratio: float, efficiency: float
+) -> float:
+    """N m at the motor: J_M i α + (J_L α + T_L)/(i η), α rad/s² of the load."""
+    return rotor * ratio * acceleration + (load * acceleration + torque) / (ratio * efficiency)
+
+
+def inertia_ratio(rotor: float, load: float, ratio: float) -> float:
+    """J_L/(i² J_M)."""
+    return load / (ratio**2 * rotor)
+
+
+def corner_speed(voltage: float, inductance: float, current: float, steps: int = 200) -> float:
+    """Rev/min from which a stepper's torque falls: 60 V/(2 L I steps); inductance in H.
+
+    >>> round(corner_speed(24, 2.8e-3, 1.7))
+    756
+    """
+    return 60 * voltage / (2 * inductance * current * steps)
+
+
+def stepper_torque(hold: float, speed: float, corner: float, share: float = HOLD_SHARE) -> float:
+    """N m at a speed: the share of the holding torque up to the corner, then falling with 1/n."""
+    return share * hold * min(1.0, corner / speed) if speed > 0 else share * hold
+
+
+def dc_speed(no_load: float, stall: float, torque: float) -> float:
+    """Rev/min at a torque."""
+    return no_load * (1 - torque / stall)
+
+
+def dc_torque(no_load: float, stall: float, speed: float) -> float:
+    """N m at a speed."""
+    return stall * (1 - speed / no_load)
+
+
+def dc_power(no_load: float, stall: float) -> float:
+    """Greatest power, W, at half the speed and half the torque."""
+    return no_load / 2 * math.tau / 60 * stall / 2
+
+
+def stepper_margin(motor: Stepper, demand: Demand, voltage: float = 24.0) -> float:
+    """How often what may be asked of it covers the demand; at least 1 is enough."""
+    corner = corner_speed(voltage, motor.inductance / 1000, motor.current)
+    given = stepper_torque(motor.hold, demand.speed, corner)
+    return given / MARGIN / demand.peak if demand.peak > 0 else math.inf
+
+
+def gear_motor_margin(motor: GearMotor, demand: Demand) -> float:
+    """The same: the least of what its line, its peak and its sustained torque cover."""
+    stall = motor.stall_torque
+    line = max(dc_torque(motor.no_load, stall, demand.speed), 0.0)
+    covers = [(line, demand.peak), (PEAK * stall, demand.peak), (SUSTAINED * stall, demand.rms)]
+    return min(given / asked if asked > 0 else math.inf for given, asked in covers)
+
+
+def slower(demand: Demand, given: float) -> float:
+    """The speed at which a torque, N m, is enough: that of inertia falls with its square; 0 if none is.
+
+    The two peaks are taken to meet, so this is on the safe side.
+    """
+    rest = demand.peak - demand.inertia
+    if demand.inertia <= 0 or given <= rest:
+        return 0.0
+    return demand.speed * math.sqrt((given - rest) / demand.inertia)
+
+
+def choose_stepper(motors: Sequence[Stepper], demand: Demand, voltage: float = 24.0) -> tuple[Stepper, float]:
+    """The weakest motor that is enough, with its margin.
+
+    Raises
+    ------
+    DesignError
+        None is: the torque that is missing, and the speed at which the strongest would do.
+    """
+    for motor in motors:
+        margin = stepper_margin(motor, demand, voltage)
+        if margin >= 1:
+            return motor, margin
+    last = motors[-1]
+    given = stepper_margin(last, demand, voltage) * demand.peak
+    able = slower(demand, given)
+    advice = f"run it at {able:.3g} rev/min, or gear it down" if able > 0 else "gear it down"
+    raise DesignError(
+        f"{last.name}, the strongest stepper here, may give {given:.3g} N m at {demand.speed:g} rev/min "
+        f"with a margin of {MARGIN:g}; {demand.peak:.3g} N m are asked, "
+        f"{demand.peak - given:.3g} N m more: {advice}"
+    )
+
+
+def choose_gear_motor(motors: Sequence[GearMotor], demand: Demand) -> tuple[GearMotor, float]:
+    """The fastest gear motor that is enough, with its margin.
+
+    Raises
+    ------
+    DesignError
+        None is: what the best of them covers.
+    """
+    margins = [(gear_motor_margin(motor, demand), motor) for motor in motors]
+    for margin, motor in margins:
+        if margin >= 1:
+            return motor, margin
+    best, motor = max(margins, key=lambda one: one[0])
+    raise DesignError(
+        f"no gear motor gives {demand.peak:.3g} N m at {demand.speed:g} rev/min; the best, "
+        f"{motor.ratio:g}:1, covers {100 * best:.0f} % of it: run slower, or take a larger motor"
+    )

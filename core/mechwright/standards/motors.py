@@ -1,0 +1,130 @@
+"""Motors: steppers of NEMA 17 and 23, and DC gear motors of 37 mm.
+
+The origin is the shaft's axis in the mounting face; the shaft points along +z, the body lies below.
+"""
+
+from dataclasses import dataclass
+
+from mechwright.contracts.bought import Bought
+from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
+from mechwright.errors import DesignError
+from mechwright.standards.table import table
+
+KG_MM = 9.80665e-3
+"""A torque of one kilogram-force millimetre, N m."""
+
+
+@dataclass(frozen=True)
+class MotorFace:
+    """What a motor needs of the plate that carries it, mm; see the table's own words."""
+
+    name: str
+    across: float
+    round: bool
+    holes: int
+    spread: float
+    thread: float
+    hole: float
+    pilot: float
+    pilot_height: float
+    shaft: float
+    shaft_length: float
+    flat: float
+    offset: float
+
+    def shape(self, length: float) -> Shape:
+        """Body of that length, pilot and shaft as one solid."""
+        x, half = -self.offset, self.across / 2
+        axis = (x, 0.0)
+        flat: tuple[Prism, ...] = ()
+        if self.flat:
+            side = self.flat - self.shaft / 2
+            top = self.shaft_length + 1.0
+            flat = (box((side, self.shaft), (-self.shaft, self.shaft), (self.pilot_height, top)),)
+        body: Revolve | Prism = (
+            Revolve(((0.0, -length), (half, -length), (half, 0.0), (0.0, 0.0)), axis)
+            if self.round
+            else box((x - half, x + half), (-half, half), (-length, 0.0))
+        )
+        shaft = ring(0.0, self.shaft, self.shaft_length)
+        return Shape((body, ring(0.0, self.pilot, self.pilot_height), shaft), flat)
+
+
+@dataclass(frozen=True)
+class Stepper:
+    """A stepper of 200 full steps; torque N m, inertia kg m², mass g, loads N, mH, A."""
+
+    name: str
+    size: int
+    length: float
+    hold: float
+    rotor: float
+    mass: float
+    radial: float
+    axial: float
+    inductance: float
+    current: float
+
+    @property
+    def face(self) -> MotorFace:
+        """Of its frame."""
+        return motor_face(f"NEMA {self.size}")
+
+    @property
+    def bought(self) -> Bought:
+        """How it is ordered."""
+        words = f"stepper {self.name} mm, {self.hold:g} N m, 1.8°"
+        return Bought(words, "NEMA ICS 16", self.mass, self.face.shape(self.length))
+
+
+@dataclass(frozen=True)
+class GearMotor:
+    """A DC gear motor at 12 V; speeds in rev/min, torques in the table's kg mm, length mm, mass g."""
+
+    ratio: float
+    no_load: float
+    best: float
+    best_torque: float
+    stall: float
+    length: float
+    mass: float
+
+    @property
+    def stall_torque(self) -> float:
+        """N m."""
+        return self.stall * KG_MM
+
+    @property
+    def face(self) -> MotorFace:
+        """Of its gearbox."""
+        return motor_face("37D")
+
+    @property
+    def bought(self) -> Bought:
+        """How it is ordered."""
+        words = f"gear motor 37D, 12 V, {self.ratio:g}:1, {self.no_load:g} rev/min"
+        note = "no standard fixes its face; compare with the maker's sheet"
+        return Bought(words, "", self.mass, self.face.shape(self.length), note)
+
+
+def steppers() -> tuple[Stepper, ...]:
+    """From the weakest to the strongest."""
+    return table("steppers").of(Stepper)
+
+
+def gear_motors() -> tuple[GearMotor, ...]:
+    """From the fastest to the slowest."""
+    return table("gear-motors").of(GearMotor)
+
+
+def motor_faces() -> tuple[MotorFace, ...]:
+    """All of them."""
+    return table("motor-faces").of(MotorFace)
+
+
+def motor_face(name: str) -> MotorFace:
+    """The face of that name; raises DesignError that lists them."""
+    for one in motor_faces():
+        if one.name == name:
+            return one
+    raise DesignError(f"no motor face {name!r}; one of: {', '.join(one.name for one in motor_faces())}")

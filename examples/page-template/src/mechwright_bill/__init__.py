@@ -1,1 +1,0 @@
-"""A bill of materials for Mechwright."""

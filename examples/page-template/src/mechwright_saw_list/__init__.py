@@ -1,0 +1,1 @@
+"""A saw list for Mechwright."""
