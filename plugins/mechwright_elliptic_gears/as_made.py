@@ -18,6 +18,7 @@ from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
 from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, least_backlash, with_backlash
 from mechwright_elliptic_gears.gear import pair_of, rack_of, teeth_of
 from mechwright_elliptic_gears.gear_parts import gears_of
+from mechwright_elliptic_gears.joint_made import going_in, joint_figures
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 AGREEMENT = 0.01
@@ -107,8 +108,10 @@ def as_made(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) 
     pairs = pairs_of(params, made)
     figures = [figure for pair in pairs for figure in _figures(pair)]
     curves = [_curve(pair) for pair in pairs]
+    joint = joint_figures(params, made)
     findings = [finding for pair in pairs for finding in (*_running(pair), *_agreeing(pair))]
-    return AsMade(tuple(figures), tuple(curves), tuple(findings))
+    findings += going_in(joint)
+    return AsMade((*figures, *joint), tuple(curves), tuple(findings))
 
 
 def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) -> list[MadePair]:

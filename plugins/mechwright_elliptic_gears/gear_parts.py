@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
+from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
-from mechwright_elliptic_gears.layout import DOWELS, Layout
+from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.plates import base_part, coupler_part
 from mechwright_elliptic_gears.turned import round_parts
@@ -51,6 +52,9 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     A single pair has one part twice. In a train gears 2 and 3 are alike if a key holds them, gear 4 has its
     keyway -φ from its far vertex, so that it comes to θ3 + φ on the key of gear 3, and gear 5 idles on its
     shaft. Without a key three dowels join gear 3 to gear 4, whose holes are turned by -φ in the same way.
+
+    Where a pin sets the phase, gear 3 has a hole for each, gear 4 one on each circle; both idle on their
+    shaft, and a key holds gear 2 alone.
     """
     key = 0.0 if params.keyway_width > 0 else None
     phase = params.phase_angle
@@ -61,6 +65,13 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     back = -phase_offset(phase, params.eccentricity) % math.tau
     joint = Bore("joint", (layout.focus, 0.0), layout.pin, 0, layout.thickness)
     last = Gear("gear-5", (("gear-5", high),), None, (joint,))
+    if params.phase_joint == "pins":
+        return (
+            Gear("gear-2", (("gear-2", low),), key),
+            Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params)),
+            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params))),
+            last,
+        )
     if key is not None:
         return (
             Gear("gear", (("gear-2", low), ("gear-3", low)), key),
@@ -87,6 +98,28 @@ def _dowel_holes(layout: Layout, turn: float) -> tuple[Bore, ...]:
         )
         for name, angle in DOWELS.items()
     )
+
+
+def _dividing_holes(params: EllipticGearParams) -> tuple[Bore, ...]:
+    """Holes of gear 3, named by their phases in degrees."""
+    dividing = dividing_of(params)
+    return tuple(
+        _fitted(params, f"phase-{hole.phase:g}".replace(".", "_"), dividing.centre(hole))
+        for hole in dividing.holes
+    )
+
+
+def _pin_holes(params: EllipticGearParams) -> tuple[Bore, ...]:
+    """Holes of gear 4, one on each circle."""
+    return tuple(
+        _fitted(params, f"pin-{number}", complex(radius * math.cos(START), radius * math.sin(START)))
+        for number, radius in enumerate(dividing_of(params).rings, start=1)
+    )
+
+
+def _fitted(params: EllipticGearParams, name: str, centre: complex) -> Bore:
+    size = dividing_of(params).hole_size
+    return Bore(name, (centre.real, centre.imag), size.middle, 0, params.thickness, size)
 
 
 def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
@@ -143,4 +176,5 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     layout, opening = Layout.of(params), opening_of(params)
     assert opening is not None  # noqa: S101 - a train has a bore
     plates = (coupler_part(params, layout), base_part(params, layout))
-    return (*gears, *plates, *round_parts(layout, opening))
+    pin = dividing_of(params).pin if params.phase_joint == "pins" else None
+    return (*gears, *plates, *round_parts(layout, opening, keyed=params.keyed_phase, phase_pin=pin))

@@ -14,6 +14,8 @@ from mechwright_elliptic_gears.layout import (
     DOWELS,
     HEAD,
     HEAD_HEIGHT,
+    PHASE_PIN,
+    PIN_HEAD,
     RUNNING,
     SPACER,
     STUB,
@@ -29,14 +31,19 @@ MATERIAL = "steel"
 _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.42)
 
 
-def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
-    """Everything that is no plate."""
-    keyed = opening.has_keyway
+def round_parts(
+    layout: Layout, opening: Opening, *, keyed: bool, phase_pin: float | None = None
+) -> tuple[Part, ...]:
+    """Everything that is no plate.
+
+    ``keyed`` says whether keys hold gears 3 and 4 on their shaft, ``phase_pin`` is the diameter, mm, of the
+    pin that joins them by a dividing circle.
+    """
     shaft = layout.bore - RUNNING
     low, high, t = layout.lower, layout.upper, layout.thickness
     foot = layout.base + STUB * layout.bore
     # Seats are open at the upper end of the shaft, so that gears and keys can be put on from there.
-    seat = (opening.bore / 2 - opening.seat_depth, opening.width) if keyed else None
+    seat = (opening.bore / 2 - opening.seat_depth, opening.width) if opening.has_keyway else None
     parts = [
         _part(
             "shaft-2",
@@ -46,7 +53,7 @@ def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
         ),
         _part(
             "shaft-4",
-            partial(_shaft, shaft, layout.base + high + t, high - low + t, seat),
+            partial(_shaft, shaft, layout.base + high + t, high - low + t, seat if keyed else None),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
@@ -78,11 +85,16 @@ def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
             _DARK,
         ),
     ]
-    if keyed:
-        keys = (Instance("gear-2", low), Instance("gear-3", low), Instance("gear-3", high))
+    if opening.has_keyway:
+        keys = [Instance("gear-2", low)]
+        if keyed:
+            keys += [Instance("gear-3", low), Instance("gear-3", high)]
         key = partial(_box, opening.bore / 2 - opening.seat_depth, opening.key_top, opening.width, t)
-        parts.append(_part("key", key, keys, _DARK))
-    else:
+        parts.append(_part("key", key, tuple(keys), _DARK))
+    if phase_pin is not None:
+        pin = partial(_headed, phase_pin, HEAD * layout.dowel, high - low + t, PIN_HEAD * layout.gap)
+        parts.append(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK))
+    elif not keyed:
         at = tuple(Instance(body, low) for body in DOWELS)
         parts.append(_part("dowel", partial(_cylinder, layout.dowel, high - low + t), at, _DARK))
     return tuple(parts)
@@ -120,6 +132,14 @@ def _shaft(
 
 def _ring(inner: float, outer: float, height: float) -> "cq.Solid":
     return _cut(_cylinder(outer, height), _cylinder(inner, height))
+
+
+def _headed(diameter: float, head: float, shank: float, height: float) -> "cq.Solid":
+    """A cylinder with a head on its upper end."""
+    import cadquery as cq
+
+    top = cq.Solid.makeCylinder(head / 2, height, cq.Vector(0, 0, shank))
+    return _cylinder(diameter, shank).fuse(top).Solids()[0]
 
 
 def _pin(diameter: float, seat: float, running: float) -> "cq.Solid":

@@ -121,8 +121,9 @@ def test_a_band_without_a_width_is_refused_with_what_works(band):
 
 @pytest.mark.parametrize("name", TRAIN_ONLY)
 def test_fields_of_trains_are_refused_in_a_pair(name):
-    with pytest.raises(ValidationError, match=f"{name} belongs to a train"):
-        Params(**{name: 20.0})
+    value = {"phase_joint": "pins", "phases": (20.0,)}.get(name, 20.0)
+    with pytest.raises(ValidationError, match=f"{name} belongs to a train|phases needs a joint"):
+        Params(**{name: value})
 
 
 @pytest.mark.parametrize(
@@ -154,6 +155,8 @@ def test_tables_that_make_no_sense(table, words):
             "tracer_diameter": st.floats(0, 12),
             "dowel_diameter": st.floats(0.5, 8),
             "dowel_circle": st.floats(10, 60),
+            "phase_joint": st.sampled_from(["fixed", "pins"]),
+            "phases": st.lists(st.floats(0, 360), min_size=1, max_size=6),
         },
     )
 )
