@@ -117,9 +117,11 @@ def as_made(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) 
 def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) -> list[MadePair]:
     """The pairs of a design whose parts are there."""
     bodies: dict[str, MadePart] = {}
+    bores: dict[str, float] = {}
     for gear in gears_of(params):
         copies = made.get(gear.name, ())
         for number, (body, _) in enumerate(gear.bodies):
+            bores[body] = gear.bore or params.bore
             if copies:
                 bodies[body] = copies[min(number, len(copies) - 1)]
     wanted = [("gear-2", "gear-4")] if params.stages == 1 else [("gear-2", "gear-3"), ("gear-4", "gear-5")]
@@ -127,7 +129,7 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
         MadePair(
             params,
             (one, two),
-            (about_bore(params, bodies[one]), about_bore(params, bodies[two])),
+            (about_bore(bodies[one], bores[one]), about_bore(bodies[two], bores[two])),
             bodies[one].corridor + bodies[two].corridor,
         )
         for one, two in wanted
@@ -135,11 +137,11 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
     ]
 
 
-def about_bore(params: EllipticGearParams, part: MadePart) -> Array:
+def about_bore(part: MadePart, diameter: float) -> Array:
     """The outside of a gear as made (n, 2), mm, counter-clockwise, about the middle of its bore as made."""
     outside = part.outline.polygon().exterior
     points = shapely.get_coordinates(outside)[:-1]
-    bore = part.hole_at(0.0, 0.0, params.bore) if params.bore else None
+    bore = part.hole_at(0.0, 0.0, diameter) if diameter else None
     middle = (0.0, 0.0) if bore is None else (bore.x, bore.y)
     about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - middle
     return about

@@ -6,6 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
+from mechwright.contracts.details import Detail
+from mechwright_elliptic_gears.clamp import clamp_of
+from mechwright_elliptic_gears.clamp_parts import (
+    clamp_plates,
+    clamp_screw_part,
+    core_of,
+    scale,
+    screw_holes,
+    threads,
+)
 from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
@@ -37,12 +47,18 @@ class Gear:
         Direction of the keyway from the far vertex, counter-clockwise seen from above, rad; None without one.
     holes
         Holes beside the bore.
+    bore
+        Diameter, mm, where it is not that of the shaft.
+    details
+        Threads and engraved lines.
     """
 
     name: str
     bodies: tuple[tuple[str, float], ...]
     key: float | None = None
     holes: tuple[Bore, ...] = ()
+    bore: float | None = None
+    details: tuple[Detail, ...] = ()
 
 
 @kept
@@ -70,6 +86,15 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
             Gear("gear-2", (("gear-2", low),), key),
             Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params)),
             Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params))),
+            last,
+        )
+    if params.phase_joint == "clamp":
+        clamp = clamp_of(params)
+        drilled = screw_holes(clamp, core_of(clamp), layout.thickness)
+        return (
+            Gear("gear-2", (("gear-2", low),), key),
+            Gear("gear-3", (("gear-3", low),), None, drilled, None, threads(params)),
+            Gear("gear-4", (("gear-4", high),), None, (joint,), 2 * clamp.register, (scale(params),)),
             last,
         )
     if key is not None:
@@ -128,7 +153,7 @@ def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
     if opening is None:
         return None
     if gear.key is None:
-        return Loop((circle((0.0, 0.0), opening.bore / 2, clockwise=True, tag="bore"),))
+        return Loop((circle((0.0, 0.0), (gear.bore or opening.bore) / 2, clockwise=True, tag="bore"),))
     return opening.loop().moved(0.0, 0.0, gear.key)
 
 
@@ -140,7 +165,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
     opening = gear_opening(params, gear)
     if opening is not None:
         inner.append(opening)
-        features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
+        features.append(Bore("bore", (0.0, 0.0), gear.bore or params.bore, 0, depth))
         if gear.key is not None:
             features.append(Profile("keyway", opening, "inside", 0, depth))
     features += gear.holes
@@ -154,6 +179,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         params.material,
         instances=tuple(Instance(body, z, COLOURS[body]) for body, z in gear.bodies),
         machined=tuple(features),
+        details=gear.details,
     )
 
 
@@ -175,6 +201,10 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
         return gears
     layout, opening = Layout.of(params), opening_of(params)
     assert opening is not None  # noqa: S101 - a train has a bore
-    plates = (coupler_part(params, layout), base_part(params, layout))
+    plates: tuple[Part, ...] = (coupler_part(params, layout), base_part(params, layout))
     pin = dividing_of(params).pin if params.phase_joint == "pins" else None
-    return (*gears, *plates, *round_parts(layout, opening, keyed=params.keyed_phase, phase_pin=pin))
+    turned = round_parts(layout, opening, keyed=params.keyed_phase, dowelled=params.dowelled, phase_pin=pin)
+    if params.phase_joint == "clamp":
+        plates += clamp_plates(params, layout)
+        turned += (clamp_screw_part(params, layout),)
+    return (*gears, *plates, *turned)

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 from mechwright import kept
+from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.dividing import Dividing, circle_for, placed
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.params import EllipticGearParams
@@ -69,6 +70,8 @@ class Layout:
         Of the gears.
     bore, gap, pin, coupler, tracer, base, dowel, dowel_circle
         As the design says, or their defaults.
+    crown
+        From gears 4 and 5 to the coupler.
     """
 
     semi_major: float
@@ -82,6 +85,7 @@ class Layout:
     base: float
     dowel: float
     dowel_circle: float
+    crown: float
 
     @classmethod
     def of(cls, params: EllipticGearParams) -> "Layout":
@@ -89,18 +93,20 @@ class Layout:
         bore = params.bore
         pin = _or(params.pin_diameter, _stock_size(bore / 2))
         dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
+        gap = _or(params.gap, GAP)
         return cls(
             ellipse_of(params).semi_major,
             params.eccentricity,
             params.thickness,
             bore,
-            _or(params.gap, GAP),
+            gap,
             pin,
             _or(params.coupler_thickness, COUPLER_THICKNESS),
             _or(params.tracer_diameter, pin),
             _or(params.base_thickness, BASE_THICKNESS),
             dowel,
             params.dowel_circle or _dowel_circle(params, dowel),
+            max(gap, clamp_of(params).crown) if params.phase_joint == "clamp" else gap,
         )
 
     @property
@@ -116,7 +122,7 @@ class Layout:
     @property
     def link(self) -> float:
         """Underside of the coupler."""
-        return self.upper + self.thickness + self.gap
+        return self.upper + self.thickness + self.crown
 
     @property
     def spacer(self) -> float:
@@ -144,10 +150,17 @@ def _dowel_circle(params: EllipticGearParams, dowel: float) -> float:
     return circle_for(params, dowel, least) if params.phase_joint == "pins" else least
 
 
+def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
+    """Bodies of the clamp's screws."""
+    return tuple(f"clamp-screw-{number}" for number in range(1, clamp_of(params).screws + 1))
+
+
 def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
     """Bodies that join gears 3 and 4, beside keys."""
     if params.phase_joint == "pins":
         return (PHASE_PIN,)
+    if params.phase_joint == "clamp":
+        return clamp_screws(params)
     return tuple(DOWELS) if params.dowelled else ()
 
 

@@ -9,6 +9,7 @@ from mechwright import Array, Channel, Curve, Motion, Poses, Trace
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
+from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
@@ -21,7 +22,7 @@ from mechwright_elliptic_gears.kinematics import (
     shaft_pressure_angle,
     train,
 )
-from mechwright_elliptic_gears.layout import DOWELS, PHASE_PIN, Layout, dividing_of
+from mechwright_elliptic_gears.layout import DOWELS, PHASE_PIN, Layout, clamp_screws, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import place, point_of_coupler
 
@@ -124,11 +125,17 @@ def _train_poses(params: EllipticGearParams, turning: Mapping[str, Turning]) -> 
 
 
 def _joining_poses(params: EllipticGearParams, theta3: Array, theta4: Array) -> dict[str, Poses]:
-    """What joins gears 3 and 4: the pin of a dividing circle, or dowels."""
+    """What joins gears 3 and 4: the pin of a dividing circle, screws, or dowels."""
     if params.phase_joint == "pins":
         radius = dividing_of(params).radius_at(params.phase_degrees)
         at = theta4 + START
         return {PHASE_PIN: Poses.planar(radius * np.cos(at), radius * np.sin(at), theta4)}
+    if params.phase_joint == "clamp":
+        clamp = clamp_of(params)
+        return {
+            name: Poses.planar(clamp.circle * np.cos(theta3 + at), clamp.circle * np.sin(theta3 + at), theta3)
+            for name, at in zip(clamp_screws(params), clamp.directions, strict=True)
+        }
     radius = Layout.of(params).dowel_circle / 2
     return {
         name: Poses.planar(radius * np.cos(theta3 + at), radius * np.sin(theta3 + at), theta3)

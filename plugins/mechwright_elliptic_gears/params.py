@@ -8,6 +8,7 @@ from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_elliptic_gears.screws import SCREWS
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
@@ -37,6 +38,8 @@ TRAIN_ONLY = (
     "phase",
     "phase_joint",
     "phases",
+    "clamp_screw",
+    "clamp_screws",
     "gap",
     "pin_diameter",
     "coupler_thickness",
@@ -72,11 +75,12 @@ class EllipticGearParams(Parameters):
         description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90.",
         json_schema_extra=FIRST,
     )
-    phase_joint: Literal["fixed", "pins"] | None = Field(
+    phase_joint: Literal["fixed", "pins", "clamp"] | None = Field(
         None,
         description=(
             "What joins gears 3 and 4. fixed: a key or three dowels, for one phase; pins: a pin in one hole "
-            "of a dividing circle, a hole for each of phases. Left out, fixed."
+            "of a dividing circle, a hole for each of phases; clamp: screws and a scale with a mark for "
+            "each. Left out, fixed."
         ),
     )
     phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=MOST_PHASES)] | None = Field(
@@ -186,6 +190,13 @@ class EllipticGearParams(Parameters):
         ),
     )
 
+    clamp_screw: Annotated[float, Field(ge=2, le=10), Unit("mm")] | None = Field(
+        None, description="Thread of the clamp's screws, M2 to M10; left out, at most a third of the bore."
+    )
+    clamp_screws: Annotated[int, Field(ge=3, le=8)] | None = Field(
+        None, description="Number of the clamp's screws; left out, 4."
+    )
+
     @field_validator("band", mode="before")
     @classmethod
     def _band_has_a_width(cls, value: Any) -> Any:
@@ -221,10 +232,20 @@ class EllipticGearParams(Parameters):
                 "dowel_diameter and dowel_circle are for gears without a key; leave them out, "
                 "or set keyway_width = 0"
             )
-        self._phases_that_a_joint_has()
+        self._what_the_joint_has()
         return self
 
-    def _phases_that_a_joint_has(self) -> None:
+    def _what_the_joint_has(self) -> None:
+        clamped = self.phase_joint == "clamp"
+        for name in ("clamp_screw", "clamp_screws"):
+            if getattr(self, name) is not None and not clamped:
+                raise ValueError(f'{name} needs a clamp; set phase_joint = "clamp", or leave it out')
+        for name in ("dowel_diameter", "dowel_circle"):
+            if getattr(self, name) is not None and clamped:
+                raise ValueError(f"{name} has no place in a clamp; leave it out")
+        if self.clamp_screw is not None and self.clamp_screw not in SCREWS:
+            nearest = min(SCREWS, key=lambda size: abs(size - (self.clamp_screw or 0)))
+            raise ValueError(f"clamp_screw is no thread of a screw; the nearest is {nearest:g}")
         if self.phases is None:
             return
         if not self.adjustable:

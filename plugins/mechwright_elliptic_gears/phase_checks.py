@@ -34,7 +34,7 @@ def pin_findings(params: EllipticGearParams) -> Iterator[Finding]:
         return
     yield from _strength(params, layout)
     yield _note(params)
-    yield _window_note(params, pin_play(params) / 2, "the play of the pin")
+    yield window_note(params, pin_play(params) / 2, "the play of the pin")
 
 
 def pin_play(params: EllipticGearParams, holes: float | None = None, pin: float | None = None) -> float:
@@ -144,7 +144,7 @@ def _strength(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     if used <= 1:
         yield Finding.note("train.phase-pin", words, shear, "MPa")
         return
-    most = _rounded_down(params.speed / math.sqrt(used))
+    most = rounded_down(params.speed / math.sqrt(used))
     yield Finding.error(
         "train.phase-pin",
         "speed",
@@ -157,7 +157,12 @@ def _strength(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     )
 
 
-def _rounded_down(value: float, digits: int = 4) -> float:
+def rounded_down(value: float, digits: int = 4) -> float:
+    """A value above 0 with so many digits, never more than it was.
+
+    >>> rounded_down(123.456), rounded_down(0.98765)
+    (123.4, 0.9876)
+    """
     step = 10 ** (math.floor(math.log10(value)) - digits + 1)
     return float(f"{math.floor(value / step) * step:.{digits}g}")
 
@@ -190,7 +195,8 @@ def shifted_window(params: EllipticGearParams, turn: float) -> Window:
     return point_window(params.model_copy(update={"phase": math.degrees(gamma + shift)}))
 
 
-def _window_note(params: EllipticGearParams, half: float, what: str) -> Finding:
+def window_note(params: EllipticGearParams, half: float, what: str) -> Finding:
+    """What happens to the window where ``what`` turns gear 4 by ``half``, rad, either way."""
     lengths = [shifted_window(params, turn).length for turn in (-half, 0.0, half)]
     change = min(lengths) - lengths[1]
     return Finding.note(

@@ -9,6 +9,7 @@ from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.clamp_checks import clamp_findings
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
@@ -40,7 +41,7 @@ def train_findings(params: EllipticGearParams) -> Iterator[Finding]:
     if errors(found):
         return
     if params.adjustable:
-        yield from pin_findings(params)
+        yield from (pin_findings if params.phase_joint == "pins" else clamp_findings)(params)
         return
     turned = list(_turned_openings(params))
     yield from turned

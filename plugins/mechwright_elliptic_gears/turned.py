@@ -32,13 +32,19 @@ _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.4
 
 
 def round_parts(
-    layout: Layout, opening: Opening, *, keyed: bool, phase_pin: float | None = None
+    layout: Layout,
+    opening: Opening,
+    *,
+    keyed: bool,
+    dowelled: bool,
+    phase_pin: float | None = None,
 ) -> tuple[Part, ...]:
     """Everything that is no plate.
 
-    ``keyed`` says whether keys hold gears 3 and 4 on their shaft, ``phase_pin`` is the diameter, mm, of the
-    pin that joins them by a dividing circle.
+    ``keyed`` and ``dowelled`` say whether keys or dowels join gears 3 and 4, ``phase_pin`` is the diameter,
+    mm, of the pin that joins them by a dividing circle; where nothing does, a clamp has its own spacer there.
     """
+    joined = keyed or dowelled or phase_pin is not None
     shaft = layout.bore - RUNNING
     low, high, t = layout.lower, layout.upper, layout.thickness
     foot = layout.base + STUB * layout.bore
@@ -66,7 +72,11 @@ def round_parts(
         _part(
             "hub-spacer",
             partial(_ring, layout.bore, layout.spacer, layout.gap),
-            (Instance("axis-2"), Instance("base"), Instance("base", low + layout.thickness)),
+            (
+                Instance("axis-2"),
+                Instance("base"),
+                *((Instance("base", low + layout.thickness),) if joined else ()),
+            ),
             _BRASS,
         ),
         _part(
@@ -74,13 +84,13 @@ def round_parts(
         ),
         _part(
             "joint-spacer",
-            partial(_ring, layout.pin, SPACER * layout.pin, layout.gap),
+            partial(_ring, layout.pin, SPACER * layout.pin, layout.crown),
             tuple(Instance(body, high + layout.thickness) for body in ("joint-j", "joint-k")),
             _BRASS,
         ),
         _part(
             "joint-pin",
-            partial(_pin, layout.pin, layout.thickness, layout.gap + layout.coupler + AXIAL_PLAY),
+            partial(_pin, layout.pin, layout.thickness, layout.crown + layout.coupler + AXIAL_PLAY),
             tuple(Instance(body, high) for body in ("joint-j", "joint-k")),
             _DARK,
         ),
@@ -92,9 +102,9 @@ def round_parts(
         key = partial(_box, opening.bore / 2 - opening.seat_depth, opening.key_top, opening.width, t)
         parts.append(_part("key", key, tuple(keys), _DARK))
     if phase_pin is not None:
-        pin = partial(_headed, phase_pin, HEAD * layout.dowel, high - low + t, PIN_HEAD * layout.gap)
+        pin = partial(headed, phase_pin, HEAD * layout.dowel, high - low + t, PIN_HEAD * layout.gap)
         parts.append(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK))
-    elif not keyed:
+    elif dowelled:
         at = tuple(Instance(body, low) for body in DOWELS)
         parts.append(_part("dowel", partial(_cylinder, layout.dowel, high - low + t), at, _DARK))
     return tuple(parts)
@@ -134,7 +144,7 @@ def _ring(inner: float, outer: float, height: float) -> "cq.Solid":
     return _cut(_cylinder(outer, height), _cylinder(inner, height))
 
 
-def _headed(diameter: float, head: float, shank: float, height: float) -> "cq.Solid":
+def headed(diameter: float, head: float, shank: float, height: float) -> "cq.Solid":
     """A cylinder with a head on its upper end."""
     import cadquery as cq
 

@@ -20,6 +20,7 @@ class TestEllipticGears(FamilyContract):
         {"bore": 16, "keyway_width": 5, "keyway_depth": 2.4, "keyway_relief": 2},
         {"stages": 2, "bore": 12, "phase": 70, "tracer_diameter": 4},
         {"stages": 2, "bore": 12, "phase_joint": "pins", "phases": [20, 100], "phase": 20},
+        {"stages": 2, "bore": 12, "phase_joint": "clamp", "clamp_screw": 4, "clamp_screws": 4},
     )
     refused = (
         ({"teeth": 13}, "teeth"),
@@ -42,7 +43,7 @@ class TestEllipticGears(FamilyContract):
         ("Q.acceleration.x", "Q.jerk.x"),
     )
     input_rate = "omega2"
-    variations: ClassVar = {"phases": ((20, 150),)}
+    variations: ClassVar = {"phases": ((20, 150),), "clamp_screw": (3,), "clamp_screws": (5,)}
     requirements: ClassVar = {
         "longest-window": (QUICK,),
         "least-acceleration": (QUICK,),
@@ -55,7 +56,9 @@ class TestEllipticGears(FamilyContract):
         def settle(table):
             if table.get("stages", 1) == 2:
                 fixed = table.get("phase_joint") in {None, "fixed"}
-                return {name: value for name, value in table.items() if not (fixed and name == "phases")}
+                out = {"phases"} if fixed else set()
+                out |= {"dowel_diameter", "dowel_circle"} if table.get("phase_joint") == "clamp" else set()
+                return {name: value for name, value in table.items() if name not in out}
             return {name: value for name, value in table.items() if name not in TRAIN_ONLY}
 
         return tables(EllipticGears.Params).flatmap(lambda table: st.just(settle(table)))
