@@ -18,6 +18,7 @@ from mechwright.mechanics.gearing.made import Contacts, Gaps, error_of
 from mechwright_elliptic_gears.assembly import LEFT, OFF_CENTRE, least_backlash, with_backlash
 from mechwright_elliptic_gears.gear import pair_of, rack_of, teeth_of
 from mechwright_elliptic_gears.gear_parts import gears_of
+from mechwright_elliptic_gears.joint_made import going_in, joint_figures
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 AGREEMENT = 0.01
@@ -107,16 +108,20 @@ def as_made(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) 
     pairs = pairs_of(params, made)
     figures = [figure for pair in pairs for figure in _figures(pair)]
     curves = [_curve(pair) for pair in pairs]
+    joint = joint_figures(params, made)
     findings = [finding for pair in pairs for finding in (*_running(pair), *_agreeing(pair))]
-    return AsMade(tuple(figures), tuple(curves), tuple(findings))
+    findings += going_in(joint)
+    return AsMade((*figures, *joint), tuple(curves), tuple(findings))
 
 
 def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]]) -> list[MadePair]:
     """The pairs of a design whose parts are there."""
     bodies: dict[str, MadePart] = {}
+    bores: dict[str, float] = {}
     for gear in gears_of(params):
         copies = made.get(gear.name, ())
         for number, (body, _) in enumerate(gear.bodies):
+            bores[body] = gear.bore or params.bore
             if copies:
                 bodies[body] = copies[min(number, len(copies) - 1)]
     wanted = [("gear-2", "gear-4")] if params.stages == 1 else [("gear-2", "gear-3"), ("gear-4", "gear-5")]
@@ -124,7 +129,7 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
         MadePair(
             params,
             (one, two),
-            (about_bore(params, bodies[one]), about_bore(params, bodies[two])),
+            (about_bore(bodies[one], bores[one]), about_bore(bodies[two], bores[two])),
             bodies[one].corridor + bodies[two].corridor,
         )
         for one, two in wanted
@@ -132,11 +137,11 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
     ]
 
 
-def about_bore(params: EllipticGearParams, part: MadePart) -> Array:
+def about_bore(part: MadePart, diameter: float) -> Array:
     """The outside of a gear as made (n, 2), mm, counter-clockwise, about the middle of its bore as made."""
     outside = part.outline.polygon().exterior
     points = shapely.get_coordinates(outside)[:-1]
-    bore = part.hole_at(0.0, 0.0, params.bore) if params.bore else None
+    bore = part.hole_at(0.0, 0.0, diameter) if diameter else None
     middle = (0.0, 0.0) if bore is None else (bore.x, bore.y)
     about: Array = (points if shapely.is_ccw(outside) else points[::-1]) - middle
     return about

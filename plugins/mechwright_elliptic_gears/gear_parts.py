@@ -6,9 +6,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
+from mechwright.contracts.details import Detail
+from mechwright_elliptic_gears.clamp import clamp_of
+from mechwright_elliptic_gears.clamp_parts import (
+    clamp_plates,
+    clamp_screw_part,
+    core_of,
+    scale,
+    screw_holes,
+    threads,
+)
+from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
-from mechwright_elliptic_gears.layout import DOWELS, Layout
+from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.plates import base_part, coupler_part
 from mechwright_elliptic_gears.turned import round_parts
@@ -36,12 +47,18 @@ class Gear:
         Direction of the keyway from the far vertex, counter-clockwise seen from above, rad; None without one.
     holes
         Holes beside the bore.
+    bore
+        Diameter, mm, where it is not that of the shaft.
+    details
+        Threads and engraved lines.
     """
 
     name: str
     bodies: tuple[tuple[str, float], ...]
     key: float | None = None
     holes: tuple[Bore, ...] = ()
+    bore: float | None = None
+    details: tuple[Detail, ...] = ()
 
 
 @kept
@@ -51,6 +68,9 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     A single pair has one part twice. In a train gears 2 and 3 are alike if a key holds them, gear 4 has its
     keyway -φ from its far vertex, so that it comes to θ3 + φ on the key of gear 3, and gear 5 idles on its
     shaft. Without a key three dowels join gear 3 to gear 4, whose holes are turned by -φ in the same way.
+
+    Where a pin sets the phase, gear 3 has a hole for each, gear 4 one on each circle; both idle on their
+    shaft, and a key holds gear 2 alone.
     """
     key = 0.0 if params.keyway_width > 0 else None
     phase = params.phase_angle
@@ -61,6 +81,22 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
     back = -phase_offset(phase, params.eccentricity) % math.tau
     joint = Bore("joint", (layout.focus, 0.0), layout.pin, 0, layout.thickness)
     last = Gear("gear-5", (("gear-5", high),), None, (joint,))
+    if params.phase_joint == "pins":
+        return (
+            Gear("gear-2", (("gear-2", low),), key),
+            Gear("gear-3", (("gear-3", low),), None, _dividing_holes(params)),
+            Gear("gear-4", (("gear-4", high),), None, (joint, *_pin_holes(params))),
+            last,
+        )
+    if params.phase_joint == "clamp":
+        clamp = clamp_of(params)
+        drilled = screw_holes(clamp, core_of(clamp), layout.thickness)
+        return (
+            Gear("gear-2", (("gear-2", low),), key),
+            Gear("gear-3", (("gear-3", low),), None, drilled, None, threads(params)),
+            Gear("gear-4", (("gear-4", high),), None, (joint,), 2 * clamp.register, (scale(params),)),
+            last,
+        )
     if key is not None:
         return (
             Gear("gear", (("gear-2", low), ("gear-3", low)), key),
@@ -89,13 +125,35 @@ def _dowel_holes(layout: Layout, turn: float) -> tuple[Bore, ...]:
     )
 
 
+def _dividing_holes(params: EllipticGearParams) -> tuple[Bore, ...]:
+    """Holes of gear 3, named by their phases in degrees."""
+    dividing = dividing_of(params)
+    return tuple(
+        _fitted(params, f"phase-{hole.phase:g}".replace(".", "_"), dividing.centre(hole))
+        for hole in dividing.holes
+    )
+
+
+def _pin_holes(params: EllipticGearParams) -> tuple[Bore, ...]:
+    """Holes of gear 4, one on each circle."""
+    return tuple(
+        _fitted(params, f"pin-{number}", complex(radius * math.cos(START), radius * math.sin(START)))
+        for number, radius in enumerate(dividing_of(params).rings, start=1)
+    )
+
+
+def _fitted(params: EllipticGearParams, name: str, centre: complex) -> Bore:
+    size = dividing_of(params).hole_size
+    return Bore(name, (centre.real, centre.imag), size.middle, 0, params.thickness, size)
+
+
 def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
     """The gear's shaft opening, clockwise, in its part frame; None without a bore."""
     opening = opening_of(params)
     if opening is None:
         return None
     if gear.key is None:
-        return Loop((circle((0.0, 0.0), opening.bore / 2, clockwise=True, tag="bore"),))
+        return Loop((circle((0.0, 0.0), (gear.bore or opening.bore) / 2, clockwise=True, tag="bore"),))
     return opening.loop().moved(0.0, 0.0, gear.key)
 
 
@@ -107,7 +165,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
     opening = gear_opening(params, gear)
     if opening is not None:
         inner.append(opening)
-        features.append(Bore("bore", (0.0, 0.0), params.bore, 0, depth))
+        features.append(Bore("bore", (0.0, 0.0), gear.bore or params.bore, 0, depth))
         if gear.key is not None:
             features.append(Profile("keyway", opening, "inside", 0, depth))
     features += gear.holes
@@ -121,6 +179,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         params.material,
         instances=tuple(Instance(body, z, COLOURS[body]) for body, z in gear.bodies),
         machined=tuple(features),
+        details=gear.details,
     )
 
 
@@ -142,5 +201,10 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
         return gears
     layout, opening = Layout.of(params), opening_of(params)
     assert opening is not None  # noqa: S101 - a train has a bore
-    plates = (coupler_part(params, layout), base_part(params, layout))
-    return (*gears, *plates, *round_parts(layout, opening))
+    plates: tuple[Part, ...] = (coupler_part(params, layout), base_part(params, layout))
+    pin = dividing_of(params).pin if params.phase_joint == "pins" else None
+    turned = round_parts(layout, opening, keyed=params.keyed_phase, dowelled=params.dowelled, phase_pin=pin)
+    if params.phase_joint == "clamp":
+        plates += clamp_plates(params, layout)
+        turned += (clamp_screw_part(params, layout),)
+    return (*gears, *plates, *turned)

@@ -3,7 +3,7 @@
 from mechwright import GROUND, Joint
 from mechwright.contracts.joint import fixed
 from mechwright_elliptic_gears.gear import ellipse_of
-from mechwright_elliptic_gears.layout import DOWELS
+from mechwright_elliptic_gears.layout import joining_bodies
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 
@@ -23,7 +23,7 @@ def held_by(params: EllipticGearParams) -> dict[str, Joint]:
         "o2": Joint("revolute", "base", "gear-2", (-2 * a, 0.0, 0.0), drives=True),
         "o4": Joint("revolute", "base", "gear-3"),
         "o5": Joint("revolute", "base", "gear-5", (2 * a, 0.0, 0.0)),
-        **fixed("gear-3", "gear-4", *({} if params.keyway_width > 0 else DOWELS)),
+        **fixed("gear-3", "gear-4", *joining_bodies(params)),
         **fixed("gear-4", "joint-j"),
         **fixed("gear-5", "joint-k"),
         "mesh": Joint("gear", "gear-2", "gear-3"),

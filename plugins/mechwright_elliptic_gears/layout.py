@@ -8,6 +8,9 @@ the next gear or the coupler sweeps over them.
 import math
 from dataclasses import dataclass
 
+from mechwright import kept
+from mechwright_elliptic_gears.clamp import clamp_of
+from mechwright_elliptic_gears.dividing import Dividing, circle_for, placed
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -42,6 +45,12 @@ DOWELS = {"dowel-1": 0.0, "dowel-2": math.pi / 2, "dowel-3": 7 * math.pi / 6}
 """Bodies of the dowels and their directions on gear 3, rad. All three steps differ, so that gears 3 and 4 go
 together in one way only, and not turned over."""
 
+PHASE_PIN = "phase-pin"
+"""Part and body of the pin of a dividing circle. Its head lies on gear 4."""
+
+PIN_HEAD = 0.5
+"""Height of its head in gaps: the coupler passes over it."""
+
 DOWEL_GAP = 0.5
 """Between dowels and spacer, mm."""
 
@@ -58,6 +67,8 @@ class Layout:
         Of the gears.
     bore, gap, pin, coupler, tracer, base, dowel, dowel_circle
         As the design says, or their defaults.
+    crown
+        From gears 4 and 5 to the coupler.
     """
 
     semi_major: float
@@ -71,6 +82,7 @@ class Layout:
     base: float
     dowel: float
     dowel_circle: float
+    crown: float
 
     @classmethod
     def of(cls, params: EllipticGearParams) -> "Layout":
@@ -78,18 +90,20 @@ class Layout:
         bore = params.bore
         pin = _or(params.pin_diameter, _stock_size(bore / 2))
         dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
+        gap = _or(params.gap, GAP)
         return cls(
             ellipse_of(params).semi_major,
             params.eccentricity,
             params.thickness,
             bore,
-            _or(params.gap, GAP),
+            gap,
             pin,
             _or(params.coupler_thickness, COUPLER_THICKNESS),
             _or(params.tracer_diameter, pin),
             _or(params.base_thickness, BASE_THICKNESS),
             dowel,
-            _or(params.dowel_circle, math.ceil(SPACER * bore + dowel + 2 * DOWEL_GAP)),
+            params.dowel_circle or _dowel_circle(params, dowel),
+            max(gap, clamp_of(params).crown) if params.phase_joint == "clamp" else gap,
         )
 
     @property
@@ -105,7 +119,7 @@ class Layout:
     @property
     def link(self) -> float:
         """Underside of the coupler."""
-        return self.upper + self.thickness + self.gap
+        return self.upper + self.thickness + self.crown
 
     @property
     def spacer(self) -> float:
@@ -125,6 +139,33 @@ class Layout:
 
 def _or(value: float | None, default: float) -> float:
     return default if value is None else value
+
+
+def _dowel_circle(params: EllipticGearParams, dowel: float) -> float:
+    """As small as the spacer allows, or the holes of a dividing circle."""
+    least = math.ceil(SPACER * params.bore + dowel + 2 * DOWEL_GAP)
+    return circle_for(params, dowel, least) if params.phase_joint == "pins" else least
+
+
+def clamp_screws(params: EllipticGearParams) -> tuple[str, ...]:
+    """Bodies of the clamp's screws."""
+    return tuple(f"clamp-screw-{number}" for number in range(1, clamp_of(params).screws + 1))
+
+
+def joining_bodies(params: EllipticGearParams) -> tuple[str, ...]:
+    """Bodies that join gears 3 and 4, beside keys."""
+    if params.phase_joint == "pins":
+        return (PHASE_PIN,)
+    if params.phase_joint == "clamp":
+        return clamp_screws(params)
+    return tuple(DOWELS) if params.dowelled else ()
+
+
+@kept
+def dividing_of(params: EllipticGearParams) -> Dividing:
+    """The holes of a train whose phase a pin sets; what has no place is left out and named."""
+    layout = Layout.of(params)
+    return placed(params.set_phases, params.eccentricity, layout.dowel, layout.dowel_circle / 2)
 
 
 def _stock_size(diameter: float) -> float:

@@ -9,6 +9,8 @@ from mechwright import Array, Channel, Curve, Motion, Poses, Trace
 from mechwright.contracts.motion import travelled
 from mechwright.mechanics.planar import PointMotion
 from mechwright.mechanics.planar.channels import turning_channels
+from mechwright_elliptic_gears.clamp import clamp_of
+from mechwright_elliptic_gears.dividing import START
 from mechwright_elliptic_gears.figures import figures
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.held import held_by
@@ -20,7 +22,7 @@ from mechwright_elliptic_gears.kinematics import (
     shaft_pressure_angle,
     train,
 )
-from mechwright_elliptic_gears.layout import DOWELS, Layout
+from mechwright_elliptic_gears.layout import DOWELS, PHASE_PIN, Layout, clamp_screws, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.point import place, point_of_coupler
 
@@ -106,13 +108,11 @@ def _train_poses(params: EllipticGearParams, turning: Mapping[str, Turning]) -> 
     a, e = layout.semi_major, layout.eccentricity
     theta4, theta5 = turning["4"].theta, turning["5"].theta
     j, k = _free_focus(theta4, a, e), _free_focus(theta5, a, e)
-    still, theta3 = np.zeros_like(theta4), turning["3"].theta
-    radius = layout.dowel_circle / 2
-    dowels = {} if params.keyway_width > 0 else DOWELS
+    still = np.zeros_like(theta4)
     return {
         "base": Poses.planar(0.0, 0.0, still),
         "gear-2": Poses.planar(-2 * a, 0.0, turning["2"].theta),
-        "gear-3": Poses.planar(0.0, 0.0, theta3),
+        "gear-3": Poses.planar(0.0, 0.0, turning["3"].theta),
         "gear-4": Poses.planar(0.0, 0.0, theta4),
         "gear-5": Poses.planar(2 * a, 0.0, theta5),
         "coupler": Poses.planar(*j, turning["6"].theta),
@@ -120,10 +120,26 @@ def _train_poses(params: EllipticGearParams, turning: Mapping[str, Turning]) -> 
         "joint-k": Poses.planar(k[0] + 2 * a, k[1], theta5),
         "axis-2": Poses.planar(-2 * a, 0.0, still),
         "axis-5": Poses.planar(2 * a, 0.0, still),
-        **{
-            name: Poses.planar(radius * np.cos(theta3 + at), radius * np.sin(theta3 + at), theta3)
-            for name, at in dowels.items()
-        },
+        **_joining_poses(params, turning["3"].theta, theta4),
+    }
+
+
+def _joining_poses(params: EllipticGearParams, theta3: Array, theta4: Array) -> dict[str, Poses]:
+    """What joins gears 3 and 4: the pin of a dividing circle, screws, or dowels."""
+    if params.phase_joint == "pins":
+        radius = dividing_of(params).radius_at(params.phase_degrees)
+        at = theta4 + START
+        return {PHASE_PIN: Poses.planar(radius * np.cos(at), radius * np.sin(at), theta4)}
+    if params.phase_joint == "clamp":
+        clamp = clamp_of(params)
+        return {
+            name: Poses.planar(clamp.circle * np.cos(theta3 + at), clamp.circle * np.sin(theta3 + at), theta3)
+            for name, at in zip(clamp_screws(params), clamp.directions, strict=True)
+        }
+    radius = Layout.of(params).dowel_circle / 2
+    return {
+        name: Poses.planar(radius * np.cos(theta3 + at), radius * np.sin(theta3 + at), theta3)
+        for name, at in (DOWELS.items() if params.dowelled else ())
     }
 
 

@@ -1,12 +1,14 @@
 """The design table of a pair, or of a train of two pairs, of elliptic gears."""
 
 import math
-from typing import Annotated, Any, Self
+from itertools import pairwise
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
+from mechwright_elliptic_gears.screws import SCREWS
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
@@ -21,8 +23,23 @@ MOST_TEETH = 300
 OFF_LINE = 2000
 """mm. Bound of ``point_across``: twice the largest ``semi_major``; ``check`` knows the coupler's reach."""
 
+REPORTED_PHASES = (0.0, 45.0, 90.0, 135.0, 180.0)
+"""Degrees: the phase angles of the published trains."""
+
+USUAL_PHASE = 90.0
+"""Degrees: the published train with the longest window of near-constant speed."""
+
+MOST_PHASES = 36
+"""Marks of a joint that people can still tell apart: every ten degrees."""
+
+Phase = Annotated[float, Field(ge=0, le=360), Unit("deg")]
+
 TRAIN_ONLY = (
     "phase",
+    "phase_joint",
+    "phases",
+    "clamp_screw",
+    "clamp_screws",
     "gap",
     "pin_diameter",
     "coupler_thickness",
@@ -53,10 +70,22 @@ class EllipticGearParams(Parameters):
         description="1: gears 2 and 4; 2: a train of gears 2 and 3, 4 and 5, with its coupler.",
         json_schema_extra=FIRST,
     )
-    phase: Annotated[float, Field(ge=0, le=360), Unit("deg")] | None = Field(
+    phase: Phase | None = Field(
         None,
         description="Phase angle γ of a train: gear 2 stands there when gear 4 is at 0; left out, 90.",
         json_schema_extra=FIRST,
+    )
+    phase_joint: Literal["fixed", "pins", "clamp"] | None = Field(
+        None,
+        description=(
+            "What joins gears 3 and 4. fixed: a key or three dowels, for one phase; pins: a pin in one hole "
+            "of a dividing circle, a hole for each of phases; clamp: screws and a scale with a mark for "
+            "each. Left out, fixed."
+        ),
+    )
+    phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=MOST_PHASES)] | None = Field(
+        None,
+        description="Phase angles that the joint can be set to; left out, 0, 45, 90, 135, 180.",
     )
     eccentricity: Ratio = Field(
         0.4,
@@ -148,10 +177,24 @@ class EllipticGearParams(Parameters):
     )
     dowel_diameter: Annotated[float, Field(ge=0.5, le=50), Unit("mm")] | None = Field(
         None,
-        description="Three dowels that join gears 3 and 4 without a key; left out, a third of the bore.",
+        description=(
+            "Three dowels that join gears 3 and 4 without a key, or the pin of a dividing circle; left out, "
+            "a third of the bore."
+        ),
     )
     dowel_circle: Annotated[float, Field(ge=1, le=1000), Unit("mm")] | None = Field(
-        None, description="Diameter of the circle of the dowels; left out, as small as the spacer allows."
+        None,
+        description=(
+            "Diameter of the circle of the dowels, or of the inner dividing circle; left out, as small as "
+            "the spacer allows, or the walls between the holes of one circle."
+        ),
+    )
+
+    clamp_screw: Annotated[float, Field(ge=2, le=10), Unit("mm")] | None = Field(
+        None, description="Thread of the clamp's screws, M2 to M10; left out, at most a third of the bore."
+    )
+    clamp_screws: Annotated[int, Field(ge=3, le=8)] | None = Field(
+        None, description="Number of the clamp's screws; left out, 4."
     )
 
     @field_validator("band", mode="before")
@@ -184,16 +227,68 @@ class EllipticGearParams(Parameters):
                     raise ValueError(f"{name} belongs to a train; set stages = 2, or leave it out")
         elif self.bore == 0:
             raise ValueError("stages = 2 needs shafts; set bore")
-        elif self.keyway_width > 0 and (self.dowel_diameter or self.dowel_circle):
+        elif self.keyed_phase and (self.dowel_diameter or self.dowel_circle):
             raise ValueError(
                 "dowel_diameter and dowel_circle are for gears without a key; leave them out, "
                 "or set keyway_width = 0"
             )
+        self._what_the_joint_has()
         return self
+
+    def _what_the_joint_has(self) -> None:
+        clamped = self.phase_joint == "clamp"
+        for name in ("clamp_screw", "clamp_screws"):
+            if getattr(self, name) is not None and not clamped:
+                raise ValueError(f'{name} needs a clamp; set phase_joint = "clamp", or leave it out')
+        for name in ("dowel_diameter", "dowel_circle"):
+            if getattr(self, name) is not None and clamped:
+                raise ValueError(f"{name} has no place in a clamp; leave it out")
+        if self.clamp_screw is not None and self.clamp_screw not in SCREWS:
+            nearest = min(SCREWS, key=lambda size: abs(size - (self.clamp_screw or 0)))
+            raise ValueError(f"clamp_screw is no thread of a screw; the nearest is {nearest:g}")
+        if self.phases is None:
+            return
+        if not self.adjustable:
+            raise ValueError(
+                'phases needs a joint that can be set; set phase_joint = "pins", or leave it out'
+            )
+        turned = sorted(phase % 360 for phase in self.phases)
+        twice = [one for one, other in pairwise(turned) if one == other]
+        if twice:
+            raise ValueError(f"phases has {twice[0]:g} degrees twice, 0 and 360 are one; leave one out")
+
+    @property
+    def adjustable(self) -> bool:
+        """Whether the phase is set on the machine: gears 3 and 4 are the same for all phases."""
+        return self.phase_joint not in {None, "fixed"}
+
+    @property
+    def keyed_phase(self) -> bool:
+        """Whether keys of the middle shaft hold gears 3 and 4."""
+        return self.stages == 2 and not self.adjustable and self.keyway_width > 0
+
+    @property
+    def dowelled(self) -> bool:
+        """Whether three dowels join gears 3 and 4."""
+        return self.stages == 2 and not self.adjustable and self.keyway_width == 0
+
+    @property
+    def set_phases(self) -> tuple[float, ...]:
+        """Phase angles, degrees, of all settings of the train: one if its joint is fixed."""
+        if self.adjustable:
+            return self.phases or REPORTED_PHASES
+        return () if self.stages == 1 else (self.phase_degrees,)
+
+    @property
+    def phase_degrees(self) -> float:
+        """The phase angle that is set, degrees: left out, 90 or the first of the phases that it can have."""
+        if self.phase is not None:
+            return self.phase
+        return self.phases[0] if self.phases and USUAL_PHASE not in self.phases else USUAL_PHASE
 
     @property
     def phase_angle(self) -> float | None:
         """Phase angle γ, rad; None for a single pair."""
         if self.stages == 1:
             return None
-        return math.radians(90.0 if self.phase is None else self.phase)
+        return math.radians(self.phase_degrees)

@@ -2,9 +2,10 @@
 
 from mechwright import Plugin, hookimpl
 from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.figure_eight.page import FigureEightPage
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The mechanism family."""
-    return [EllipticGears]
+    """The mechanism family, and the page of its trains."""
+    return [EllipticGears, FigureEightPage]

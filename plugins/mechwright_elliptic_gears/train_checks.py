@@ -9,11 +9,13 @@ from mechwright import Array, Bore, Finding
 from mechwright.contracts.finding import errors
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
+from mechwright_elliptic_gears.clamp_checks import clamp_findings
 from mechwright_elliptic_gears.gear import ellipse_of, rack_of
 from mechwright_elliptic_gears.gear_parts import Gear, gear_opening, gears_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout
 from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.phase_checks import pin_findings
 
 WALL = 0.5
 """Least wall between two openings, in diameters of the larger round one: the usual edge distance of a hole, a
@@ -34,9 +36,12 @@ def train_findings(params: EllipticGearParams) -> Iterator[Finding]:
         return
     layout = Layout.of(params)
     found = [*_tracer(params, layout), *_joint(params, layout), *_sweep(params, layout)]
-    found += _dowel_circle(params, layout) if params.keyway_width == 0 else ()
+    found += _dowel_circle(params, layout) if params.dowelled else ()
     yield from found
     if errors(found):
+        return
+    if params.adjustable:
+        yield from (pin_findings if params.phase_joint == "pins" else clamp_findings)(params)
         return
     turned = list(_turned_openings(params))
     yield from turned

@@ -13,6 +13,8 @@ from mechwright_elliptic_gears.layout import (
     DOWELS,
     HEAD,
     HEAD_HEIGHT,
+    PHASE_PIN,
+    PIN_HEAD,
     SPACER,
     STUB,
     Layout,
@@ -24,19 +26,30 @@ MATERIAL = "steel"
 _STEEL, _BRASS, _DARK = (0.78, 0.79, 0.81), (0.80, 0.66, 0.36), (0.36, 0.38, 0.42)
 
 
-def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
-    """Everything that is no plate."""
-    keyed = opening.has_keyway
+def round_parts(
+    layout: Layout,
+    opening: Opening,
+    *,
+    keyed: bool,
+    dowelled: bool,
+    phase_pin: float | None = None,
+) -> tuple[Part, ...]:
+    """Everything that is no plate.
+
+    ``keyed`` and ``dowelled`` say whether keys or dowels join gears 3 and 4, ``phase_pin`` is the diameter,
+    mm, of the pin that joins them by a dividing circle; where nothing does, a clamp has its own spacer there.
+    """
+    joined = keyed or dowelled or phase_pin is not None
     low, high, t = layout.lower, layout.upper, layout.thickness
     foot = layout.base + STUB * layout.bore
     # Seats are open at the upper end of the shaft, so that gears and keys can be put on from there.
-    seat = opening if keyed else None
+    seat = opening if opening.has_keyway else None
     joints = ("joint-j", "joint-k")
     parts = [
         _part("shaft-2", _shaft(layout.bore, foot + low + t, t, seat), (Instance("gear-2", -foot),), _STEEL),
         _part(
             "shaft-4",
-            _shaft(layout.bore, layout.base + high + t, high - low + t, seat),
+            _shaft(layout.bore, layout.base + high + t, high - low + t, seat if keyed else None),
             (Instance("gear-3" if keyed else "base", -layout.base),),
             _STEEL,
         ),
@@ -49,27 +62,36 @@ def round_parts(layout: Layout, opening: Opening) -> tuple[Part, ...]:
         _part(
             "hub-spacer",
             tube(layout.bore, layout.spacer, layout.gap),
-            (Instance("axis-2"), Instance("base"), Instance("base", low + layout.thickness)),
+            (
+                Instance("axis-2"),
+                Instance("base"),
+                *((Instance("base", low + layout.thickness),) if joined else ()),
+            ),
             _BRASS,
         ),
         _part("hub-spacer-5", tube(layout.bore, layout.spacer, high), (Instance("axis-5"),), _BRASS),
         _part(
             "joint-spacer",
-            tube(layout.pin, SPACER * layout.pin, layout.gap),
+            tube(layout.pin, SPACER * layout.pin, layout.crown),
             tuple(Instance(body, high + layout.thickness) for body in joints),
             _BRASS,
         ),
         _part(
             "joint-pin",
-            _pin(layout.pin, layout.thickness, layout.gap + layout.coupler + AXIAL_PLAY),
+            _pin(layout.pin, layout.thickness, layout.crown + layout.coupler + AXIAL_PLAY),
             tuple(Instance(body, high) for body in joints),
             _DARK,
         ),
     ]
-    if keyed:
-        keys = (Instance("gear-2", low), Instance("gear-3", low), Instance("gear-3", high))
-        parts.append(key_part("key", opening, t, keys, _DARK))
-    else:
+    if opening.has_keyway:
+        keys = [Instance("gear-2", low)]
+        if keyed:
+            keys += [Instance("gear-3", low), Instance("gear-3", high)]
+        parts.append(key_part("key", opening, t, tuple(keys), _DARK))
+    if phase_pin is not None:
+        pin = headed(phase_pin, HEAD * layout.dowel, high - low + t, PIN_HEAD * layout.gap)
+        parts.append(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK))
+    elif dowelled:
         at = tuple(Instance(body, low) for body in DOWELS)
         parts.append(dowel_part("dowel", layout.dowel, high - low + t, at, _DARK))
     return tuple(parts)
@@ -99,3 +121,8 @@ def _pin(diameter: float, seat: float, running: float) -> Turned:
     pressed = Step(diameter, seat, shaft_fit(diameter, "m6"))
     head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
     return Turned((pressed, _running(diameter, running), head))
+
+
+def headed(diameter: float, head: float, shank: float, height: float) -> Turned:
+    """A cylinder with a head on its upper end."""
+    return Turned((Step(diameter, shank), Step(head, height)))

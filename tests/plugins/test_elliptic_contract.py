@@ -19,6 +19,8 @@ class TestEllipticGears(FamilyContract):
         {"module": 2, "teeth": 39},
         {"bore": 16, "keyway_width": 5, "keyway_depth": 2.4, "keyway_relief": 2},
         {"stages": 2, "bore": 12, "phase": 70, "tracer_diameter": 4},
+        {"stages": 2, "bore": 12, "phase_joint": "pins", "phases": [20, 100], "phase": 20},
+        {"stages": 2, "bore": 12, "phase_joint": "clamp", "clamp_screw": 4, "clamp_screws": 4},
     )
     refused = (
         ({"teeth": 13}, "teeth"),
@@ -29,6 +31,7 @@ class TestEllipticGears(FamilyContract):
         ({"stages": 2, "point_across": 80}, "point_across"),
         ({"stages": 2, "eccentricity": 0.1}, "eccentricity"),
         ({"phase": 30}, "phase"),
+        ({"stages": 2, "phase_joint": "pins", "phase": 30}, "phase"),
     )
     derivatives = (
         ("theta2", "omega2"),
@@ -40,6 +43,7 @@ class TestEllipticGears(FamilyContract):
         ("Q.acceleration.x", "Q.jerk.x"),
     )
     input_rate = "omega2"
+    variations: ClassVar = {"phases": ((20, 150),), "clamp_screw": (3,), "clamp_screws": (5,)}
     requirements: ClassVar = {
         "longest-window": (QUICK,),
         "least-acceleration": (QUICK,),
@@ -51,7 +55,10 @@ class TestEllipticGears(FamilyContract):
 
         def settle(table):
             if table.get("stages", 1) == 2:
-                return table
+                fixed = table.get("phase_joint") in {None, "fixed"}
+                out = {"phases"} if fixed else set()
+                out |= {"dowel_diameter", "dowel_circle"} if table.get("phase_joint") == "clamp" else set()
+                return {name: value for name, value in table.items() if name not in out}
             return {name: value for name, value in table.items() if name not in TRAIN_ONLY}
 
         return tables(EllipticGears.Params).flatmap(lambda table: st.just(settle(table)))

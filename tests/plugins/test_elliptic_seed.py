@@ -86,5 +86,30 @@ def test_the_pictures_are_what_the_code_draws():
         assert drawn == draw(), f"{name}: run: python docs/pictures.py"
 
 
+CHARTS = script(ROOT / "docs" / "seeds" / "elliptic_charts.py")
+
+
+def test_the_charts_are_what_the_code_draws():
+    drawn = CHARTS.PICTURE.read_text(encoding="utf-8")
+    assert drawn == CHARTS.charts(), "run: python docs/seeds/elliptic_charts.py"
+    assert drawn.count("<polyline") == 2 * 5 * 4
+
+
+@pytest.mark.parametrize("cell", [cell for cell in CELLS if cell.eccentricity <= 0.4], ids=ident)
+def test_charts_reach_the_peaks_of_table_3(cell):
+    lines = CHARTS.over_a_turn(cell.phase, cell.eccentricity)
+    assert lines["speed"].max() == pytest.approx(cell.printed["speed"], rel=2e-3)
+    assert lines["acceleration"].max() == pytest.approx(cell.printed["acceleration"], rel=4e-3)
+
+
+def test_the_page_tells_each_figure_of_the_source():
+    page = SEED.PAGE.read_text(encoding="utf-8")
+    assert all(f"| {number} |" in page for number in ("3", "7", "8", "9", "14", "20 to 22", "23", "24"))
+    rows = [line.split("|") for line in SEED.variable_table()[2:]]
+    assert [row[1].strip() for row in rows] == ["0°", "45°", "90°", "135°", "180°"]
+    assert rows[2][2].strip() == "133.603°"
+    assert rows[2][7].strip() == "−0.078, −0.624"
+
+
 def test_half_a_turn_is_said_in_degrees():
     assert SEED.design(180, 0.4).phase_angle == pytest.approx(math.pi)

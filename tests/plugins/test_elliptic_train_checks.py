@@ -121,8 +121,9 @@ def test_a_band_without_a_width_is_refused_with_what_works(band):
 
 @pytest.mark.parametrize("name", TRAIN_ONLY)
 def test_fields_of_trains_are_refused_in_a_pair(name):
+    value = {"phase_joint": "pins", "phases": (20.0,), "clamp_screws": 4}.get(name, 10.0)
     with pytest.raises(ValidationError, match=f"{name} belongs to a train"):
-        Params(**{name: 20.0})
+        Params(**{name: value})
 
 
 @pytest.mark.parametrize(
@@ -154,6 +155,9 @@ def test_tables_that_make_no_sense(table, words):
             "tracer_diameter": st.floats(0, 12),
             "dowel_diameter": st.floats(0.5, 8),
             "dowel_circle": st.floats(10, 60),
+            "phase_joint": st.sampled_from(["fixed", "pins", "clamp"]),
+            "clamp_screw": st.sampled_from([2.0, 3.0, 4.0]),
+            "phases": st.lists(st.floats(0, 360), min_size=1, max_size=6),
         },
     )
 )

@@ -1,0 +1,1 @@
+"""The page on which phase and eccentricity of a train are turned, and its speed and tables follow."""

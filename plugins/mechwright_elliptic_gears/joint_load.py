@@ -1,0 +1,81 @@
+"""Torque that the joint of gears 3 and 4 carries at constant speed of gear 2, by inertia alone.
+
+The power that goes through it is what the bodies behind it take up: T ω4 = J4 α4 ω4 + J5 α5 ω5 for the gears,
+m v·a + J ω6 α6 for the coupler, with v, a of its centre of mass. It grows with the square of the speed. Pins,
+shafts and friction are left out; ``MARGIN`` is for them and for what hangs on Q.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array, kept, material
+from mechwright_elliptic_gears.gear import ellipse_of, outline_of
+from mechwright_elliptic_gears.kinematics import Turning, coupler, train
+from mechwright_elliptic_gears.layout import Layout
+from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.peak import Peak, peak
+from mechwright_elliptic_gears.plates import coupler_part
+from mechwright_elliptic_gears.point import point_of_coupler
+
+MARGIN = 2.0
+"""What a joint must bear over the greatest torque of inertia."""
+
+
+@dataclass(frozen=True)
+class Masses:
+    """Bodies behind the joint: kg, kg mm², mm.
+
+    Parameters
+    ----------
+    gear
+        Moment of inertia of gear 4, and of gear 5, about its axis.
+    coupler
+        Mass of the coupler.
+    turning
+        Its moment of inertia about its centre of mass.
+    centre
+        Where that stands: x + i y from J, K on x, in lengths of the coupler.
+    """
+
+    gear: float
+    coupler: float
+    turning: float
+    centre: complex
+
+
+@kept
+def masses_of(params: EllipticGearParams) -> Masses:
+    """Of full plates: bores are part of them, holes of gears are not looked at."""
+    layout, density = Layout.of(params), material(params.material).density * 1e-6  # g/cm³ to kg/mm³
+    link = coupler_part(params, layout)
+    assert link.outline is not None  # noqa: S101 - it is a plate
+    area, x, y, xx, yy, _ = link.outline.moments
+    mass, length = float(area) * layout.coupler * density, 2 * layout.semi_major
+    polar = float(xx + yy - (x * x + y * y) / area) * layout.coupler * density
+    gear = outline_of(params).polar_moment * params.thickness * density
+    return Masses(gear, mass, polar, complex(x / area, y / area) / length)
+
+
+def joint_torque(
+    theta2: Array, params: EllipticGearParams, phase: float, masses: Masses, *, driver: bool = True
+) -> Array:
+    """Torque (n,), N m, that gear 3 gives gear 4 at the phase angle ``phase``, rad.
+
+    Without ``driver`` it is that of the bodies behind gear 4 alone.
+    """
+    a, e = ellipse_of(params).semi_major, params.eccentricity
+    _, four, five = train(Turning.of(theta2, params.speed * math.tau / 60), e, phase)
+    link = coupler(four, five)
+    centre = point_of_coupler(four, five, a, e, masses.centre)
+    power = masses.gear * five.alpha * five.omega + masses.turning * link.omega * link.alpha
+    power += masses.coupler * np.real(np.conj(centre.velocity) * centre.acceleration)
+    torque: Array = power / four.omega + (masses.gear * four.alpha if driver else 0.0)
+    return torque * 1e-6  # kg mm²/s² to N m
+
+
+def greatest_torque(params: EllipticGearParams, phase: float) -> Peak:
+    """The greatest torque, N m, either way, at a phase angle in degrees, and where it is."""
+    masses = masses_of(params)
+    return peak(lambda theta2: np.abs(joint_torque(theta2, params, math.radians(phase), masses)))

@@ -1,0 +1,159 @@
+"""A train whose phase a clamp sets: its torque, its scale under the mark, and one machine for all phases."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from mechwright.contracts.details import Engraving, Thread
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.holes import joined
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+from mechwright_cad.interference import faithful_motion, interference
+from mechwright_elliptic_gears.clamp import MARK, SETTING, Clamp, clamp_of
+from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.joint_load import greatest_torque
+from mechwright_elliptic_gears.layout import Layout
+
+FAMILY = EllipticGears()
+Params = EllipticGears.Params
+ROOT = Path(__file__).parents[2]
+PHASES = (0.0, 45.0, 90.0, 135.0, 180.0)
+CLAMP = {"stages": 2, "bore": 12.0, "phase_joint": "clamp"}
+TRAIN = Params(**CLAMP)
+
+
+def parts_of(params):
+    return {part.name: part for part in FAMILY.parts(params)}
+
+
+def test_the_torque_of_a_face_clamp():
+    # Three M4 of class 8.8 on a face of 16 to 40 mm, μ = 0.12.
+    clamp = Clamp(4.0, 3, 10.0, 8.0, 20.0, 4.0)
+    assert clamp.preload("steel") == pytest.approx(3932.857401634, rel=1e-9)
+    assert clamp.torque("steel") == pytest.approx(21.035168731, rel=1e-9)
+    assert clamp.preload("pom") == pytest.approx(40 * math.pi / 4 * (7**2 - 4.5**2))
+    (note,) = [f for f in FAMILY.check(TRAIN) if f.code == "train.clamp-torque"]
+    assert note.value == pytest.approx(clamp_of(TRAIN).torque("aluminium"))
+    assert f"inertia takes {greatest_torque(TRAIN, 0.0).value:.3g} N m" in note.message
+
+
+@pytest.mark.parametrize("e", [0.3, 0.4, 0.5])
+@pytest.mark.parametrize("phase", PHASES)
+def test_the_mark_of_the_ring_stands_over_the_phase_that_is_set(phase, e):
+    params = Params(**CLAMP, phase=phase, eccentricity=e, teeth=31)
+    assert errors(FAMILY.check(params)) == []
+    parts = parts_of(params)
+    (mark,) = [one for one in parts["clamp-ring"].details if isinstance(one, Engraving)]
+    (scale,) = [one for one in parts["gear-4"].details if isinstance(one, Engraving)]
+    motion = FAMILY.solve(params, 5)
+    over = motion.poses["gear-3"].transform(np.array([(*mark.strokes[0][0], 0.0)]))[:, 0, :2]
+    start, lines = clamp_of(params).scale, []
+    for stroke in scale.strokes:
+        one, two = complex(*stroke[0]), complex(*stroke[-1])
+        if abs(one) == pytest.approx(start) and abs((two * one.conjugate()).imag) < 1e-9:
+            lines.append(stroke)
+    assert len(lines) == 5
+    ends = motion.poses["gear-4"].transform(np.array([(*line[0], 0.0) for line in lines]))[:, :, :2]
+    cosines = (over[:, None] * ends).sum(axis=2) / np.linalg.norm(over, axis=1)[:, None]
+    cosines /= np.linalg.norm(ends, axis=2)
+    assert (cosines.argmax(axis=1) == PHASES.index(phase)).all()
+    assert cosines.max(axis=1) == pytest.approx(1, abs=1e-12)
+
+
+@pytest.mark.parametrize("phase", [*PHASES, 72.5])
+def test_one_machine_has_any_phase(phase):
+    params = TRAIN.model_copy(update={"phase": phase})
+    parts, start = parts_of(params), parts_of(TRAIN)
+    for name, part in parts.items():
+        other = start[name]
+        assert (part.outline, part.features, part.details, part.instances) == (
+            other.outline,
+            other.features,
+            other.details,
+            other.instances,
+        )
+    report = interference(
+        list(parts.values()), faithful_motion(FAMILY, params, list(parts.values())), solids=False
+    )
+    assert report.clear, report.collisions
+    assert {finding.severity for finding in FAMILY.check(params)} == {Severity.NOTE}
+
+
+def test_no_solid_stands_in_another():
+    params = Params(**CLAMP, keyway_width=4, keyway_relief=2)
+    parts = [joined(part) if part.outline is not None else part for part in FAMILY.parts(params)]
+    report = interference(parts, faithful_motion(FAMILY, params, parts))
+    assert report.clear, report.collisions
+
+
+def test_the_clamp_is_screwed_together():
+    clamp, parts, layout = clamp_of(TRAIN), parts_of(TRAIN), Layout.of(TRAIN)
+    assert (clamp.screw, clamp.screws, clamp.register, clamp.outside) == (4.0, 4, 15.0, 19.0)
+    threads = [one for one in parts["gear-3"].details if isinstance(one, Thread)]
+    assert [thread.designation for thread in threads] == ["M4x0.7"] * 4
+    for name in ("clamp-flange", "clamp-register", "clamp-ring"):
+        holes = {f.name: f.diameter for f in parts[name].features if f.name.startswith("screw-")}
+        assert holes == {f"screw-{n}": 4.5 for n in range(1, 5)}, name
+    assert {i.body for i in parts["clamp-screw"].instances} == {f"clamp-screw-{n}" for n in range(1, 5)}
+    box, foot = parts["clamp-screw"].build().BoundingBox(), parts["clamp-screw"].instances[0].z
+    # It ends in its thread, 8 mm deep, and its head below the coupler.
+    assert layout.lower + 10 - 8 < foot < layout.lower + 10 - 1.5 * 4
+    assert foot + box.zmax == pytest.approx(layout.link - 0.5)
+    # The ring presses on gear 4, not on the register.
+    register = parts["clamp-register"]
+    assert (
+        register.instances[0].z + register.thickness < layout.upper + 10 == parts["clamp-ring"].instances[0].z
+    )
+    (bore,) = [feature for feature in parts["gear-4"].features if feature.name == "bore"]
+    assert bore.diameter == 2 * clamp.register
+    # No screw under the mark.
+    assert min(abs((one - MARK + math.pi) % math.tau - math.pi) for one in clamp.directions) > 0.3
+
+
+def test_a_clamp_that_slips_is_refused_with_the_speed_that_works():
+    table = CLAMP | {"speed": 1500.0, "material": "pom", "clamp_screw": 2.0, "clamp_screws": 3}
+    (fault,) = errors(FAMILY.check(Params(**table)))
+    assert (fault.code, fault.parameter) == ("train.clamp-torque", "speed")
+    assert errors(FAMILY.check(Params(**table | {"speed": fault.limit}))) == []
+    assert errors(FAMILY.check(Params(**table | {"speed": fault.limit * 1.001})))
+
+
+def test_a_clamp_without_room_is_refused():
+    (fault,) = errors(FAMILY.check(Params(**CLAMP, clamp_screw=8)))
+    assert (fault.code, fault.parameter) == ("train.clamp", "clamp_screw")
+    table = CLAMP | {"eccentricity": 0.5, "teeth": 31}
+    (fault,) = errors(FAMILY.check(Params(**table, phases=(0.0, 90.0, 300.0))))
+    assert (fault.code, fault.parameter, fault.value) == ("train.clamp", "phases", 300.0)
+    (change,) = fault.proposed
+    assert errors(FAMILY.check(Params(**table, phases=change["parameters.phases"]))) == []
+
+
+def test_what_a_mark_that_is_set_wrong_costs():
+    (note,) = [f for f in FAMILY.check(TRAIN) if f.code == "train.phase-window"]
+    assert f"±{math.degrees(SETTING / clamp_of(TRAIN).scale):.3f} degrees" in note.message
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"stages": 2, "clamp_screw": 4}, "clamp_screw needs a clamp"),
+        ({"stages": 2, "phase_joint": "pins", "clamp_screws": 4}, "clamp_screws needs a clamp"),
+        (CLAMP | {"dowel_circle": 30.0}, "dowel_circle has no place"),
+        (CLAMP | {"clamp_screw": 4.4}, "the nearest is 4"),
+        (CLAMP | {"clamp_screws": 2}, "clamp_screws"),
+    ],
+)
+def test_tables_that_make_no_sense(table, words):
+    with pytest.raises(ValidationError, match=words):
+        Params(**table)
+
+
+def test_a_clamped_example_of_the_page_can_be_read(tmp_path):
+    text = (ROOT / "examples" / "figure-eight-variable.toml").read_text(encoding="utf-8")
+    path = tmp_path / "clamped.toml"
+    path.write_text(text.replace('"pins"', '"clamp"'), encoding="utf-8")
+    assert load(path, host()).params.phase_joint == "clamp"

@@ -1,0 +1,383 @@
+"""A train whose phase is set on the machine: its kinematics, holes, load, play, and one machine for all phases."""
+
+import dataclasses
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
+from mechwright.designs.design import load
+from mechwright.plugins.host import host
+from mechwright_cad.interference import faithful_motion, interference
+from mechwright_elliptic_gears.dividing import PITCH, START, direction
+from mechwright_elliptic_gears.family import EllipticGears
+from mechwright_elliptic_gears.figures import point_peaks, point_window
+from mechwright_elliptic_gears.gear_parts import gears_of
+from mechwright_elliptic_gears.joint_load import Masses, greatest_torque, joint_torque, masses_of
+from mechwright_elliptic_gears.joint_made import going_in, joint_figures, phase_sensitivity
+from mechwright_elliptic_gears.kinematics import Turning, coupler, phase_offset, train
+from mechwright_elliptic_gears.layout import Layout, dividing_of
+from mechwright_elliptic_gears.peak import peak
+from mechwright_elliptic_gears.phase_checks import pin_play, shifted_window
+from mechwright_elliptic_gears.point import point_of_coupler, speed_of_q
+
+FAMILY = EllipticGears()
+Params = EllipticGears.Params
+ROOT = Path(__file__).parents[2]
+VARIABLE = load(ROOT / "examples" / "figure-eight-variable.toml", host()).params
+PINS = {"stages": 2, "bore": 12.0, "phase_joint": "pins"}
+PRINTED = json.loads((ROOT / "docs" / "seeds" / "elliptic-gears.json").read_text())
+
+# e = 0.4, a = 50 mm, ω2 = 10 rad/s: joint angle (degrees) and its rate, greatest and least speed, greatest
+# acceleration, window of 10 mm/s (length, start), torque over J5 and greatest α5, speeds at θ2 = 1, 3, 5.
+REFERENCE = {
+    0: (0.0, 2.3333333333, 945.1288911, 48.9795918, 70172.8395, 1.3334315, 2.475, 1809.4290286, 940.7945606,
+        (316.5923519956, 49.3954853523, 200.3490286546)),
+    45: (88.0479824095, 1.4133928987, 937.9631688, 120.3730137, 31868.6980, 1.7578956, 3.272, 895.7388853,
+         398.2671980, (396.8329999673, 140.3298319836, 129.8381639103)),
+    90: (133.6028189727, 0.7241379310, 701.5315440, 184.5256197, 13710.5075, 2.2036527, 1.886, 274.0661488,
+         117.6854860, (488.2147521064, 191.3090793811, 240.1340778369)),
+    135: (159.8674285678, 0.4867631075, 551.1278590, 127.3484105, 13070.7531, 0.5380850, 2.243, 86.9233601,
+          37.2600451, (493.7380982094, 150.7552172079, 320.4711278518)),
+    180: (180.0, 0.4285714286, 444.5751442, 114.2857143, 12888.8889, 0.5532694, 2.865, 0.0, 0.0,
+          (425.0093934467, 116.9762786750, 377.2919532666)),
+}  # fmt: skip
+JOINT = {
+    0.2: (63.707050, 112.619865, 149.125830),
+    0.4: (88.047982, 133.602819, 159.867429),
+    0.6: (117.773553, 151.927513, 168.175800),
+    0.8: (149.968274, 167.319617, 174.729788),
+}
+"""φ, degrees, for γ = 45, 90, 135."""
+
+
+def at(phase, **table):
+    return VARIABLE.model_copy(update={"phase": float(phase), **table})
+
+
+@pytest.mark.parametrize("e", JOINT)
+def test_the_joint_stands_at_phi_of_gamma(e):
+    assert [math.degrees(phase_offset(math.radians(g), e)) for g in (45, 90, 135)] == pytest.approx(
+        JOINT[e], abs=1e-6
+    )
+    k = (1 + e) / (1 - e)
+    for g in (10, 77, 160):
+        assert math.degrees(direction(g, e) - START) == pytest.approx(
+            2 * math.degrees(math.atan(k * math.tan(math.radians(g) / 2))), abs=1e-9
+        )
+
+
+def test_equal_steps_of_the_joint_are_uneven_phases():
+    gammas = [2 * math.degrees(math.atan(math.tan(math.radians(15 * i)) * 0.6 / 1.4)) for i in range(6)]
+    assert gammas == pytest.approx([0, 13.1018, 27.7958, 46.3972, 73.1736, 115.9715], abs=1e-4)
+    found = [math.degrees(direction(g, 0.4) - START) for g in gammas]
+    assert found == pytest.approx([30.0 * i for i in range(6)], abs=1e-9)
+
+
+@pytest.mark.parametrize("phase", REFERENCE)
+def test_one_machine_runs_as_the_reference_at_every_phase(phase):
+    joint, rate, v_max, v_min, a_max, window, start, torque, alpha5, speeds = REFERENCE[phase]
+    params, gamma = at(phase), math.radians(phase)
+    assert math.degrees(phase_offset(gamma, 0.4)) == pytest.approx(joint, abs=1e-9)
+    slope = (phase_offset(gamma + 1e-5, 0.4) - phase_offset(gamma - 1e-5, 0.4)) / 2e-5
+    assert slope == pytest.approx(rate, rel=1e-6)
+    tops = point_peaks(params)
+    assert (tops["speed"].value, tops["acceleration"].value) == pytest.approx((v_max, a_max), rel=1e-8)
+    assert -peak(lambda t: -500 * speed_of_q(t, 0.4, gamma)).value == pytest.approx(v_min, rel=1e-7)
+    found = point_window(params)
+    assert found.length == pytest.approx(window, abs=6e-4)
+    assert found.start == pytest.approx(start, abs=1e-3)
+    assert 500 * speed_of_q(np.array([1.0, 3.0, 5.0]), 0.4, gamma) == pytest.approx(speeds, abs=1e-7)
+    alone = Masses(1e6, 0.0, 0.0, 0.5 + 0j)  # 1 kg m²
+    behind = peak(lambda t: np.abs(joint_torque(t, params, gamma, alone, driver=False)))
+    assert behind.value == pytest.approx(torque, rel=1e-7, abs=1e-6)
+    five = peak(lambda t: np.abs(train(Turning.of(t, 10.0), 0.4, gamma)[2].alpha))
+    assert five.value == pytest.approx(alpha5, rel=1e-7, abs=1e-6)
+
+
+def test_five_rows_of_both_tables_come_from_one_machine():
+    cells = {cell["phase"]: cell for cell in PRINTED["cells"] if cell["eccentricity"] == 0.4}
+    assert sorted(cells) == list(VARIABLE.set_phases) == list(REFERENCE)
+    machine = drawn(VARIABLE)
+    for phase, cell in cells.items():
+        params = at(phase)
+        assert drawn(params) == machine
+        figures = FAMILY.solve(params, 3).scalars
+        assert figures["Q.speed.max"].value == pytest.approx(cell["speed"], rel=2e-4)
+        assert figures["Q.acceleration.max"].value == pytest.approx(1000 * cell["acceleration"], rel=2e-3)
+        length = figures["Q.constant_speed_window.length"].value
+        if cell["window"] is None:
+            assert length < 0.93
+        else:
+            start, end = cell["window"][:2]
+            found = figures["Q.constant_speed_window.start"].value
+            assert (found, found + length) == pytest.approx((start, end), abs=0.03)
+
+
+def drawn(params):
+    """All that is made or bought: plates with their features, solids by mass and box."""
+    found = {}
+    for part in FAMILY.parts(params):
+        places = sorted((instance.body, instance.z) for instance in part.instances)
+        if part.build is None:
+            shape = (part.outline, part.features, part.details)
+        else:
+            solid = part.build()
+            box = solid.BoundingBox()
+            shape = tuple(
+                round(number, 9)
+                for number in (solid.Volume(), box.xmin, box.xmax, box.ymin, box.ymax, box.zmax)
+            )
+        found[part.name] = (part.thickness, part.material, places, shape)
+    return found
+
+
+def test_a_fixed_joint_is_another_machine_for_each_phase():
+    fixed = VARIABLE.model_copy(update={"phase_joint": None, "phases": None})
+    assert drawn(fixed) != drawn(fixed.model_copy(update={"phase": 45.0}))
+
+
+@pytest.mark.parametrize("phase", REFERENCE)
+def test_the_pin_stands_in_a_hole_of_both_gears_at_all_times(phase):
+    params = at(phase)
+    motion = FAMILY.solve(params, 13)
+    holes = {
+        body: np.array([(*hole.centre, 0.0) for hole in gear.holes if hole.name != "joint"])
+        for gear in gears_of(params)
+        for body, _ in gear.bodies
+    }
+    pin = motion.poses["phase-pin"].position
+    for body in ("gear-3", "gear-4"):
+        there = motion.poses[body].transform(holes[body])
+        away = np.linalg.norm(there - pin[:, None, :], axis=-1)
+        assert (away.min(axis=1) < 1e-9).all()
+        # It is the same hole throughout.
+        assert len(set(away.argmin(axis=1).tolist())) == 1
+
+
+@pytest.mark.parametrize("phase", REFERENCE)
+def test_nothing_collides_at_any_phase(phase):
+    params = at(phase)
+    parts = FAMILY.parts(params)
+    report = interference(parts, faithful_motion(FAMILY, params, parts), solids=False)
+    assert report.clear, report.collisions
+    assert {finding.severity for finding in FAMILY.check(params)} == {Severity.NOTE}
+
+
+def test_no_solid_stands_in_another_with_the_pin_in():
+    parts = FAMILY.parts(VARIABLE)
+    report = interference(parts, faithful_motion(FAMILY, VARIABLE, parts))
+    assert report.clear, report.collisions
+    # A pin of twice the radius of its hole is found.
+    wide = VARIABLE.model_copy(update={"dowel_diameter": 5.0})
+    thick = next(part for part in FAMILY.parts(wide) if part.name == "phase-pin")
+    changed = [thick if part.name == "phase-pin" else part for part in parts]
+    hits = interference(changed, faithful_motion(FAMILY, VARIABLE, changed)).collisions
+    assert {name for hit in hits for name in (hit.first, hit.second)} >= {"phase-pin", "gear-3", "gear-4"}
+
+
+def test_holes_are_h7_and_have_their_walls():
+    dividing = dividing_of(VARIABLE)
+    (gear3,) = [part for part in FAMILY.parts(VARIABLE) if part.name == "gear-3"]
+    holes = {feature.name: feature for feature in gear3.features if feature.name.startswith("phase-")}
+    assert list(holes) == ["phase-0", "phase-45", "phase-90", "phase-135", "phase-180"]
+    assert {hole.fit.text for hole in holes.values()} == {"4 H7 (0/+0.012)"}
+    centres = [complex(*hole.centre) for hole in holes.values()]
+    least = min(abs(one - two) for k, one in enumerate(centres) for two in centres[:k])
+    assert PITCH * 4 <= least < PITCH * 4 + 0.2
+    assert dividing.rings == (17.5,)
+    # g6 for 4 mm: -4 and -12 µm.
+    assert dividing.pin_limits == pytest.approx((3.988, 3.996))
+
+
+def test_holes_that_are_too_near_go_to_a_second_circle():
+    params = Params(**PINS, phases=(0, 45, 90, 135, 180), dowel_circle=23.0)
+    dividing = dividing_of(params)
+    assert dividing.rings == (11.5, 17.5)
+    assert [hole.ring for hole in dividing.holes] == [0, 0, 0, 1, 0]
+    assert errors(FAMILY.check(params)) == []
+    (gear4,) = [gear for gear in gears_of(params) if gear.name == "gear-4"]
+    assert [hole.name for hole in gear4.holes] == ["joint", "pin-1", "pin-2"]
+    motion = FAMILY.solve(params.model_copy(update={"phase": 135.0}), 5)
+    assert np.linalg.norm(motion.poses["phase-pin"].position, axis=1) == pytest.approx(17.5)
+
+
+def test_the_nearest_phases_that_work_are_named():
+    table = PINS | {"phases": (88.0, 90.0, 92.0, 94.0), "phase": 90.0}
+    faults = errors(FAMILY.check(Params(**table)))
+    assert [fault.code for fault in faults] == ["train.phases"]
+    (change,) = faults[0].proposed
+    works = change["parameters.phases"]
+    assert errors(FAMILY.check(Params(**table | {"phases": tuple(works)}))) == []
+    assert ", ".join(f"{phase:g}" for phase in works) in faults[0].remedy
+    assert {88.0, 90.0} <= set(works)
+    moved = min(set(works) - {88.0, 90.0, 92.0, 94.0}, key=lambda phase: abs(phase - faults[0].value))
+    assert faults[0].limit == moved
+
+
+def test_a_phase_without_a_hole_is_refused_with_the_nearest():
+    (fault,) = errors(FAMILY.check(Params(**PINS, phase=60.0)))
+    assert (fault.code, fault.parameter, fault.limit) == ("train.phase-hole", "phase", 45.0)
+    assert errors(FAMILY.check(Params(**PINS, phase=fault.limit))) == []
+    (around,) = errors(FAMILY.check(Params(**PINS, phase=350.0)))
+    assert around.limit == 0.0
+    assert errors(FAMILY.check(Params(**PINS, phase=360.0))) == [], "360 degrees are none"
+    # Its motion is that of the phase all the same.
+    assert FAMILY.solve(Params(**PINS, phase=60.0), 3).scalars["Q.speed.max"].value > 0
+
+
+def test_a_phase_that_is_left_out_is_one_of_those_there_are():
+    assert Params(**PINS).phase_degrees == 90
+    assert Params(**PINS, phases=(30.0, 90.0)).phase_degrees == 90
+    assert Params(**PINS, phases=(30.0, 60.0)).phase_degrees == 30
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"stages": 2, "phases": (0.0,)}, "phase_joint"),
+        ({"stages": 2, "phases": (0.0,), "phase_joint": "fixed"}, "phase_joint"),
+        (PINS | {"phases": (0.0, 45.0, 360.0)}, "0 degrees twice"),
+        (PINS | {"phases": ()}, "phases"),
+        ({"phase_joint": "pins"}, "belongs to a train"),
+    ],
+)
+def test_tables_that_make_no_sense(table, words):
+    with pytest.raises(ValidationError, match=words):
+        Params(**table)
+
+
+@pytest.mark.parametrize(
+    ("code", "table", "mend"),
+    [
+        ("train.dowels", {"dowel_circle": 20.0}, 26.0),
+        ("train.dowel-rim", {"dowel_circle": 90.0}, 40.0),
+        ("train.dowels", {"dowel_circle": 44.0, "eccentricity": 0.16, "pin_diameter": 22.0}, None),
+    ],
+)
+def test_circles_without_room_are_refused(code, table, mend):
+    faults = errors(FAMILY.check(Params(**PINS | {"tracer_diameter": 4.0} | table)))
+    assert (code, "dowel_circle") in [(fault.code, fault.parameter) for fault in faults] or mend is None
+    assert all(fault.remedy for fault in faults)
+    assert faults
+    if mend:
+        assert errors(FAMILY.check(Params(**PINS | table | {"dowel_circle": mend}))) == []
+
+
+def test_the_torque_of_the_joint_is_the_power_behind_it():
+    params, masses = at(45), masses_of(VARIABLE)
+    theta = np.linspace(0.3, 6.0, 7)
+    gamma = math.radians(45)
+
+    def energy(theta2):
+        _, four, five = train(Turning.of(theta2, 10.0), 0.4, gamma)
+        link, centre = coupler(four, five), point_of_coupler(four, five, 50.0, 0.4, masses.centre)
+        return (
+            masses.gear * (four.omega**2 + five.omega**2)
+            + masses.turning * link.omega**2
+            + masses.coupler * centre.speed**2
+        ) / 2e6  # J
+
+    h = 1e-5
+    power = (energy(theta + h) - energy(theta - h)) / (2 * h) * 10.0
+    omega4 = train(Turning.of(theta, 10.0), 0.4, gamma)[1].omega
+    assert joint_torque(theta, params, gamma, masses) * omega4 == pytest.approx(power, rel=1e-6)
+
+
+def test_masses_are_those_of_the_plates():
+    masses = masses_of(VARIABLE)
+    parts = {part.name: part for part in FAMILY.parts(VARIABLE)}
+    area = parts["coupler"].outline.polygon(1e-4).area
+    assert masses.coupler == pytest.approx(area * 6 * 2.7e-6, rel=1e-5)
+    assert masses.centre == pytest.approx(0.5, abs=1e-9), "Q's hole stands in the middle"
+    # About its middle a rod of that mass has m l²/12; eyes and rounding make it a little more.
+    assert masses.turning == pytest.approx(masses.coupler * 112**2 / 12, rel=0.1)
+
+
+def test_a_pin_that_is_too_weak_is_refused_with_the_speed_that_works():
+    table = PINS | {"speed": 1200.0}
+    (fault,) = errors(FAMILY.check(Params(**table)))
+    assert (fault.code, fault.parameter) == ("train.phase-pin", "speed")
+    assert "phase of 0 degrees" in fault.message
+    assert errors(FAMILY.check(Params(**table | {"speed": fault.limit}))) == []
+    assert errors(FAMILY.check(Params(**table | {"speed": fault.limit * 1.001})))
+    torque = greatest_torque(Params(**PINS), 0.0).value
+    force = 2 * 1000 * torque / 17.5
+    (note,) = [f for f in FAMILY.check(Params(**PINS)) if f.code == "train.phase-pin"]
+    assert note.value == pytest.approx(4 * force / (math.pi * 16), rel=1e-9)
+
+
+def test_speed_changes_by_the_joint_alike_at_every_phase():
+    assert phase_sensitivity(VARIABLE) == pytest.approx(1.2477041083, abs=1e-6)
+    theta, h = np.linspace(0, math.tau, 20001), 1e-6
+    for gamma in (0.0, 1.0, 2.5):
+        shift = h * float(1 / ((1 - 0.16) / (1.16 - 0.8 * math.cos(gamma))))
+        v = [np.log(speed_of_q(theta, 0.4, gamma + sign * shift)) for sign in (1, -1)]
+        assert np.abs(v[0] - v[1]).max() / (2 * h) == pytest.approx(1.2477, abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("phase", "ahead", "behind"), [(0, 0, 0), (45, -0.003, 0.003), (90, -0.078, -0.624), (135, 0.001, -0.001)]
+)
+def test_half_a_degree_of_the_joint_changes_the_window(phase, ahead, behind):
+    params = at(phase)
+    nominal = point_window(params).length
+    found = [shifted_window(params, sign * math.radians(0.5)).length - nominal for sign in (1, -1)]
+    assert found == pytest.approx((ahead, behind), abs=1.5e-3)
+
+
+def test_the_play_of_the_pin_is_told():
+    # Holes 6 µm over, the pin 8 µm under 4 mm: 28 µm in both holes, 17.5 mm from the axis.
+    assert pin_play(VARIABLE) == pytest.approx(0.028 / 17.5, rel=1e-9)
+    (note,) = [f for f in FAMILY.check(VARIABLE) if f.code == "train.phase-window"]
+    assert f"±{math.degrees(0.014 / 17.5):.3f} degrees" in note.message
+    assert note.value == pytest.approx(-0.49, abs=0.01), "the window of 90 degrees ends at an edge"
+
+
+def made_gears(diameter):
+    """Gears 3 and 4 with round holes of one diameter, mm, where the pin goes in."""
+    dividing, turn = dividing_of(VARIABLE), np.linspace(0, -math.tau, 90, endpoint=False)
+
+    def part(name, centre):
+        points = np.column_stack((np.cos(turn), np.sin(turn)))
+        places = points * diameter / 2 + (centre.real, centre.imag)
+        flat = np.zeros(len(turn))
+        ring = MadeRing(places, -points, flat, flat.astype(bool))
+        return (MadePart(name, name, 0.001, (MadeSection(0.0, 10.0, (ring,)),)),)
+
+    hole = dividing.hole_at(90)
+    at_4 = complex(17.5 * math.cos(START), 17.5 * math.sin(START))
+    return {"gear-3": part("gear-3", dividing.centre(hole)), "gear-4": part("gear-4", at_4)}
+
+
+def test_the_play_of_the_pin_is_told_with_holes_as_made():
+    play, speed = joint_figures(VARIABLE, made_gears(4.010))
+    assert play.design == pytest.approx(1e6 * 0.028 / 17.5)
+    assert play.made == pytest.approx(1e6 * 2 * (4.010 - 3.992) / 17.5, rel=1e-6)
+    # 2 µm of path on the diameter of each hole, and the pin's own tolerance.
+    assert (play.low, play.high) == pytest.approx((2e6 * 0.012 / 17.5, 2e6 * 0.024 / 17.5), rel=1e-6)
+    assert play.asked == pytest.approx(1e6 * 2 * (4.012 - 3.988) / 17.5)
+    assert speed.made == pytest.approx(50 * 1.2477041 * play.made * 1e-6, rel=1e-6)
+    assert going_in([play, speed]) == []
+    assert joint_figures(VARIABLE.model_copy(update={"phase_joint": None, "phases": None}), {}) == []
+
+
+@pytest.mark.parametrize(("diameter", "severity"), [(3.995, Severity.WARNING), (3.990, Severity.ERROR)])
+def test_a_pin_that_does_not_go_in_is_told(diameter, severity):
+    (finding,) = going_in(joint_figures(VARIABLE, made_gears(diameter)))
+    assert (finding.code, finding.severity) == ("train.phase-fit", severity)
+
+
+def test_the_pin_has_its_head_below_the_coupler():
+    layout = Layout.of(VARIABLE)
+    (pin,) = [part for part in FAMILY.parts(VARIABLE) if part.name == "phase-pin"]
+    box = pin.build().BoundingBox()
+    (instance,) = pin.instances
+    assert instance.z + box.zmax == pytest.approx(layout.link - layout.gap / 2)
+    assert (box.xmax, box.zmin) == pytest.approx((3.0, 0.0))
+    assert dataclasses.asdict(instance)["body"] == "phase-pin"
