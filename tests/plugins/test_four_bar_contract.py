@@ -16,6 +16,12 @@ class TestFourBars(FamilyContract):
         {"crank": 70, "coupler": 70, "follower": 75, "ground": 20},
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
         {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
+        {
+            **dict.fromkeys(("coupler_point_x", "coupler_point_y"), 40),
+            "setting_angle": 70,
+            "phases": [{"crank_turn": 30, "follower_turn": 12}],
+            "phase": 2,
+        },
     )
     refused = (
         ({"crank": 70, "coupler": 60, "swing_from": -60, "swing_to": 150}, "swing_to"),
@@ -39,9 +45,15 @@ class TestFourBars(FamilyContract):
         ("alpha_b", "jerk_b"),
     )
     input_rate = "omega_a"
-    variations: ClassVar = {"coupler_bend": (25,), "load_torque": (2,), "ground_angle": (30,)}
+    variations: ClassVar = {
+        "coupler_bend": (25,),
+        "load_torque": (2,),
+        "ground_angle": (30,),
+        "phases": ([{"crank_turn": 40, "follower_turn": 12}],),
+    }
     requirements: ClassVar = {
         "path": ({"starts": 4000, "designs": 2, "tolerance": 0.1},),
+        "adjustable-path": ({"starts": 600, "designs": 1},),
         "poles": ({"starts": 800, "designs": 3},),
     }
 
