@@ -31,6 +31,9 @@ INSIDE = 0.002
 """Share by which limits are tightened in the search, where they are held by penalties: what it gives keeps
 them strictly."""
 
+MARGIN = math.radians(0.5)
+"""The same of the transmission angle, which the search looks at in a few places."""
+
 SAME = 1e-3
 """Linkages whose unknowns agree to this are one."""
 
@@ -74,7 +77,7 @@ def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Syn
     """Machines whose coupler point follows all paths, each as one design per phase; the best first."""
     size, path, unknowns = _scaled(wanted)
     limits = Limits(
-        math.radians(wanted.least_transmission_angle) * (1 + INSIDE),
+        math.radians(wanted.least_transmission_angle) + MARGIN,
         wanted.shortest_link * (1 + INSIDE) / size,
         wanted.longest_link * (1 - INSIDE) / size,
         wanted.full_turn,
