@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
+from mechwright.designs.text import table_lines
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import in_phase
@@ -35,6 +37,12 @@ def reference(**changes) -> FourBarParams:
 def small(**changes) -> FourBarParams:
     """With pins that leave room between the holes."""
     return reference(**({"pin_diameter": 3, "rim": 2, "bushing_wall": 0.5} | changes))
+
+
+def test_phases_are_written_and_read_back():
+    """A list of tables in a design file."""
+    text = "\n".join(table_lines(FourBarParams, "parameters", reference(phase=2)))
+    assert FourBarParams.model_validate(tomllib.loads(text)["parameters"]) == reference(phase=2)
 
 
 @pytest.mark.parametrize("phase", [1, 2, 3])
