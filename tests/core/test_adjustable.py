@@ -177,6 +177,37 @@ def test_five_bars_with_three_phases_come_back():
     np.testing.assert_allclose(np.degrees(settings.follower), [0, -19, 11], atol=1e-4)
 
 
+@pytest.mark.parametrize(
+    ("pins", "ratio", "count", "noise", "least"),
+    [
+        (four_bars("adjust.planar4.two.points", 45.0)[0], 0.0, 10, 0.1, 4),
+        pytest.param(four_bars("adjust.planar4.three.points", 45.0)[0], 0.0, 8, 0.05, 6, marks=by_night),
+        pytest.param(five_bars(90.0)[0], 0.5, 12, 0.02, 5, marks=by_night),
+    ],
+)
+def test_surplus_points_bring_the_mechanism_back(pins, ratio, count, noise, least):
+    """With more points than unknowns there is one mechanism; starts around it find it."""
+    phases = len(pins.a)
+    unknowns = Unknowns(PlaneSpace(complex(pins.p[0])), 5 if ratio else 4, "moving", phases, ratio)
+    theta = np.linspace(0, -2.0 if ratio else 5.2, count)[1:]
+    points = []
+    for phase in range(phases):
+        curve, _ = follow(unknowns.space, pins.of(np.full(count - 1, phase)), ratio, theta)
+        points.append(np.concatenate([[pins.p[0]], curve]))
+    task = Path(tuple(points), 1.0).task(unknowns, ROOMY)
+    x, rng = unknowns.of_pins(pins), np.random.default_rng(5)
+    angles = np.tile(theta, phases)
+    found = fit(
+        task,
+        x + noise * rng.normal(size=(6, x.size)),
+        angles + noise * rng.normal(size=(6, angles.size)),
+        200,
+        (1.0,),
+    )
+    back = (np.sqrt(found.squares) < 1e-10) & (np.abs(found.x - x).max(axis=1) < 1e-5)
+    assert back.sum() >= least
+
+
 def test_settings_and_chords_of_the_reference():
     pins, points, _ = four_bars("adjust.planar4.three.points", 1.0)
     settings = settings_of(PlaneSpace(complex(points[0][0])), pins)
