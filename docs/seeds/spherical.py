@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from spherical_figures import figure_lines, pictures
 from spherical_source import TABLE_3, TABLE_4, PlanarFiveBar, asymptote, peak
 
 from mechwright.arrays import Array
@@ -39,6 +40,9 @@ PICTURE = HERE.parent / "images" / "spherical-structural-error.svg"
 ANGLES, ANGLES_N = np.radians(printed.ANGLES), np.radians(printed.ANGLES_N)
 TABLE_2 = np.array(printed.TABLE_2)
 DESIGN = PlanarDesign(printed.PINS, printed.RATIO, ANGLES, ANGLES_N, TABLE_2)
+
+PICTURES = pictures(DESIGN)
+"""Figures of the source, by file name."""
 
 LENGTHS = (0.5, 0.75, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 22)
 """Projection lengths of the table: those of the source's axis."""
@@ -364,7 +368,7 @@ INTRODUCTION = [
 
 def page() -> str:
     """The page."""
-    lines = [*INTRODUCTION]
+    lines = [*INTRODUCTION, *figure_lines()]
     for part in (path_tables, dyad_table, error_tables, lost_arcs, fits):
         lines += part()
     return "\n".join([*lines, ERRATA])
@@ -413,3 +417,5 @@ def picture() -> str:
 if __name__ == "__main__":
     PAGE.write_text(page(), encoding="utf-8")
     PICTURE.write_text(picture(), encoding="utf-8")
+    for name, draw in PICTURES.items():
+        (PICTURE.parent / name).write_text(draw(), encoding="utf-8")

@@ -18,7 +18,7 @@ def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> As
     if not set(bosses) <= set(made):
         return AsMade()
     holes = {
-        name: [Hole(boss.centre, boss.bore) for boss in own if boss.tag != "coupler-point"]
+        name: [Hole(boss.centre, boss.bore) for boss in own if boss.tag in ("A0", "A", "B", "B0")]
         for name, own in bosses.items()
     }
     links = {name: link(made[name][0], *own) for name, own in holes.items() if len(own) == 2}

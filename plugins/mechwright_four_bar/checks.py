@@ -17,6 +17,7 @@ from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
+from mechwright_four_bar.phases import in_one_place
 from mechwright_four_bar.plates import bosses_of, hidden_point, layout_of, layout_or_none, sides_of
 from mechwright_four_bar.reach import (
     TURN_BACK,
@@ -234,6 +235,9 @@ def _room(params: FourBarParams) -> Iterator[Finding]:
             distance = abs(one.centre - two.centre)
             needed = (one.bore + two.bore) / 2 + params.rim
             if not falls_short(distance, needed):
+                continue
+            if one.tag.endswith("-spare") or two.tag.endswith("-spare"):
+                yield in_one_place(params, one, two, distance, needed)
                 continue
             point = "coupler-point" in (one.tag, two.tag)
             yield Finding.error(

@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from mechwright import Family, Finding, Parameters, refuse
+from mechwright.contracts.finding import errors
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.requirements import PathRequirement, PolesRequirement
+from mechwright_four_bar.requirements import AdjustablePathRequirement, PathRequirement, PolesRequirement
 
 if TYPE_CHECKING:
     from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
@@ -18,48 +19,63 @@ class FourBars(Family[FourBarParams]):
     title = "Four-bar linkage"
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
     Params = FourBarParams
-    requirements: ClassVar = {"path": PathRequirement, "poles": PolesRequirement}
+    requirements: ClassVar = {
+        "path": PathRequirement,
+        "adjustable-path": AdjustablePathRequirement,
+        "poles": PolesRequirement,
+    }
 
     def check(self, params: FourBarParams) -> Sequence[Finding]:
         """Closure, rotation of the crank, transmission angle, room for bores and webs, layers."""
         from mechwright_four_bar.checks import findings
+        from mechwright_four_bar.phases import in_phase, setting_findings
 
-        return findings(params)
+        own = tuple(setting_findings(params))
+        if errors(own):
+            return own
+        return (*findings(in_phase(params)), *own)
 
     def solve(self, params: FourBarParams, samples: int) -> "Motion":
         """One turn of the crank at constant speed, or its swing there and back."""
         from mechwright_four_bar.motion import motion_of
+        from mechwright_four_bar.phases import in_phase
 
-        return motion_of(params, samples)
+        return motion_of(in_phase(params), samples)
 
     def parts(self, params: FourBarParams) -> "Sequence[Part]":
         """Ground, crank, coupler and follower as plates, their pins and bushings."""
-        from mechwright_four_bar.checks import findings
+        from mechwright_four_bar.phases import in_phase
         from mechwright_four_bar.plates import parts_of
 
-        refuse(findings(params))
-        return parts_of(params)
+        refuse(self.check(params))
+        return parts_of(in_phase(params))
 
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
         from mechwright_four_bar.as_made import as_made
+        from mechwright_four_bar.phases import in_phase
 
-        return as_made(params, made)
+        return as_made(in_phase(params), made)
 
     def tolerances(self, params: FourBarParams, tolerances: "Tolerances") -> "ToleranceModel":
         """Errors of the follower's angle and of the coupler point, from links and pins."""
+        from mechwright_four_bar.phases import in_phase
         from mechwright_four_bar.tolerances import FourBarTolerances
 
-        return FourBarTolerances(params, tolerances)
+        return FourBarTolerances(in_phase(params), tolerances)
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"
     ) -> "Synthesis[FourBarParams]":
-        """Linkages with a wanted path of a coupler point, or with wanted acceleration poles."""
+        """Linkages with wanted paths of a coupler point, or with wanted acceleration poles."""
         if kind == "path":
             from mechwright_four_bar.path_synthesis import through_points
 
             return through_points(PathRequirement.model_validate(requirement), progress)
+        if kind == "adjustable-path":
+            from mechwright_four_bar.adjustable_synthesis import through_phases
+
+            return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)
         from mechwright_four_bar.pole_synthesis import through_poles
 
         return through_poles(PolesRequirement.model_validate(requirement), progress)

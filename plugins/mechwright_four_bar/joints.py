@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from mechwright.mechanics.linkage import Boss
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import spare_holes
 
 HEAD, HEAD_HEIGHT = 1.6, 0.3
 """Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
@@ -78,9 +79,10 @@ def bosses(params: FourBarParams, sides: int) -> dict[str, tuple[Boss, ...]]:
 
     point = params.coupler_point
     third = () if point is None else (boss(point, pressed, "coupler-point"),)
+    spare = tuple(boss(at, turning, f"{name}-spare") for name, at in spare_holes(params))
     links = {
         "crank": (boss(0, pressed, "A0"), boss(params.crank, pressed, "A")),
-        "coupler": (boss(0, turning, "A"), boss(params.coupler, turning, "B"), *third),
+        "coupler": (boss(0, turning, "A"), boss(params.coupler, turning, "B"), *third, *spare),
     }
     end, one = boss(params.follower, pressed, "B"), boss(0, turning, "A0")
     if sides == 1:

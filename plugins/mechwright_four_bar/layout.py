@@ -132,7 +132,7 @@ def _spindles(params: FourBarParams, posts: Sequence[complex]) -> list[Spindle]:
 
 def link_outline(params: FourBarParams, name: str, bosses: tuple[Boss, ...]) -> Outline:
     """Crank and follower straight, the coupler straight, bent or about its point."""
-    if name != "coupler" or (params.coupler_bend == 0 and params.coupler_point is None):
+    if name != "coupler" or (params.coupler_bend == 0 and len(bosses) == 2):
         return _straight(bosses, params.web_width)
     if params.coupler_bend != 0:
         one, two = bosses

@@ -19,6 +19,7 @@ from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, turning_bore
 from mechwright_four_bar.loop import Loop
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import spare_holes
 from mechwright_four_bar.plates import joints_of, outlines_of, pin_length, sides_of, stack_of
 
 MILLI = 1e-3
@@ -46,6 +47,7 @@ def masses_of(params: FourBarParams) -> dict[str, Mass]:
         found[joint.body] += pin
     if params.bushing_wall > 0:
         turning = [("coupler", 0j), ("coupler", complex(params.coupler))]
+        turning += [("coupler", at) for _, at in spare_holes(params)]
         if sides_of(params) == 1:
             turning.append(("follower", 0j))
         for body, place in turning:

@@ -12,6 +12,15 @@ Place = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 """A coordinate."""
 
 
+class PhaseTable(Parameters):
+    """A further phase: how far crank and follower are turned to it in the pose of setting."""
+
+    crank_turn: Degrees = Field(
+        0.0, ge=-360, le=360, description="Of the crank from phase 1 to this one, counter-clockwise."
+    )
+    follower_turn: Degrees = Field(0.0, ge=-360, le=360, description="Of the follower, likewise.")
+
+
 class FourBarParams(Parameters):
     """A crank that turns fully or swings as a lever, a coupler, a follower and the ground, made of plates.
 
@@ -78,6 +87,16 @@ class FourBarParams(Parameters):
     swing_to: Annotated[float, Field(ge=-360, le=360), Unit("deg")] | None = Field(
         None, description="The other end of that swing."
     )
+    setting_angle: Annotated[float, Field(ge=-720, le=720), Unit("deg")] | None = Field(
+        None,
+        description="Crank angle from X in phase 1 at which the machine is set to another phase.",
+    )
+    phases: tuple[PhaseTable, ...] = Field(
+        (),
+        max_length=7,
+        description="Further phases: the coupler has more holes for A and B; its point stays.",
+    )
+    phase: int = Field(1, ge=1, le=8, description="Phase that motion and parts show.")
     load_torque: Annotated[float, Unit("N*m")] = Field(
         0.0,
         ge=-10000,
@@ -125,6 +144,14 @@ class FourBarParams(Parameters):
         if self.coupler_point_x is not None and self.coupler_bend != 0:
             raise ValueError(
                 "coupler_bend is for a coupler without a point; leave out coupler_point_x and _y"
+            )
+        if (self.setting_angle is None) != (not self.phases):
+            raise ValueError("give both setting_angle and phases, or neither")
+        if self.phases and self.coupler_bend != 0:
+            raise ValueError("coupler_bend is for a coupler of one phase; leave it out, or phases")
+        if self.phase > 1 + len(self.phases):
+            raise ValueError(
+                f"phase is {self.phase}, and there are {1 + len(self.phases)}; give the others in phases"
             )
         if (self.swing_from is None) != (self.swing_to is None):
             raise ValueError("give both swing_from and swing_to, or neither")

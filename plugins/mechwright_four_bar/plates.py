@@ -18,6 +18,7 @@ from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, Joint, bosses, joints,
 from mechwright_four_bar.layout import Layout, hidden, laid_out
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import spare_holes
 from mechwright_four_bar.reach import bar_of, course_of
 
 BOLT = 1.5
@@ -129,6 +130,7 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
     places = [(name, name, 0j) for name in moving]
     places += [(one.frame, one.body, one.place) for one in joints_of(params).values() if one.place]
     places.append(("coupler-b", "coupler", complex(params.coupler)))
+    places += [(name, "coupler", at) for name, at in spare_frames(params).items()]
     if sides_of(params) == 2:
         places.append(("ground-b0", "ground", complex(params.ground)))
     places += [(name, "ground", at) for name, at in posts_of(params).items()]
@@ -137,6 +139,11 @@ def frames_of(params: FourBarParams, bodies: Mapping[str, BodyMotion]) -> dict[s
         at = moving[body].point(place).position + pivot
         poses[frame] = Poses.planar(at.real, at.imag, moving[body].turning.theta)
     return poses
+
+
+def spare_frames(params: FourBarParams) -> dict[str, complex]:
+    """The frames of the coupler's holes for other phases, and their places in it, mm."""
+    return {f"coupler-spare-{n}": at for n, (_, at) in enumerate(spare_holes(params), start=1)}
 
 
 def held_by(params: FourBarParams) -> dict[str, Held]:
@@ -149,7 +156,7 @@ def held_by(params: FourBarParams) -> dict[str, Held]:
         held |= fixed("ground", "ground-b0", *posts_of(params))
     return {
         **held,
-        **fixed("coupler", "coupler-b"),
+        **fixed("coupler", "coupler-b", *spare_frames(params)),
         "A0": Held("revolute", "ground", "crank", drives=True),
         "B0": Held("revolute", "ground", "follower", (params.ground, 0.0, 0.0)),
         "A": Held("revolute", "crank", "coupler", (params.crank, 0.0, 0.0)),
@@ -208,7 +215,8 @@ def _bushings(params: FourBarParams, layers: Stack) -> list[Part]:
     if params.bushing_wall == 0:
         return []
     bore, outside = params.pin_diameter + params.running_fit, turning_bore(params)
-    thin = [Instance(name, layers.bottom("coupler")) for name in ("coupler", "coupler-b")]
+    ends = ("coupler", "coupler-b", *spare_frames(params))
+    thin = [Instance(name, layers.bottom("coupler")) for name in ends]
     thick = [Instance("ground", layers.bottom("ground"))]
     if sides_of(params) == 2:
         thick.append(Instance("ground-b0", layers.bottom("ground-2")))

@@ -58,11 +58,16 @@ class Spherical(Family[SphericalParams]):
     def synthesise(
         self, kind: str, requirement: Parameters, progress: Progress
     ) -> Synthesis[SphericalParams]:
-        """An adjustable five-bar for poses in the plane, or a four-bar for points of the sphere."""
+        """An adjustable linkage for poses in the plane or paths, or a four-bar for points of the sphere."""
         if kind == "adjustable-path":
+            wanted = AdjustablePathRequirement.model_validate(requirement)
+            if wanted.phases:
+                from mechwright_spherical.phased_synthesis import from_phases
+
+                return from_phases(wanted, progress)
             from mechwright_spherical.adjustable_synthesis import from_poses
 
-            return from_poses(AdjustablePathRequirement.model_validate(requirement), progress)
+            return from_poses(wanted, progress)
         from mechwright_spherical.fourbar_synthesis import from_points
 
         return from_points(FourBarPathRequirement.model_validate(requirement), progress)

@@ -43,7 +43,33 @@ _OVAL = (
 
 
 class AdjustablePathRequirement(Parameters):
-    """An adjustable five-bar, from poses of its coupler in the plane."""
+    """An adjustable linkage, from poses of its coupler in the plane or from a path per phase."""
+
+    phases: tuple[Annotated[tuple[Pin, ...], Field(min_length=3, max_length=MOST_POSITIONS)], ...] = Field(
+        (),
+        max_length=8,
+        description="Points of each phase in order, beginning with that in which the machine is set, "
+        "the same in all: x, y, or directions x, y, z. In place of path, turns, path_n and turns_n.",
+    )
+    linkage: Literal["five-bar", "four-bar"] = Field("five-bar", description="With phases: what is sought.")
+    moves: Literal["moving", "fixed", "both"] = Field(
+        "moving", description="With phases: pins that are set, on the coupler, in the ground, or both."
+    )
+    search: Literal["auto", "plane", "sphere"] = Field(
+        "auto",
+        description="With phases: where the search takes place; auto where the points are given.",
+    )
+    full_turn: bool = Field(
+        False, description="With phases: whether the crank of a four-bar turns fully in each."
+    )
+    least_arc: Degrees = Field(
+        12.0, ge=1, le=80, description="With phases: shortest arc of a link, the ground included."
+    )
+    greatest_arc: Degrees = Field(90.0, ge=10, le=170, description="With phases: greatest arc of a link.")
+    tried: int = Field(
+        2000, ge=100, le=100_000, description="With phases: random linkages of the first phase."
+    )
+    designs: int = Field(2, ge=1, le=20, description="With phases: most machines to give.")
 
     path: tuple[Pin, ...] = Field(
         _PATH,
@@ -100,6 +126,10 @@ class AdjustablePathRequirement(Parameters):
 
     @model_validator(mode="after")
     def _together(self) -> Self:
+        if self.phases:
+            self._phased()
+        elif changed := [name for name in _PHASED if getattr(self, name) != _default(self, name)]:
+            raise ValueError(f"{changed[0]} is for phases; give phases, or leave it out")
         same_length("path", self.path, "turns", self.turns)
         same_length("path_n", self.path_n, "turns_n", self.turns_n)
         if self.path[0] != self.path_n[0]:
@@ -111,6 +141,54 @@ class AdjustablePathRequirement(Parameters):
                 "ratio is 0, so the arm stands still; give the turns of the arm per turn of the crank"
             )
         return self
+
+    def _phased(self) -> None:
+        """Refuse what does not go with phases."""
+        for name in _POSED:
+            if getattr(self, name) != _default(self, name):
+                raise ValueError(f"{name} is for poses of one five-bar; leave it out, or phases")
+        first = self.phases[0][0]
+        for number, points in enumerate(self.phases, start=1):
+            apart = [abs(x - y) for x, y in zip(points[0], first, strict=False)]
+            if len(points[0]) != len(first) or max(apart) > SAME_PLACE:
+                raise ValueError("phases begin at different points; all begin where the machine is set")
+            if len(set(points)) < len(points):
+                raise ValueError(f"phases: phase {number} holds a point twice; leave one out")
+        if self.linkage == "five-bar":
+            if self.moves != "moving":
+                raise ValueError('moves is "moving" with a five-bar: its ground carries the gears')
+            if len(self.phases) < 2:
+                raise ValueError('phases: a five-bar has two at least; use linkage = "four-bar"')
+            if self.full_turn:
+                raise ValueError("full_turn is for a four-bar; leave it out")
+        elif self.ratio != _default(self, "ratio"):
+            raise ValueError("ratio is for a five-bar; leave it out")
+        if self.least_arc >= self.greatest_arc:
+            raise ValueError("least_arc must be below greatest_arc")
+
+    @property
+    def on_plane(self) -> bool:
+        """Whether linkages are sought in the plane."""
+        if self.search == "auto":
+            return all(len(pin) == 2 for points in self.phases for pin in points)
+        return self.search == "plane"
+
+
+def _default(requirement: Parameters, name: str) -> object:
+    return type(requirement).model_fields[name].default
+
+
+_PHASED = ("linkage", "moves", "search", "full_turn", "least_arc", "greatest_arc", "tried", "designs")
+"""Fields that count with phases alone."""
+
+_POSED = (
+    "path", "turns", "path_n", "turns_n", "crank_axis_x", "crank_length", "arm_axis", "arm_length",
+    "arm_angle", "crank_guess", "rocker_guess", "equations", "unknowns", "starts",
+)  # fmt: skip
+"""Fields that count with poses alone."""
+
+SAME_PLACE = 1e-9
+"""Points nearer to each other than this, in the plane's unit, are one."""
 
 
 class FourBarPathRequirement(Parameters):

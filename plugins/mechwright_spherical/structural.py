@@ -7,13 +7,17 @@ tolerance from there on. Another centre of the projection makes the error smalle
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mechwright import Array, KinematicsError
+from mechwright.mechanics.adjustable import Pins, follow
+from mechwright_spherical.chain import EDGE
 from mechwright_spherical.fivebar import projected
 from mechwright_spherical.projection import project
+from mechwright_spherical.space import SphereSpace
 from mechwright_spherical.vectors import norm
 
 LONGEST = 1e4
@@ -59,8 +63,83 @@ class PlanarDesign:
     angles_n: Array
     targets: Array
 
+    @property
+    def corners(self) -> Array:
+        """All pins and points (n, 2): where the mechanism lies."""
+        return np.array([*self.pins.values(), *self.targets])
 
-def errors(design: PlanarDesign, length: ArrayLike, centre: ArrayLike = (0.0, 0.0)) -> Array:
+    def errors(self, length: Array, centre: Array) -> Array:
+        """Errors (designs, positions) at lengths (designs,) and centres (designs, 2)."""
+        mechanism = projected(self.pins, self.targets[0], length, self.ratio, centre=centre)
+        wanted = np.moveaxis(project(self.targets, length[:, None], centre=centre[:, None]), -1, 0)
+        return norm(mechanism.path(self.angles, self.angles_n) - wanted)
+
+
+@dataclass(frozen=True, slots=True)
+class PhasedDesign:
+    """A planar four-bar or five-bar of any number of phases, with its paths.
+
+    Parameters
+    ----------
+    pins
+        (phases,), complex, in the pose of setting.
+    ratio
+        Of the drive; 0 for a four-bar.
+    phase
+        (n,) phase of each position, from 0.
+    angles
+        (n,) crank angles from the pose of setting, rad.
+    targets
+        (n,) path points, complex.
+    """
+
+    pins: Pins
+    ratio: float
+    phase: np.ndarray
+    angles: Array
+    targets: np.ndarray
+
+    @property
+    def corners(self) -> Array:
+        """All pins and points (n, 2): where the mechanism lies."""
+        found = np.concatenate([*(getattr(self.pins, name) for name in Pins.__slots__), self.targets])
+        return np.column_stack([found.real, found.imag])
+
+    def errors(self, length: Array, centre: Array) -> Array:
+        """Errors (designs, positions) at lengths (designs,) and centres (designs, 2)."""
+        wanted = on_sphere(self.targets, length, centre)
+        found, cosine = follow(
+            SphereSpace(np.array([0.0, 0.0, 1.0])),
+            projected_pins(self.pins, length, centre).of(self.phase),
+            self.ratio,
+            self.angles,
+        )
+        return np.where(np.abs(cosine) <= 1 + EDGE, norm(found - wanted), np.nan)
+
+
+def on_sphere(points: np.ndarray, length: Array, centre: Array) -> Array:
+    """Complex points (n,) projected with lengths (designs,) and centres (designs, 2): (3, designs, n)."""
+    flat = np.stack([points.real, points.imag], axis=-1)
+    return np.moveaxis(project(flat, length[:, None], centre=centre[:, None]), -1, 0)
+
+
+def projected_pins(pins: Pins, length: Array, centre: Array) -> Pins:
+    """Pins (phases,) of the plane as vectors (3, designs, phases)."""
+    return Pins(*(on_sphere(getattr(pins, name), length, centre) for name in Pins.__slots__))
+
+
+class Projectable(Protocol):
+    """A planar mechanism with its path, and the errors that its projection makes."""
+
+    @property
+    def corners(self) -> Array:
+        """Pins and points (n, 2)."""
+
+    def errors(self, length: Array, centre: Array) -> Array:
+        """Errors (designs, positions) at lengths (designs,) and centres (designs, 2)."""
+
+
+def errors(design: Projectable, length: ArrayLike, centre: ArrayLike = (0.0, 0.0)) -> Array:
     """Structural error (..., n1 + n2) on the unit sphere at projection lengths (...) and centres (..., 2).
 
     NaN where the projected mechanism cannot be assembled.
@@ -69,20 +148,17 @@ def errors(design: PlanarDesign, length: ArrayLike, centre: ArrayLike = (0.0, 0.
     shape = np.broadcast_shapes(d.shape, where.shape[:-1])
     d = np.broadcast_to(d, shape).reshape(-1)
     where = np.broadcast_to(where, (*shape, 2)).reshape(-1, 2)
-    mechanism = projected(design.pins, design.targets[0], d, design.ratio, centre=where)
-    wanted = np.moveaxis(project(design.targets, d[:, None], centre=where[:, None]), -1, 0)
-    found = norm(mechanism.path(design.angles, design.angles_n) - wanted)
-    return np.asarray(found.reshape(*shape, -1))
+    return np.asarray(design.errors(d, where).reshape(*shape, -1))
 
 
-def scaled_error(design: PlanarDesign, length: ArrayLike, position: int | None = None) -> Array:
+def scaled_error(design: Projectable, length: ArrayLike, position: int | None = None) -> Array:
     """Error times length (...): of one position, counted from 1, or the greatest of all."""
     found = errors(design, length) * np.asarray(length, dtype=float)[..., None]
     return np.asarray(found.max(axis=-1) if position is None else found[..., position - 1])
 
 
 def smallest_length(
-    design: PlanarDesign, tolerance: float, position: int | None = None, *, best: bool = False
+    design: Projectable, tolerance: float, position: int | None = None, *, best: bool = False
 ) -> float:
     """The length from which on the error times the length stays within ``tolerance``.
 
@@ -132,7 +208,7 @@ def smallest_length(
     return float(brentq(excess, low, high, rtol=1e-9))
 
 
-def best_centre(design: PlanarDesign, length: float, near: ArrayLike | None = None) -> tuple[Array, float]:
+def best_centre(design: Projectable, length: float, near: ArrayLike | None = None) -> tuple[Array, float]:
     """Centre (2,) with the least greatest error over the positions, and that error on the unit sphere.
 
     A minimax problem in two unknowns. A grid over the mechanism and its surroundings finds the valley; then
@@ -142,7 +218,7 @@ def best_centre(design: PlanarDesign, length: float, near: ArrayLike | None = No
     """
     from scipy.optimize import minimize
 
-    corners = np.array([*design.pins.values(), *design.targets])
+    corners = design.corners
     middle, half = (corners.min(axis=0) + corners.max(axis=0)) / 2, float(np.ptp(corners, axis=0).max())
     if near is None:
         side = np.linspace(-1, 1, _GRID)

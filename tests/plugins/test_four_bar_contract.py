@@ -17,6 +17,12 @@ class TestFourBars(FamilyContract):
         {"coupler_point_x": 40, "coupler_point_y": 30, "branch": "crossed", "direction": "cw", "pivot_x": 5},
         {"crank": 70, "coupler": 60, "follower": 75, "ground": 110, "swing_from": 30, "swing_to": 85},
         {"acceleration_ratio": -0.1},
+        {
+            **dict.fromkeys(("coupler_point_x", "coupler_point_y"), 40),
+            "setting_angle": 70,
+            "phases": [{"crank_turn": 30, "follower_turn": 12}],
+            "phase": 2,
+        },
     )
     refused = (
         ({"swing_from": 10, "swing_to": 40, "acceleration_ratio": 0.1}, "acceleration_ratio"),
@@ -41,9 +47,15 @@ class TestFourBars(FamilyContract):
         ("alpha_b", "jerk_b"),
     )
     input_rate = "omega_a"
-    variations: ClassVar = {"coupler_bend": (25,), "load_torque": (2,), "ground_angle": (30,)}
+    variations: ClassVar = {
+        "coupler_bend": (25,),
+        "load_torque": (2,),
+        "ground_angle": (30,),
+        "phases": ([{"crank_turn": 40, "follower_turn": 12}],),
+    }
     requirements: ClassVar = {
         "path": ({"starts": 4000, "designs": 2, "tolerance": 0.1},),
+        "adjustable-path": ({"starts": 600, "designs": 1},),
         "poles": ({"starts": 800, "designs": 3},),
     }
 

@@ -53,6 +53,19 @@ class TestSpherical(FamilyContract):
     input_rate = "omega"
     variations: ClassVar = {"path_tolerance": (0.1,)}
     requirements: ClassVar = {
-        "adjustable-path": ({"unknowns": "six", "starts": 1},),
+        "adjustable-path": (
+            {"unknowns": "six", "starts": 1},
+            {
+                "phases": [
+                    [[20, 88], [-10, 78], [-27, 52], [-25, 30]],
+                    [[20, 88], [-5, 87], [-24, 63], [-29, 40]],
+                ],
+                "linkage": "four-bar",
+                "projection_length": 100,
+                "projection_centre": "best",
+                "tried": 500,
+                "designs": 1,
+            },
+        ),
         "four-bar-path": ({"atlas": 200, "starts": 1},),
     }

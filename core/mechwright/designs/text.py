@@ -121,6 +121,8 @@ def toml(value: Any) -> str:
     """A value as TOML writes it, tables inline."""
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, BaseModel):
+        return toml(value.model_dump(exclude_none=True))
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml(item) for item in value) + "]"
     if isinstance(value, Mapping):

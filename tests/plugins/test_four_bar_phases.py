@@ -1,0 +1,120 @@
+"""A four-bar that is set to several phases: one coupler with a hole for each pivot of each phase."""
+
+import json
+import math
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from mechwright.contracts.finding import errors
+from mechwright.designs.text import table_lines
+from mechwright_four_bar.family import FourBars
+from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import in_phase
+
+FACTS = {
+    fact["name"]: fact
+    for fact in json.loads(
+        (Path(__file__).parents[1] / "data" / "adjustable.json").read_text(encoding="utf-8")
+    )["facts"]
+}
+TURNS = ({"crank_turn": 25, "follower_turn": 14}, {"crank_turn": -35, "follower_turn": 9})
+
+
+def reference(**changes) -> FourBarParams:
+    """The reference mechanism: all phases are crank-rockers."""
+    table = {
+        "crank": 30, "coupler": 95, "follower": 80, "ground": abs(100 + 10j),
+        "ground_angle": math.degrees(math.atan2(10, 100)), "coupler_point_x": 45, "coupler_point_y": 40,
+        "setting_angle": 70, "phases": TURNS, **changes,
+    }  # fmt: skip
+    return FourBarParams.model_validate(table)
+
+
+def small(**changes) -> FourBarParams:
+    """With pins that leave room between the holes."""
+    return reference(**({"pin_diameter": 3, "rim": 2, "bushing_wall": 0.5} | changes))
+
+
+def test_phases_are_written_and_read_back():
+    """A list of tables in a design file."""
+    text = "\n".join(table_lines(FourBarParams, "parameters", reference(phase=2)))
+    assert FourBarParams.model_validate(tomllib.loads(text)["parameters"]) == reference(phase=2)
+
+
+@pytest.mark.parametrize("phase", [1, 2, 3])
+def test_each_phase_has_the_coupler_of_the_reference(phase):
+    shown = in_phase(reference(phase=phase))
+    expected = FACTS[f"adjust.planar4.phase{phase}.L_px_py"]["expected"]
+    assert [shown.coupler, shown.coupler_point_x, shown.coupler_point_y] == pytest.approx(expected, abs=1e-9)
+    assert shown.branch == "open"
+
+
+@pytest.mark.parametrize("phase", [1, 2, 3])
+def test_the_coupler_point_passes_the_reference_points(phase):
+    fact = FACTS["adjust.planar4.three.points"]
+    motion = FourBars().solve(reference(phase=phase), 3601)
+    phi = np.unwrap(motion.channels["phi"].values)
+    for degrees, point in zip(
+        fact["inputs"]["crank_deg"][phase - 1], fact["expected"][phase - 1], strict=True
+    ):
+        angle = (math.radians(degrees) - phi[0]) % math.tau + phi[0]
+        place = [np.interp(angle, phi, motion.channels[name].values) for name in ("xP", "yP")]
+        assert place == pytest.approx(point, abs=1e-3)
+
+
+def test_the_coupler_is_the_same_plate_in_all_phases():
+    plates = []
+    for phase in (1, 2, 3):
+        parts = {part.name: part for part in FourBars().parts(small(phase=phase))}
+        outline = parts["coupler"].outline
+        plates.append((outline.area, outline.outer.area, len(outline.inner)))
+        assert len(parts["bushing"].instances) == 7  # the follower turns on one as well
+    for plate in plates[1:]:
+        assert plate == pytest.approx(plates[0], rel=1e-9)
+    assert plates[0][2] == 7  # A and B three times, and the point
+
+
+def test_the_chords_of_the_holes_are_told():
+    notes = [one for one in FourBars().check(small()) if one.code == "four-bar.setting"]
+    assert len(notes) == 2
+    assert "12.99 mm (A) and 19.5 mm (B)" in notes[0].message
+    assert "18.04 mm (A) and 12.55 mm (B)" in notes[1].message
+    assert not errors(FourBars().check(small()))
+
+
+def test_pivots_in_one_place_are_refused_with_what_helps():
+    close_by = ({"crank_turn": 12, "follower_turn": 14},)
+    found = errors(FourBars().check(small(phases=close_by, pin_diameter=6)))
+    assert [one.code for one in found] == ["four-bar.phases"]
+    assert "pivots in one place" in found[0].message
+    assert found[0].value == pytest.approx(2 * 30 * math.sin(math.radians(6)))
+    mended = float(found[0].remedy.split("at most ")[1].split(" mm")[0])
+    assert not errors(FourBars().check(small(phases=close_by, pin_diameter=mended)))
+
+
+def test_an_equal_pivot_is_one_hole():
+    phases = ({"crank_turn": 0, "follower_turn": 20},)
+    parts = {part.name: part for part in FourBars().parts(small(phases=phases))}
+    assert len(parts["coupler"].outline.inner) == 4
+
+
+def test_a_pose_in_which_the_links_cannot_be_joined_is_refused():
+    found = errors(FourBars().check(reference(crank=100, coupler=60, setting_angle=190)))
+    assert [one.code for one in found] == ["four-bar.setting"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"setting_angle": None}, "setting_angle"),
+        ({"phase": 4}, "phase is 4"),
+        ({"coupler_bend": 10, "coupler_point_x": None, "coupler_point_y": None}, "coupler_bend"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(changes, word):
+    with pytest.raises(ValidationError, match=word):
+        reference(**changes)
