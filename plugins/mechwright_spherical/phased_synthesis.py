@@ -300,8 +300,8 @@ def _settings(wanted: AdjustablePathRequirement, settings: Settings) -> list[Fin
         Finding.note(
             "spherical.setting",
             f"best machine, phase {number}: at the first point hold the coupler; free the crank's pin, "
-            f"{apart}turn the crank by {crank:+.6g} degrees and fasten it; free the rocker's pin, turn the rocker by "
-            f"{follower:+.6g} degrees and fasten it; let the coupler go",
+            f"{apart}turn the crank by {crank:+.6g} degrees and fasten it; free the rocker's pin, "
+            f"turn the rocker by {follower:+.6g} degrees and fasten it; let the coupler go",
             crank,
             "deg",
         )
