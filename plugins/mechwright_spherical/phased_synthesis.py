@@ -19,6 +19,7 @@ from mechwright.mechanics.adjustable import (
     Path,
     Pins,
     PlaneSpace,
+    Settings,
     Task,
     Unknowns,
     exact_number,
@@ -100,6 +101,8 @@ def from_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthe
             )
             for number, params in designs
         ]
+        if machines == 0 and wanted.moves == "moving":
+            notes += _settings(wanted, settings)
         machines += 1
         if machines == wanted.designs:
             break
@@ -287,6 +290,23 @@ def _candidate(
         figures[f"error_{k}"] = Scalar(float(miss), "mm")
         figures[f"crank_angle_{k}"] = Scalar(float(angle), "rad")
     return Candidate(params, Scalar(rms, "mm"), figures)
+
+
+def _settings(wanted: AdjustablePathRequirement, settings: Settings) -> list[Finding]:
+    """How the best machine is set from phase 1 to each other phase, in order."""
+    apart = "with the gears open, " if wanted.linkage == "five-bar" else ""
+    rows = np.degrees([settings.crank, settings.follower]).T[1:].tolist()
+    return [
+        Finding.note(
+            "spherical.setting",
+            f"best machine, phase {number}: at the first point hold the coupler; free the crank's pin, "
+            f"{apart}turn the crank by {crank:+.6g} degrees and fasten it; free the rocker's pin, "
+            f"turn the rocker by {follower:+.6g} degrees and fasten it; let the coupler go",
+            crank,
+            "deg",
+        )
+        for number, (crank, follower) in enumerate(rows, start=2)
+    ]
 
 
 def _count(wanted: AdjustablePathRequirement) -> Finding:

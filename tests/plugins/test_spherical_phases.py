@@ -124,6 +124,11 @@ def test_a_five_bar_with_three_phases_has_one_set_of_links():
         assert table.a1 == tables[0].a1
         assert table.b0 == tables[0].b0
     assert tables[1].a1n != tables[2].a1n
+    told = [one for one in result.findings if one.code == "spherical.setting"]
+    assert [one.value for one in told] == pytest.approx(
+        [math.degrees(one.figures["crank_turned"].value) for one in designs[1:]]
+    )
+    assert all("gears open" in one.message for one in told)
 
 
 def test_a_sphere_without_room_for_the_links_is_refused():
