@@ -20,7 +20,7 @@ HELD = {"hold": {"method": "bore", "clamp_diameter": 16}}
 
 def proven(of):
     program = plan(of)
-    assert gouge(of, program) <= of.settings.path.inner_tolerance
+    assert gouge(of, program) <= 0.001
     assert leftover(of, program) == 0
     check_rules(of, program)
     return program

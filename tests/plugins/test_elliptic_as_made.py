@@ -19,15 +19,13 @@ from mechwright_elliptic_gears.assembly import (
 from mechwright_elliptic_gears.family import EllipticGears
 
 FAMILY = EllipticGears()
-MEASURED = "[cam.path]\ninner_tolerance = 0.001\nouter_tolerance = 0.004\n"
-"""What the path that was measured had asked for."""
 PAIR = {"eccentricity": 0.4, "semi_major": 50.0, "teeth": 25, "thickness": 10.0, "bore": 12.0}
 
 
 @pytest.fixture(scope="module")
 def tight(tmp_path_factory):
     path = tmp_path_factory.mktemp("as-made") / "pair.toml"
-    path.write_text(table("elliptic-gears", **PAIR, backlash=0.0) + MEASURED)
+    path.write_text(table("elliptic-gears", **PAIR, backlash=0.0))
     return path
 
 
@@ -102,7 +100,7 @@ def test_build_refuses_it_and_check_says_so_before(command_line, tight, tmp_path
 
 def test_what_check_cannot_know_build_finds_out(command_line, tmp_path):
     path = tmp_path / "pair.toml"
-    path.write_text(table("elliptic-gears", **PAIR, backlash=0.012) + MEASURED)
+    path.write_text(table("elliptic-gears", **PAIR, backlash=0.012))
     code, out, _ = command_line("check", str(path))
     assert (code, "warning [gear.backlash]" in out) == (0, True)
     code, _, err = command_line("build", str(path), "-o", str(tmp_path / "out"))

@@ -84,8 +84,7 @@ def test_the_examples_run_as_made(name):
     lock = found["lock.clearance"]
     assert lock.asked == OFF_CENTRE < lock.low < lock.made < lock.design
     error = found["wheel.error"]
-    assert error.low < error.made < error.high
-    assert error.made == pytest.approx(error.design, rel=0.02)
+    assert error.low < error.made < error.design < error.high
     (curve,) = said.curves
     assert set(curve.lines) == {"as drawn", "as made", "in the worst case"}
 

@@ -25,24 +25,14 @@ MOST_OFF = TOLERANCES.leftover - TOLERANCES.arc_fit
 """Most that may, mm: the corners of a larger cutter need the rest of the permitted leftover."""
 
 
-WALL = TOLERANCES.arc_fit
-"""How far a finished wall may lie from its place as it comes, mm, on either side: nothing stays in the mean.
-
-With b the mean, t what path and chords stray and k what the control strays, a wall lies within |b| + t + k
-of its place, and b - t - k has to stay above minus the limit of a gouge, 5 µm. So b = 0 is best as long as
-t + k is below that. t = 2 µm and k = 2.2 µm at G64 P0.002 are; where k is more, as on slow machines, the
-operation is run exactly. A smaller t costs blocks, as 1/√t, and k outweighs what it gains.
-"""
-
-
 class PathSettings(Parameters):
     """How exact the finished walls are, and what their paths are made of."""
 
     inner_tolerance: Millimetres = Field(
-        WALL, ge=0, le=DEEPEST_INTO, description="Deepest that finishing may cut into a wall."
+        TOLERANCES.outline, ge=0, le=DEEPEST_INTO, description="Deepest that finishing may cut into a wall."
     )
     outer_tolerance: Millimetres = Field(
-        WALL,
+        2 * (TOLERANCES.arc_fit + TOLERANCES.flatten) - TOLERANCES.outline,
         ge=LEAST_ZONE / 2,
         le=MOST_OFF,
         description="Most that finishing may leave on a wall; at least inner_tolerance.",
