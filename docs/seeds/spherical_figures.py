@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-from mechwright_cam.pages.svg import path as polyline
 
 from mechwright.arrays import Array
 from mechwright.mechanics.adjustable import Pins, PlaneSpace, follow, settings_of
+from mechwright.output.svg import path as polyline
 from mechwright_spherical import printed
 from mechwright_spherical.planar_synthesis import points
 from mechwright_spherical.structural import PlanarDesign, errors

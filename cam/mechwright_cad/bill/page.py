@@ -1,12 +1,15 @@
-"""The bill of materials as CSV, and as a page. Imports jinja2 when the page is made."""
+"""The bill of materials as CSV, and as a page. Imports jinja2 and what reckons when the page is made."""
 
 import csv
 import io
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mechwright.build import Build, Page, RawStock
-from mechwright_cad.bill.lines import COLUMNS, Line, lines_of
 from mechwright_cad.turned_drawing.page import SUFFIXES
+
+if TYPE_CHECKING:
+    from mechwright_cad.bill.lines import Line
 
 STEM = "bill-of-materials"
 """Of both files."""
@@ -29,6 +32,7 @@ class BillOfMaterials(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """Both files; none for a mechanism without parts."""
+        from mechwright_cad.bill.lines import lines_of
         from mechwright_cad.making import Solids
 
         if not build.parts:
@@ -54,8 +58,10 @@ def drawings_of(build: Build) -> dict[str, list[str]]:
     return found
 
 
-def bill_csv(lines: list[Line]) -> str:
+def bill_csv(lines: "list[Line]") -> str:
     """The lines under the names of their columns; masses to a hundredth of a gram."""
+    from mechwright_cad.bill.lines import COLUMNS
+
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -65,7 +71,7 @@ def bill_csv(lines: list[Line]) -> str:
     return text.getvalue()
 
 
-def bill_html(design: str, lines: list[Line]) -> str:
+def bill_html(design: str, lines: "list[Line]") -> str:
     """The same for people, with its sums."""
     import jinja2
 
