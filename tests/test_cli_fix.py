@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from by_night import by_night
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -139,6 +140,7 @@ def test_fix_as_json(run: Run, short: Path) -> None:
     assert all(key.startswith("parameters.") for key in said["fix"])
 
 
+@by_night
 def test_a_small_linkage_comes_to_build_up_to_its_programs(run: Run, short: Path) -> None:
     """The nearest for its parts alone has walls that no tab holds while they are cut: another is taken."""
     short.write_text(SMALL, encoding="utf-8")

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from by_night import by_night
 
 from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage, until_error
 from mechwright.contracts.part import Part
@@ -142,6 +143,7 @@ def test_a_page_without_bodies_still_has_its_points(run: Run, tmp_path: Path) ->
     assert page["window"][2] > 20
 
 
+@by_night
 def test_plates_that_collide_are_drawn_and_told_of(run: Run, tmp_path: Path, monkeypatch) -> None:
     from mechwright_geneva.family import Geneva
 

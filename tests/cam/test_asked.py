@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from by_night import examples
+from by_night import by_night, examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
@@ -55,6 +55,7 @@ def made(found, name):
     return machine(job, Machining(Build(found, host())).control)
 
 
+@by_night
 def test_the_example_is_built_and_everything_shows_what_it_asks(tmp_path):
     done = CliRunner().invoke(
         make_app(), ["build", str(FINISHED), "-o", str(tmp_path / "out"), "--also", "dxf"]

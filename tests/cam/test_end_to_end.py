@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import interpret, prove
-from by_night import examples
+from by_night import by_night, examples
 from hypothesis import event, given, settings
 from hypothesis import example as known_design
 from hypothesis import strategies as st
@@ -103,6 +103,7 @@ def test_linuxcnc_accepts_the_program_and_reads_what_we_read(example: Machined, 
     np.testing.assert_allclose(ours, theirs, atol=LAST_DECIMAL, rtol=0)
 
 
+@by_night
 def test_a_two_millimetre_mill_leaves_22_micrometres_in_the_fillets() -> None:
     made = machined(design_of(REFERENCE.format(mill="mill-2")))
     assert made.proof.ok
@@ -263,7 +264,7 @@ WIDE_CLAMP = {
 }
 
 
-@settings(max_examples=examples(5, 25))
+@settings(max_examples=examples(2, 25))
 @known_design(**WEDGES)
 @known_design(**WIDE_CLAMP)
 @given(parameters=DESIGNS, cam=SETTINGS)

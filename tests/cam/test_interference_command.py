@@ -38,7 +38,13 @@ def twisted(family, params, samples, solve):
 
 
 @pytest.mark.parametrize(
-    "command", ["check", pytest.param("cam", marks=by_night), pytest.param("model", marks=by_night), "build"]
+    "command",
+    [
+        "check",
+        pytest.param("cam", marks=by_night),
+        pytest.param("model", marks=by_night),
+        pytest.param("build", marks=by_night),
+    ],
 )
 def test_a_collision_stops_every_command_and_names_the_bodies(command, design, tmp_path, monkeypatch):
     family = type(host().family("elliptic-gears"))

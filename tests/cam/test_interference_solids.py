@@ -6,6 +6,7 @@ import cadquery as cq
 import manifold3d
 import numpy as np
 import pytest
+from by_night import by_night
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from step_read import parts_from_step
@@ -111,6 +112,7 @@ def test_a_corner_that_dips_in_for_a_degree_is_found():
             assert report.collisions[0].depth == pytest.approx(0.04, abs=0.004)
 
 
+@by_night
 def test_a_ball_in_its_shell_and_a_pin_in_its_bore_turn_without_clearance():
     shell = (
         cq.Workplane().sphere(9).cut(cq.Workplane().sphere(6)).intersect(cq.Workplane().box(24, 24, 6)).val()
@@ -266,6 +268,7 @@ def test_a_path_in_space_is_followed_between_samples():
     assert isinstance(path, Path)
 
 
+@by_night
 def test_the_elliptic_pair_read_back_from_step_is_clear(tmp_path):
     family = host().family("elliptic-gears")
     params = family.Params.model_validate({"teeth": 21, "backlash": 0.05})

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
-from by_night import examples
+from by_night import by_night, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, rounded_box
@@ -190,6 +190,7 @@ def nested(tmp_path, text, head=PAIR):
     return prepare(design, plates(design.family.parts(design.params)))[1]
 
 
+@by_night
 def test_name_and_gap_change_the_result_and_a_nest_may_have_settings(tmp_path):
     base = nested(tmp_path, "[cam.nest]\n")
     assert [job.part.name for job in base] == ["nest"]
@@ -336,6 +337,7 @@ def test_parts_of_different_thickness_are_refused(tmp_path):
 
 
 @needs_rs274
+@by_night
 def test_the_four_gears_of_the_best_train_on_one_plate(tmp_path):
     text = (EXAMPLES / "figure-eight-best.toml").read_text()
     file = tmp_path / "best.toml"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
-from by_night import examples
+from by_night import by_night, examples
 from engagement import engagements
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -75,6 +75,7 @@ def test_engagement_in_random_areas(seed, angle):
             )
 
 
+@by_night
 def test_all_that_is_roomy_is_cleared():
     bend = BENDS[-1] * MILL.radius
     for area in (BOX, TEE):

@@ -275,7 +275,7 @@ def random_recess(rng):
     return loop
 
 
-@settings(max_examples=examples(5, 30), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(2, 30), deadline=None, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 10**9))
 def test_any_recesses_are_cut_or_refused(seed):
     rng = np.random.default_rng(seed)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import posted, prove
-from by_night import NIGHT, examples
+from by_night import NIGHT, by_night, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, lobes, part, plate, rounded_box
@@ -100,6 +100,7 @@ def test_a_wider_zone_makes_shorter_programs():
     assert widest < 0.8 * exact
 
 
+@by_night
 def test_arcs_are_written_where_they_stand_for_enough_lines():
     counts = []
     for lines in (1, 2, 3, 4, 10, 100):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import prove
-from by_night import NIGHT
+from by_night import NIGHT, by_night
 from height_map import read
 from round_parts import LIBRARY, OUTSIDE, WIDE, box, cut, failed, laid, made, operations, stadium
 
@@ -141,6 +141,7 @@ def test_a_ball_leaves_no_ridge_between_wall_and_floor(leave: float) -> None:
     assert len(cut(text, job, 0.05).left(floor, -2.489)) == 0
 
 
+@by_night
 def test_cusps_of_bounded_engagement_are_levelled_all_over_the_floor() -> None:
     """In the middle of the helix and between its passes, too, far from what stays at the walls."""
     recess = Pocket("recess", box(11, 9, 3), (), 0.0, 4.0)

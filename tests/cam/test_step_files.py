@@ -55,6 +55,7 @@ def part():
     return wavy_part()
 
 
+@by_night
 def test_same_bytes_from_every_process_and_every_time(part):
     exporter = StepExporter()
     for _ in range(2):

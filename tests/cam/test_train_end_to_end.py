@@ -108,6 +108,7 @@ def test_no_two_solids_read_back_from_step_meet_over_a_turn(built: Built, tmp_pa
     assert report.skipped == ()
 
 
+@by_night
 def test_a_coupler_as_high_as_the_gears_it_joins_is_found() -> None:
     design = load(EXAMPLES / "figure-eight-train.toml", host())
     parts = {part.name: part for part in design.family.parts(design.params)}

@@ -7,6 +7,7 @@ import time
 from contextlib import closing
 
 import pytest
+from by_night import by_night
 
 from mechwright.beside import Beside
 from mechwright.build import Build, Wanted
@@ -182,6 +183,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     assert (tmp_path / "out" / "x.step").exists() is (fault is None)
 
 
+@by_night
 def test_a_second_process_compares_and_writes_the_same(tmp_path):
     with pair(tmp_path, "model", ("step", "stl")) as build:
         motion, sample = build.pose

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from by_night import by_night
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from tolerance_models import assert_exact
@@ -220,6 +221,7 @@ def test_tolerances_of_two_plates():
     assert_exact(model, np.linspace(0.1, 6.0, 7))
 
 
+@by_night
 def test_the_example_builds_without_a_warning(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

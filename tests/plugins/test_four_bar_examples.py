@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from four_bar_reference import poles_of
 from typer.testing import CliRunner
 
@@ -26,6 +27,7 @@ REQUIREMENTS = sorted(
 )
 
 
+@by_night
 def test_the_crank_rocker_builds_without_a_warning(tmp_path):
     path = EXAMPLES / "crank-rocker-three-poles.toml"
     design = load(path, host())

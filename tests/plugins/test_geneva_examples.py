@@ -144,6 +144,7 @@ def test_a_number_of_slots_builds_end_to_end(tmp_path, slots, law):
     assert (tmp_path / "out" / "as-made.html").exists()
 
 
+@by_night
 def test_the_requirement_gives_designs_that_build(tmp_path):
     done = run("synthesize", ROOT / "examples" / "geneva-requirement.toml", "-o", tmp_path / "found")
     assert done.returncode == 0, done.stderr

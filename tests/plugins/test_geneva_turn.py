@@ -7,6 +7,7 @@ import geneva_printed as printed
 import numpy as np
 import pytest
 import shapely
+from by_night import examples
 from geneva_turn import prove
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -151,7 +152,7 @@ def tables(draw):
     return table
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(4, 24))
 @given(tables())
 def test_a_design_that_check_calls_clean_has_no_overlap(table):
     params = GenevaParams(**table)

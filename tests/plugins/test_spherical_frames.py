@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_night import by_night
 from typer.testing import CliRunner
 
 from mechwright.cli.app import make_app
@@ -195,6 +196,7 @@ def test_both_strips_of_the_ground_count_as_made():
     assert error(**both) == pytest.approx(0.0, abs=0.01)
 
 
+@by_night
 def test_the_example_builds_without_a_warning(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
