@@ -107,7 +107,7 @@ def path_tolerance(scene: Scene) -> Check:
         return scene.bad(step, message, found, LOOSEST, "mm")
     if not off.any():
         return Check(True, f"no word lets {name} leave the path further than its settings do")
-    far = scene.off_path.too_deep(off, limit)
+    far = scene.off_path.too_deep(off, limit, any_one=True)
     if far.any():
         some = copy(scene.paths)
         some.steps = some.steps[far[some.steps]]

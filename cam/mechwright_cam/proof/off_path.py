@@ -20,8 +20,8 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import Gouge, kinds, near_ones
-from mechwright_cam.proof.paths import NEAR, Paths
+from mechwright_cam.proof.gouge import MOST_CORNERS, Gouge, kinds, near_ones
+from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
@@ -81,8 +81,10 @@ def deepest_off_path(paths: Paths, job: Job, off: Array) -> Gouge | None:
     return max(found, key=lambda cut: cut.depth, default=None)
 
 
-def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.bool_]:
+def too_deep(paths: Paths, job: Job, off: Array, limit: float, *, any_one: bool = False) -> NDArray[np.bool_]:
     """Which steps (n,) cut deeper than ``limit`` into the finished part if they are off their paths, mm.
+
+    With ``any_one`` some of them are enough.
 
     Of round and pointed tools, whose depth is more than a question of distance, the deepest step alone is
     told.
@@ -90,7 +92,7 @@ def too_deep(paths: Paths, job: Job, off: Array, limit: float) -> NDArray[np.boo
     upright = flat(paths)[paths.steps]
     own, other = copy(paths), copy(paths)
     own.steps, other.steps = paths.steps[upright], paths.steps[~upright]
-    found = reaching(own, job, off - limit, limit)
+    found = reaching(own, job, off - limit, limit, any_one=any_one)
     if other.steps.size:
         cut = deepest_off_path(other, job, off)
         if cut is not None and cut.depth > limit:
@@ -119,14 +121,18 @@ class OffPath:
         ):
             self.clear, self._limit = other.clear.copy(), other._limit
 
-    def too_deep(self, off: Array, limit: float, steps: Ints | None = None) -> NDArray[np.bool_]:
+    def too_deep(
+        self, off: Array, limit: float, steps: Ints | None = None, *, any_one: bool = False
+    ) -> NDArray[np.bool_]:
         """As :func:`too_deep`, of some steps or of all."""
         if limit < self._limit:
             self.clear[:] = -np.inf
         own, more = copy(self.paths), off - limit
         own.steps = own.steps if steps is None else steps
         own.steps = own.steps[more[own.steps] > self.clear[own.steps]]
-        found = too_deep(own, self.job, off, limit)
+        found = too_deep(own, self.job, off, limit, any_one=any_one)
+        if any_one and found.any():
+            return found  # not all have been asked
         clear = own.steps[(self._flat & ~found)[own.steps]]
         self.clear[clear], self._limit = more[clear], limit
         return found
@@ -138,10 +144,11 @@ def flat(paths: Paths) -> NDArray[np.bool_]:
     return np.asarray((paths.cutter.nose == 0) & np.isin(paths.run.tool, mills))
 
 
-def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.bool_]:
+def reaching(paths: Paths, job: Job, more: Array, sunk: float, *, any_one: bool = False) -> NDArray[np.bool_]:
     """Which steps (n,) come to the finished part with tools whose radius is ``more`` (n,) larger, mm.
 
-    Layers count from ``sunk`` below their top on, mm.
+    Layers count from ``sunk`` below their top on, mm. Where it is enough to know of any one, no more are
+    asked than it takes to find some.
     """
     found = np.zeros(len(paths.run), dtype=np.bool_)
     for band in bands(job, heights(job)):
@@ -151,20 +158,41 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float) -> NDArray[np.boo
         x0, y0, x1, y1 = band.keep.bounds
         apart = (least > np.array((x1, y1)) + reach[:, None]) | (most < np.array((x0, y0)) - reach[:, None])
         near = np.flatnonzero(~apart.any(axis=1))
-        if near.size:
-            pieces, reach, keep = pieces.only(near), reach[near], prepared(band.keep)
-            # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
-            widest = np.argsort(-reach, kind="stable")
-            chosen, kind = kinds(paths, pieces.only(widest))
-            one, wide = pieces.only(widest[chosen]), reach[widest[chosen]]
-            lines = paths.lines(one)
-            close = near_ones(keep, lines, _roughly(paths.radius[one.step], more[one.step]))
-            within = np.zeros(chosen.size, dtype=np.bool_)
-            within[close] = shapely.dwithin(keep, lines[close], wide[close])
-            some = widest[within[kind]]
-            some = some[shapely.dwithin(keep, lines[kind[within[kind]]], reach[some])]
-            found[pieces.step[some]] = True
+        if not near.size:
+            continue
+        pieces, reach, keep = pieces.only(near), reach[near], prepared(band.keep)
+        # Passes repeat at every depth: the widest of those that are alike is asked for all of them.
+        widest = np.argsort(-reach, kind="stable")
+        chosen, kind = kinds(paths, pieces.only(widest))
+        one, wide = pieces.only(widest[chosen]), reach[widest[chosen]]
+        rough, within = (
+            _roughly(paths.radius[one.step], more[one.step]),
+            np.zeros(chosen.size, dtype=np.bool_),
+        )
+        for now in _portions(paths, one):
+            lines = paths.lines(one.only(now))
+            close = near_ones(keep, lines, rough[now])
+            within[now[close]] = shapely.dwithin(keep, lines[close], wide[now[close]])
+            if any_one and within.any():
+                break
+        met = np.flatnonzero(within[kind])
+        less = reach[widest[met]] < wide[kind[met]]
+        found[pieces.step[widest[met[~less]]]] = True
+        some = pieces.only(widest[met[less]])
+        for now in _portions(paths, some):
+            own = shapely.dwithin(keep, paths.lines(some.only(now)), reach[widest[met[less][now]]])
+            found[some.step[now[own]]] = True
+        if any_one and found.any():
+            break
     return found
+
+
+def _portions(paths: Paths, pieces: Pieces) -> list[Ints]:
+    """Indices of the pieces, in lots that have so many corners together as memory is for."""
+    if not len(pieces):
+        return []
+    lot = np.cumsum(paths.corners(pieces)) // MOST_CORNERS
+    return np.split(np.arange(len(pieces)), np.flatnonzero(np.diff(lot)) + 1)
 
 
 def _roughly(radius: Array, more: Array) -> Array:
