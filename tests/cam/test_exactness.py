@@ -15,7 +15,7 @@ from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof import Scene
 from mechwright_cam.proof.cutting_state import path_tolerance
-from mechwright_cam.proof.off_path import OffPath, deepest_off_path, too_deep
+from mechwright_cam.proof.off_path import OffPath, deepest_off_path, reaching, too_deep
 from mechwright_cam.proof.paths import Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.posting import Posting
@@ -163,3 +163,16 @@ def test_a_program_with_lower_feeds_begins_with_the_tolerances_that_it_had() -> 
     found, files, _ = posted(exact, made, LinuxCnc(), scene)
     assert tolerances(found) == tolerances(exact)
     assert "G61" in next(iter(files.values()))
+
+
+def test_lots_change_nothing_and_any_one_is_one_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, program = planned()
+    scene = Scene(LinuxCnc().write(settled(program, made)), made, LinuxCnc())
+    more = np.full(len(scene.run), 0.25)  # as far as from roughed walls to finished ones
+    whole = reaching(scene.paths, made, more, TOLERANCES.gouge)
+    assert 0 < whole.sum() < whole.size
+    monkeypatch.setattr("mechwright_cam.proof.off_path.MOST_CORNERS", 40)
+    assert np.array_equal(reaching(scene.paths, made, more, TOLERANCES.gouge), whole)
+    some = reaching(scene.paths, made, more, TOLERANCES.gouge, any_one=True)
+    assert 0 < some.sum() < whole.sum()
+    assert not (some & ~whole).any()
