@@ -4,11 +4,11 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-import jinja2
 from markupsafe import Markup
 
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
+from mechwright.output.templates import templates
 from mechwright_cad.animation.scene import scene
 
 MOTION = "motion.html"
@@ -24,13 +24,10 @@ def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *,
     The rest is as :func:`~mechwright_cad.animation.scene.scene` takes it.
     """
     data = json.dumps(scene(parts, motion, solids=solids), separators=(",", ":"), allow_nan=False)
-    pages = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        keep_trailing_newline=True,
-    )
     # What a name holds must not end the element that it stands in.
     safe = Markup(data.replace("<", "\\u003c"))  # noqa: S704 - plain data, with nothing left that opens a tag
-    return pages.get_template("page.html").render(name=name, title=title, data=safe, scripts=_SCRIPTS)
+    return (
+        templates(Path(__file__).parent)
+        .get_template("page.html")
+        .render(name=name, title=title, data=safe, scripts=_SCRIPTS)
+    )

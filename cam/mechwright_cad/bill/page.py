@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mechwright.build import Build, Page, RawStock
+from mechwright.output.templates import templates
 from mechwright_cad.turned_drawing.page import SUFFIXES
 
 if TYPE_CHECKING:
@@ -73,25 +74,19 @@ def bill_csv(lines: "list[Line]") -> str:
 
 def bill_html(design: str, lines: "list[Line]") -> str:
     """The same for people, with its sums."""
-    import jinja2
-
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
     kinds = {
         kind: [line for line in lines if line.kind == kind] for kind in ("made", "bought", "stock", "supply")
     }
     bodies = [line for line in lines if line.kind in {"made", "bought"}]
-    return environment.get_template("page.html").render(
-        design=design,
-        csv=f"{STEM}.csv",
-        kinds=kinds,
-        count=sum(line.qty for line in bodies),
-        mass=sum(line.mass_g for line in bodies),
-        raw=sum(line.mass_g for line in kinds["stock"]),
+    return (
+        templates(Path(__file__).parent)
+        .get_template("page.html")
+        .render(
+            design=design,
+            csv=f"{STEM}.csv",
+            kinds=kinds,
+            count=sum(line.qty for line in bodies),
+            mass=sum(line.mass_g for line in bodies),
+            raw=sum(line.mass_g for line in kinds["stock"]),
+        )
     )

@@ -1,1 +1,1 @@
-"""Output folders, and pictures that stand in them."""
+"""Output folders, and the pages and pictures that stand in them."""

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import jinja2
 import numpy as np
 import shapely
 from markupsafe import Markup
@@ -21,10 +20,6 @@ CHORD = 0.02
 
 def report_html(scene: Scene, proof: Proof, program: str) -> str:
     """What the proof says of a program: a page that needs no other file and no network, and prints on A4."""
-    templates = environment()
-    templates.loader = jinja2.ChoiceLoader(
-        [jinja2.FileSystemLoader(Path(__file__).parent), *([templates.loader] if templates.loader else [])]
-    )
     shown = {
         "proof": proof,
         "program": program,
@@ -34,7 +29,7 @@ def report_html(scene: Scene, proof: Proof, program: str) -> str:
         "lines": scene.run.lines,
         "plan": Markup(_plan(scene, proof)),  # noqa: S704 - our own markup; all text in it is escaped
     }
-    return templates.get_template("report.html").render(shown)
+    return environment(Path(__file__).parent).get_template("report.html").render(shown)
 
 
 def _plan(scene: Scene, proof: Proof) -> str:

@@ -8,6 +8,7 @@ import jinja2
 from markupsafe import Markup
 
 from mechwright.output.svg import signed
+from mechwright.output.templates import templates
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.setup_sheet import facts
@@ -111,15 +112,8 @@ def span(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
 
 
-def environment() -> jinja2.Environment:
-    """The templates of this folder, with the functions that they use."""
-    found = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
+def environment(*folders: Path) -> jinja2.Environment:
+    """The templates of some folders and of this one, with the functions that they use."""
+    found = templates(*folders, Path(__file__).parent)
     found.globals.update(duration=facts.duration, signed=signed, d_value=value)
     return found

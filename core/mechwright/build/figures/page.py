@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from mechwright.output.templates import templates
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -27,16 +29,8 @@ def figures_page(
     name: str, title: str, notes: Sequence[str], figures: Sequence[Figure], tables: Sequence[Grid]
 ) -> str:
     """The page: heading, notes, figures, then tables."""
-    import jinja2
-
-    pages = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    return pages.get_template("page.html").render(
-        name=name, title=title, notes=notes, figures=figures, tables=tables
+    return (
+        templates(Path(__file__).parent)
+        .get_template("page.html")
+        .render(name=name, title=title, notes=notes, figures=figures, tables=tables)
     )

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from mechwright.build.build import Build
 from mechwright.build.page import Page
+from mechwright.output.templates import templates
 
 NAME = "tolerances.html"
 """The file."""
@@ -24,18 +25,8 @@ class TolerancePage(Page):
         analysis = build.made(analysis_of)
         if analysis is None:
             return {}
-        import jinja2
-
         from mechwright.build.tolerances import plots, report, units
 
-        pages = jinja2.Environment(
-            loader=jinja2.FileSystemLoader(Path(__file__).parent),
-            autoescape=True,
-            undefined=jinja2.StrictUndefined,
-            trim_blocks=True,
-            lstrip_blocks=True,
-            keep_trailing_newline=True,
-        )
         outputs = []
         for result in analysis.results:
             places = [*((result.worst,) if result.worst is not None else ()), *result.places]
@@ -54,13 +45,17 @@ class TolerancePage(Page):
                     "outcomes": [report.outcome(analysis, result.output, trial) for trial in result.trials],
                 }
             )
-        html = pages.get_template("page.html").render(
-            name=build.design.name,
-            title=build.design.family.title,
-            settings=analysis.tolerances.settings,
-            outputs=outputs,
-            notes=list(report.remarks(analysis)),
-            percent=units.percent,
-            p=plots,
+        html = (
+            templates(Path(__file__).parent)
+            .get_template("page.html")
+            .render(
+                name=build.design.name,
+                title=build.design.family.title,
+                settings=analysis.tolerances.settings,
+                outputs=outputs,
+                notes=list(report.remarks(analysis)),
+                percent=units.percent,
+                p=plots,
+            )
         )
         return {NAME: html}
