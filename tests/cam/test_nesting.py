@@ -254,7 +254,7 @@ def test_turning_saves_stock():
 
 
 @pytest.mark.parametrize("stock", [{}, {"length": 3000, "width": 1000}])
-@pytest.mark.parametrize("travel", [(500, 400), (250, 1000)])
+@pytest.mark.parametrize("travel", [(500, 400), pytest.param((250, 1000), marks=by_night)])
 def test_many_parts_are_laid_out_within_the_travel_of_the_machine(stock, travel):
     machine = {"travel_x": travel[0], "travel_y": travel[1]}
     nest = nest_of("nest", [box("link", 60, 24, 30)], CamSettings(machine=machine, stock=stock), 16.0)

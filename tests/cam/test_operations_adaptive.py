@@ -48,7 +48,7 @@ def test_engagement_in_a_slot_is_a_half_turn():
     assert math.degrees(planned(np.array([[0, 0], [1, 0]]), shapely.Polygon(), 4.0)[0]) >= 178
 
 
-@pytest.mark.parametrize("area", [BOX, RING, TEE], ids=["box", "ring", "tee"])
+@pytest.mark.parametrize("area", [BOX, pytest.param(RING, marks=by_night), TEE], ids=["box", "ring", "tee"])
 @pytest.mark.parametrize(("angle", "climb"), [(60, True), (100, False)])
 def test_engagement_stays_below_the_angle(area, angle, climb):
     for cavity in clear(area, MILL, math.radians(angle), climb):

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from by_night import by_night
 from golden_operations import CASES, made
 from golden_programs import CONTROLS, every_operation, with_options
 from planning_parts import bore, job, plate
@@ -29,7 +30,9 @@ def test_kept_programs(control: str) -> None:
         assert agree([text], control, program.machine.retract_z) > 50
 
 
-@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(
+    "control", [pytest.param(one, marks=by_night if one == "linuxcnc" else ()) for one in CONTROLS]
+)
 def test_every_operation(control: str) -> None:
     programs = [one.program for operation in CASES for one in made(operation, control)]
     texts = [host().get(Control, control).write(without_cycles(program)) for program in programs]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 from by_control import BY_NAME, interpret, prove, setup_html, steps
-from by_night import examples
+from by_night import by_night, examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_parts import LIBRARY, bore, rounded_box
@@ -385,7 +385,9 @@ def test_both_sides_are_found_from_the_same_two_edges_of_a_plate_of_any_size(fli
     assert "part 60" not in page, "the part is not what the plate has turned into"
 
 
-@pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "haas", "mach3"])
+@pytest.mark.parametrize(
+    "control", ["linuxcnc", *(pytest.param(one, marks=by_night) for one in ("fanuc", "haas")), "mach3"]
+)
 def test_the_place_of_the_first_side_is_not_written_into_the_offset_of_the_second(control) -> None:
     tools = ("spot-6", "drill-8", "mill-6", "mill-4")
     places = {"x": -300.0, "y": -200.0, "z": -380.0, "lengths": dict.fromkeys(tools, 77.0)}

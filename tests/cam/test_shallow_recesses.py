@@ -129,7 +129,7 @@ def test_a_flat_mill_levels_the_mouths_of_a_groove_that_it_does_not_enter() -> N
     assert len(cut(text, job).left(corner, -2.995)) == 0
 
 
-@pytest.mark.parametrize("leave", [0.0, 0.2, 0.5])
+@pytest.mark.parametrize("leave", [0.0, 0.2, 0.5] if NIGHT else [0.2])
 def test_a_ball_leaves_no_ridge_between_wall_and_floor(leave: float) -> None:
     """In places too narrow for the allowance, and beside walls with more of it than the ball is wide there."""
     recess = Pocket("recess", stadium(9, 3.4), (), 0.0, 2.5)
