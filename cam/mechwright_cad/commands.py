@@ -1,4 +1,8 @@
-"""The command of the CAD room."""
+"""The commands of the CAD room."""
+
+from typing import Annotated
+
+import typer
 
 from mechwright.cli.command import Also, At, Command, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
@@ -20,7 +24,30 @@ class Model(Command):
         perform(design, output, Wanted("model", at=at, formats=names(also)), Stage.PARTS)
 
 
+class Live(Command):
+    """``mechwright live``."""
+
+    name = "live"
+    order = 45
+
+    def run(
+        self,
+        design: DesignFile,
+        port: Annotated[
+            int, typer.Option(min=0, max=65535, help="Port on this machine; a free one by default.")
+        ] = 0,
+        show: Annotated[bool, typer.Option("--open/--no-open", help="Show the page in a browser.")] = True,
+    ) -> None:
+        """Show a design in the browser, and redraw it as you change it.
+
+        The page is for this machine alone. Nothing is written unless you ask for it there. Ctrl-C ends it.
+        """
+        from mechwright_cad.live.command import live
+
+        live(design, port, show)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The command that makes solids."""
-    return [Model]
+    """The commands that make solids, and that show a design."""
+    return [Model, Live]

@@ -60,28 +60,34 @@ class Beside:
     def result(self, kind: type[R]) -> R:
         """What the function gives, of the type ``kind``; raises what it raises."""
         assert self._call is not None  # noqa: S101 - asked before
-        if self._process is not None and self._process.stdout is not None:
-            try:
-                answer = pickle.load(self._process.stdout)  # noqa: S301 - from a process of our own
-            except Exception:  # noqa: BLE001,RUF100 - a process that broke down may leave anything
-                answer = None
-            self.close()
-            if isinstance(answer, kind):
-                return answer
+        answer = self.answer(kind)
+        if answer is not None:
+            return answer
         function, arguments = self._call
         return cast(R, function(*arguments))
 
+    def answer(self, kind: type[R]) -> R | None:
+        """What the second interpreter gives, of the type ``kind``; None if it gave none, or was closed."""
+        if self._process is None or self._process.stdout is None:
+            return None
+        try:
+            found = pickle.load(self._process.stdout)  # noqa: S301 - from a process of our own
+        except Exception:  # noqa: BLE001,RUF100 - a process that broke down may leave anything
+            found = None
+        self.close()
+        return found if isinstance(found, kind) else None
+
     def close(self) -> None:
         """End the second interpreter, whatever it is at."""
-        if self._process is None:
+        process, self._process = self._process, None
+        if process is None:
             return
-        self._process.kill()
-        for stream in (self._process.stdin, self._process.stdout):
+        process.kill()
+        for stream in (process.stdin, process.stdout):
             if stream is not None:
                 with contextlib.suppress(OSError):
                     stream.close()
-        self._process.wait()
-        self._process = None
+        process.wait()
 
 
 def _send(pipe: IO[bytes], request: bytes) -> None:

@@ -1,5 +1,4 @@
-// The data of the page, and its values between two samples.
-const data = JSON.parse(document.getElementById("data").textContent);
+// Values of the motion between two samples.
 const input = data.channels[data.input];
 const along = data.channels[data.over]; // over which plots are drawn: it goes one way
 const last = input.values.length - 1;

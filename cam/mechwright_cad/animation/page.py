@@ -14,9 +14,6 @@ from mechwright_cad.animation.scene import scene
 MOTION = "motion.html"
 """The file."""
 
-_SCRIPTS = ("data.js", "plane.js", "space.js", "plots.js", "player.js")
-"""In the order in which they stand in the page; they share what they declare."""
-
 
 def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *, solids: bool) -> str:
     """The page of a design by its name, and in a few words; the same input gives the same text.
@@ -27,7 +24,5 @@ def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *,
     # What a name holds must not end the element that it stands in.
     safe = Markup(data.replace("<", "\\u003c"))  # noqa: S704 - plain data, with nothing left that opens a tag
     return (
-        templates(Path(__file__).parent)
-        .get_template("page.html")
-        .render(name=name, title=title, data=safe, scripts=_SCRIPTS)
+        templates(Path(__file__).parent).get_template("page.html").render(name=name, title=title, data=safe)
     )

@@ -1,9 +1,13 @@
 // Bodies in parallel planes: paths of SVG, the highest layer last.
 function planePicture(place) {
-  const [x, y, width, height] = data.window;
+  const ghost = data.ghost && data.ghost.layers ? data.ghost : null; // another design below this one
+  const [x, y, width, height] = ghost ? around(data.window, ghost.window) : data.window;
   const svg = element("svg", { viewBox: `${x} ${-y - height} ${width} ${height}`, role: "img",
     "aria-label": "The mechanism seen from above" }, place);
   const turned = element("g", { transform: "scale(1 -1)" }, svg);
+  const below = !ghost ? [] : ghost.layers.map((layer) =>
+    [element("path", { class: "ghost", d: layer.path }, turned), ghost.poses[layer.body]]);
+  const stretch = ghost ? (Math.max(...Object.values(ghost.poses).map((pose) => pose.columns[0].length)) - 1) / last : 1;
   const groups = data.layers.map((layer) => {
     const drawn = element("path", layer.bones
       ? { class: "bone", d: layer.path, stroke: layer.colour } : { class: "part", d: layer.path, fill: layer.colour }, turned);
@@ -20,14 +24,22 @@ function planePicture(place) {
     return [dot, path.map((point) => point[0]), path.map((point) => point[1])];
   });
   return (time) => {
-    for (const [drawn, pose] of groups) {
-      const [px, py, angle] = pose.columns.map((column) => at(column, time));
-      const c = Math.cos(angle), s = Math.sin(angle), flip = pose.down ? -1 : 1;
-      drawn.setAttribute("transform", `matrix(${c} ${s} ${-s * flip} ${c * flip} ${px} ${py})`);
-    }
+    for (const [drawn, pose] of below) put(drawn, pose, Math.min(time * stretch, Math.max(1, pose.columns[0].length) - 1));
+    for (const [drawn, pose] of groups) put(drawn, pose, time);
     for (const [dot, xs, ys] of dots) {
       dot.setAttribute("cx", at(xs, time));
       dot.setAttribute("cy", at(ys, time));
     }
   };
+}
+function put(drawn, pose, time) {
+  const [px, py, angle] = pose.columns.map((column) => at(column, time));
+  const c = Math.cos(angle), s = Math.sin(angle), flip = pose.down ? -1 : 1;
+  drawn.setAttribute("transform", `matrix(${c} ${s} ${-s * flip} ${c * flip} ${px} ${py})`);
+}
+// The window that holds two.
+function around(one, two) {
+  const left = Math.min(one[0], two[0]), bottom = Math.min(one[1], two[1]);
+  const right = Math.max(one[0] + one[2], two[0] + two[2]), top = Math.max(one[1] + one[3], two[1] + two[3]);
+  return [left, bottom, right - left, top - bottom];
 }

@@ -2,8 +2,9 @@
 const [unitOfInput, factorOfInput] = degrees(input.unit);
 const slider = document.getElementById("input"), button = document.getElementById("play");
 const pace = document.getElementById("pace"), said = document.getElementById("now");
-let time = 0, forwards = 1, before = null;
+let time = Math.min(1, kept.at || 0) * last, forwards = 1, before = null;
 
+let viewed = () => kept.view; // of a picture in space
 const place = document.getElementById("picture");
 const draw = Object.keys(data.poses).length ? (data.layers ? planePicture : spacePicture)(place) : () => {};
 if (!Object.keys(data.poses).length) place.remove();
@@ -21,9 +22,16 @@ function show() {
 function seek(wanted) {
   time = wanted;
   show();
+if (kept.plays) play(true);
+if (kept.pace) pace.value = kept.pace;
+// What another player goes on from.
+return () => ({
+  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
+  hidden: [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent),
+});
 }
 function run(clock) {
-  if (before === null) return;
+  if (before === null || signal.aborted) return;
   let next = time + forwards * (clock - before) / 1000 / Number(pace.value) * last;
   before = clock;
   if (data.round) next = (next % last + last) % last;
@@ -56,25 +64,28 @@ document.addEventListener("keydown", (event) => {
   if (event.key !== " " || event.target !== document.body) return;
   event.preventDefault();
   play(before === null);
-});
+}, { signal });
 const legend = document.getElementById("legend");
 for (const [name, show_] of shown) {
   const label = element("label", {}, legend), box = element("input", { type: "checkbox" }, label);
-  box.checked = true;
-  box.addEventListener("change", () => show_.parts.forEach((part) => part(box.checked)));
+  box.checked = !(kept.hidden || []).includes(name);
+  const obey = () => show_.parts.forEach((part) => part(box.checked));
+  box.addEventListener("change", obey);
+  if (!box.checked) obey();
   const swatch = element("span", { class: "swatch" }, label);
   swatch.style.background = show_.colour || "var(--accent)";
   label.append(name);
 }
 if (!shown.size) legend.remove();
-if (data.bare || data.missing.length) {
+if (data.bare && !data.ghost || data.missing.length) {
   const note = document.getElementById("note");
   note.hidden = false;
   if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
   else
   note.textContent = `Not drawn, because they are no plates: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }
-firstChoice();
+if (kept.ticked) names.filter((name) => kept.ticked.includes(name)).forEach((name) => ticked.add(name));
+else firstChoice();
 table(seek, show);
 plots(seek);
 const wanted = /^#at=(-?[\d.]+)$/.exec(location.hash);
@@ -86,3 +97,10 @@ if (wanted) {
     : off.reduce((best, one, k) => Math.abs(one) < Math.abs(off[best]) ? k : best, 0);
 }
 show();
+if (kept.plays) play(true);
+if (kept.pace) pace.value = kept.pace;
+// What another player goes on from.
+return () => ({
+  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
+  hidden: [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent),
+});

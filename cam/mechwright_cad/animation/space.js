@@ -97,7 +97,10 @@ function spacePicture(place) {
   });
   // A small cross of three lines marks where the point is.
   const cross = stored([0, 1, 2].flatMap((k) => [-1, 1].flatMap((sign) => [0, 1, 2].map((j) => j === k ? sign * reach / 40 : 0).concat(0, 0, 0))));
-  let azimuth = -0.6, height = 0.35, zoom = 1.15, now = 0;
+  let [azimuth, height, zoom] = kept.view || [-0.6, 0.35, 1.15], now = 0;
+  viewed = () => [azimuth, height, zoom];
+  // A browser has some sixteen such contexts at most.
+  signal.addEventListener("abort", () => { const end = gl.getExtension("WEBGL_lose_context"); if (end) end.loseContext(); });
   // The ground's frame, whose third axis is drawn upwards.
   const up = data.up, side = Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
   const times = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

@@ -15,7 +15,7 @@ from mechwright.designs.change import changed, rewritten
 from mechwright.designs.design import Design, design_of, load
 from mechwright.designs.files import read_text
 from mechwright.errors import DesignError, OutputError
-from mechwright.output.folder import write_new
+from mechwright.output.folder import rewrite
 from mechwright.plugins.host import Host
 from mechwright.remedies import Repair, repaired
 from mechwright.remedies.words import each
@@ -46,7 +46,7 @@ def fix(path: Path, to: str, output: Path | None, write: bool, as_json: bool) ->
     if target == path and not repair.change:
         target = None  # nothing to change
     if target is not None and repair.builds:
-        _write(target, new, like=path)
+        rewrite(target, new, like=path)
     if as_json:
         typer.echo(json.dumps(_data(design, repair), indent=2))
     else:
@@ -72,13 +72,6 @@ def _reads(design: Design, change: Change, target: Path, host: Host) -> None:
     for reader in new.readers:
         for file in reader.inputs(new.tables[reader.name], target).values():
             read_text(file)
-
-
-def _write(target: Path, text: str, like: Path) -> None:
-    """Put the text in place in one step, behind a link, with the rights of the design file."""
-    real, rights = target.resolve(), like.stat().st_mode & 0o777
-    write_new(real, text, replace=real.exists())
-    real.chmod(rights)
 
 
 def _data(design: Design, repair: Repair) -> dict[str, object]:

@@ -1,5 +1,7 @@
-"""A progress bar on a terminal, and nothing in a pipe."""
+"""A progress bar on a terminal; nothing in a pipe, or lines for a program that asks for them."""
 
+import json
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,6 +11,11 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 
+IN_LINES = "MECHWRIGHT_PROGRESS"
+"""Environment variable; if it is not empty, a program listens, and each step is a line of standard error."""
+
+_MARK = "@progress "
+
 Step = Callable[[str], None]
 """Called when a piece of work begins; says what it is."""
 
@@ -16,6 +23,9 @@ Step = Callable[[str], None]
 @contextmanager
 def progress(total: int) -> Iterator[Step]:
     """Show ``total`` pieces of work on standard error while the block runs, if that is a terminal."""
+    if os.environ.get(IN_LINES):
+        yield _in_lines(total)
+        return
     if not sys.stderr.isatty():
         yield lambda what: None  # noqa: ARG005 - nothing is shown
         return
@@ -48,3 +58,24 @@ def _bar() -> "Progress":
 
     columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
     return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _in_lines(total: int) -> Step:
+    done = -1
+
+    def step(what: str) -> None:
+        nonlocal done
+        done += 1
+        said = json.dumps({"done": done, "of": total, "doing": what})
+        sys.stderr.write(f"{_MARK}{said}\n")
+        sys.stderr.flush()
+
+    return step
+
+
+def line_of(line: str) -> dict[str, object] | None:
+    """What a line of progress says: ``done``, ``of`` and ``doing``; None of any other line."""
+    if not line.startswith(_MARK):
+        return None
+    found = json.loads(line[len(_MARK) :])
+    return found if isinstance(found, dict) else None

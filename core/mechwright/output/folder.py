@@ -168,3 +168,14 @@ def write_new(path: Path, text: str, *, replace: bool = False) -> None:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def rewrite(path: Path, text: str, like: Path | None = None) -> None:
+    """Write a file in one step, behind a link, with the rights of ``like``, or those that it has itself.
+
+    Raises OutputError where it cannot be written.
+    """
+    real = path.resolve()
+    rights = (like or path).stat().st_mode & 0o777
+    write_new(real, text, replace=real.exists())
+    real.chmod(rights)

@@ -1,0 +1,12 @@
+// The player of a motion: draws `data` into the page, as it stood when it was `kept`, until the `signal`.
+function player(data, kept, signal) {
+{% include "data.js" %}
+
+{% include "plane.js" %}
+
+{% include "space.js" %}
+
+{% include "plots.js" %}
+
+{% include "player.js" %}
+}

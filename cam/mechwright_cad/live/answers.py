@@ -1,0 +1,54 @@
+"""What a page is given for a change of its design: first what is quick, then what takes longer."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.designs.design import Design, load
+from mechwright.errors import MechwrightError
+from mechwright.plugins.host import host
+from mechwright.remedies import tried
+from mechwright_cad.animation.scene import PAGE_SAMPLES, scene
+
+Answer = dict[str, Any]
+
+QUICK = 121
+"""Samples of a motion that is shown while one drags: every third degree of a turn."""
+
+
+def motion(design: Design) -> Answer:
+    """The motion without parts: joints and links as points and lines."""
+    return {"scene": scene((), design.family.solve(design.params, QUICK), solids=False)}
+
+
+def parts(design: Design) -> Answer:
+    """What the family finds, and the plates in motion where there are any; a fraction of a second."""
+    found = list(design.family.check(design.params))
+    answer: Answer = {"findings": told(found), "scene": None}
+    if not errors(found, Stage.MOTION):
+        solved = design.family.solve(design.params, PAGE_SAMPLES)
+        try:
+            made = design.parts()
+            seen = any(part.outline is not None and part.instances for part in made)
+            # Solids take the CAD kernel: what has no plates is shown by its links.
+            answer["scene"] = scene(made if seen else (), solved, solids=False)
+        except MechwrightError as error:
+            answer["unmade"] = str(error)
+            answer["scene"] = scene((), solved, solids=False)
+        answer["figures"] = {
+            name: {"value": one.value, "unit": one.unit} for name, one in solved.scalars.items()
+        }
+    return answer
+
+
+def remedies(path: Path, change: Change) -> list[dict[str, Any]]:
+    """The findings with remedies that were tried; it may take seconds, so a second process is asked."""
+    design = load(path, host()).changed(change)
+    return told(tried(design, design.family.check(design.params)))
+
+
+def told(findings: Sequence[Finding]) -> list[dict[str, Any]]:
+    """Findings as JSON holds them, the gravest first."""
+    order = ["error", "warning", "note"]
+    return [one.as_dict() for one in sorted(findings, key=lambda one: order.index(str(one.severity)))]

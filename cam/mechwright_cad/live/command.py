@@ -1,0 +1,36 @@
+"""The command ``live``."""
+
+import webbrowser
+from pathlib import Path
+
+import typer
+
+from mechwright.cli.hosting import open_host
+from mechwright.errors import OutputError
+
+
+def live(path: Path, port: int, show: bool) -> None:
+    """Serve the page of a design until Ctrl-C.
+
+    Raises
+    ------
+    OutputError
+        The port is taken, or the extra ``live`` is not installed.
+    MechwrightError
+        The design file cannot be read.
+    """
+    try:
+        from mechwright_cad.live.server import serve
+    except ModuleNotFoundError as error:
+        raise OutputError(
+            f'live: {error.name} is not installed; pip install "mechwright[live]" brings it'
+        ) from error
+
+    def ready(address: str) -> None:
+        typer.echo(f"{path}: {address}")
+        typer.echo("for this machine alone; Ctrl-C ends it")
+        if show:
+            webbrowser.open(address)
+
+    serve(path, open_host(), port, ready)
+    typer.echo("ended")

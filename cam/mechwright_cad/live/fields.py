@@ -1,0 +1,121 @@
+"""The fields of a page: every key of a design's tables, with its bounds, unit, choices and value."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from mechwright.contracts.parameters import first_fields
+from mechwright.designs.design import Design
+
+REACH = 4.0
+"""A slider goes up to so many times its value, where its bound is farther."""
+
+
+def fields_of(design: Design) -> list[dict[str, Any]]:
+    """Every key that the page shows, in the order of the file that ``new --all`` writes.
+
+    Each has its dotted ``key``, its ``kind`` (``number``, ``whole``, ``switch``, ``choice``, ``text`` or
+    ``data``), ``value`` as the design has it, ``default``, ``unit``, ``about``, whether one sets it
+    ``first``, whether the file says it (``given``), and, of numbers, ``low``, ``high``, whether these are
+    ``open`` and the ``reach`` of a slider.
+    """
+    found = list(_of_model(type(design.params), design.params, "parameters", design.content, first=True))
+    for reader in sorted(design.readers, key=lambda one: one.name):
+        model = reader.settings
+        if model is not None:
+            value = design.tables[reader.name]
+            known = value if isinstance(value, model) else None
+            found += _of_model(model, known, reader.name, design.content, first=False)
+    return found
+
+
+def _of_model(
+    model: type[BaseModel], value: BaseModel | None, where: str, content: Mapping[str, Any], *, first: bool
+) -> Iterator[dict[str, Any]]:
+    schema = model.model_json_schema()
+    shared = schema.get("$defs", {})
+    chosen = first_fields(model) if first else ()
+    for name, field in model.model_fields.items():
+        own = getattr(value, name) if value is not None else field.get_default(call_default_factory=True)
+        key = f"{where}.{name}"
+        if isinstance(own, BaseModel):
+            yield from _of_model(type(own), own, key, content, first=first and name in chosen)
+            continue
+        facts = _facts(schema["properties"][name], shared)
+        default = None if field.is_required() else field.get_default(call_default_factory=True)
+        yield {
+            "key": key,
+            "kind": _kind(facts, own),
+            "value": plain(own),
+            "default": plain(default),
+            "about": (field.description or "").replace("``", ""),
+            "unit": facts.get("unit", ""),
+            "first": name in chosen,
+            "given": _given(content, key),
+            **_bounds(facts, own),
+            **({"choices": facts["enum"]} if "enum" in facts else {}),
+        }
+
+
+def _facts(schema: Mapping[str, Any], shared: Mapping[str, Any]) -> dict[str, Any]:
+    """What the schema says of a value that is not left out."""
+    found: dict[str, Any] = {}
+    for one in (*schema.get("anyOf", ()), *schema.get("allOf", ()), schema):
+        if "$ref" in one:
+            one = shared.get(one["$ref"].rpartition("/")[2], {})
+        if one.get("type") != "null":
+            found |= {key: value for key, value in one.items() if key not in {"anyOf", "allOf"}}
+    if "const" in found:
+        found["enum"] = [found["const"]]
+    return found
+
+
+def _kind(facts: Mapping[str, Any], value: object) -> str:
+    if "enum" in facts:
+        return "choice"
+    kinds = {"boolean": "switch", "integer": "whole", "number": "number", "string": "text"}
+    kind = kinds.get(str(facts.get("type")), "data")
+    return "data" if isinstance(value, (list, tuple, dict)) else kind
+
+
+def _bounds(facts: Mapping[str, Any], value: object) -> dict[str, Any]:
+    low = facts.get("minimum", facts.get("ge"))
+    over = facts.get("exclusiveMinimum", facts.get("gt"))
+    high = facts.get("maximum", facts.get("le"))
+    under = facts.get("exclusiveMaximum", facts.get("lt"))
+    found: dict[str, Any] = {
+        "low": over if low is None else low,
+        "high": under if high is None else high,
+        "open": [low is None and over is not None, high is None and under is not None],
+    }
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        far = REACH * (abs(value) or abs(found["high"] or found["low"] or 0.0) or 1.0)
+        least, most = found["low"], found["high"]
+        found["reach"] = [
+            -far if least is None else max(least, -far),
+            far if most is None else min(most, max(far, 10.0)),
+        ]
+    return found
+
+
+def _given(content: Mapping[str, Any], key: str) -> bool:
+    here: Any = content
+    for name in key.split("."):
+        if not isinstance(here, Mapping) or name not in here:
+            return False
+        here = here[name]
+    return True
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON holds it: tables as objects, tuples as lists."""
+    if isinstance(value, BaseModel):
+        return {name: plain(getattr(value, name)) for name in type(value).model_fields}
+    if isinstance(value, Mapping):
+        return {str(name): plain(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, (bool, int, float)) or value is None:
+        return value
+    return str(value)

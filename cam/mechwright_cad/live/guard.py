@@ -1,0 +1,72 @@
+"""Who may talk to the server: the page that it has given out itself, and nobody else on this machine."""
+
+import secrets
+from collections.abc import Mapping
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+HEADERS = {
+    "content-security-policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "referrer-policy": "no-referrer",
+    "cache-control": "no-store",
+    "x-content-type-options": "nosniff",
+    "cross-origin-resource-policy": "same-origin",
+}
+"""Of every answer: the page loads nothing from elsewhere, and nobody shows it in a frame."""
+
+MOST = 2_000_000
+"""Bytes of a request."""
+
+
+class Guard:
+    """Refuse whatever does not come from the page itself.
+
+    The address has to begin with the token, ``Host`` to be this machine with this port (a name that somebody
+    else has pointed here is refused), and ``Origin`` of all that is no GET to be the same.
+    """
+
+    def __init__(self, app: ASGIApp, token: str, port: int) -> None:
+        self._app, self._token = app, token
+        self._hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
+        self._origins = {f"http://{host}" for host in self._hosts}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """One request; what is no HTTP is turned away."""
+        if scope["type"] != "http":
+            return
+        headers = {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
+        if not self._known(scope, headers):
+            await _refuse(send, 403, b"this address is not known here\n")
+            return
+        if int(headers.get("content-length", "0") or 0) > MOST:
+            await _refuse(send, 413, b"too much\n")
+            return
+
+        async def guarded(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                extra = [(key.encode(), value.encode()) for key, value in HEADERS.items()]
+                message = {**message, "headers": [*message["headers"], *extra]}
+            await send(message)
+
+        await self._app({**scope, "path": scope["path"][len(self._token) + 1 :]}, receive, guarded)
+
+    def _known(self, scope: Scope, headers: Mapping[str, str]) -> bool:
+        given = scope["path"].split("/")[1:2]
+        if not given or not secrets.compare_digest(given[0].encode(), self._token.encode()):
+            return False
+        if headers.get("host") not in self._hosts:
+            return False
+        foreign: Any = headers.get("origin")
+        if scope["method"] == "GET":
+            return foreign is None or foreign in self._origins
+        return foreign in self._origins
+
+
+async def _refuse(send: Send, status: int, words: bytes) -> None:
+    head = [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(words)).encode())]
+    await send({"type": "http.response.start", "status": status, "headers": head})
+    await send({"type": "http.response.body", "body": words})

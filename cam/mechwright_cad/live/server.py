@@ -1,0 +1,172 @@
+"""The server of one design, for this machine alone."""
+
+import asyncio
+import contextlib
+import json
+import secrets
+import socket
+from collections.abc import Awaitable, Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from mechwright.errors import DesignError, MechwrightError, OutputError
+from mechwright.output.templates import templates
+from mechwright.plugins.host import Host
+from mechwright_cad.live import answers
+from mechwright_cad.live.building import Building
+from mechwright_cad.live.guard import Guard
+from mechwright_cad.live.session import Session, change_of, text_of
+
+HOST = "127.0.0.1"
+LOOK = 0.4
+"""Seconds between two looks at the file."""
+WAIT = 20.0
+"""Seconds after which a page that waits for news is told that there are none."""
+
+_SITE = Path(__file__).parent / "site"
+_ANIMATION = Path(__file__).parents[1] / "animation"
+
+Answering = Callable[[Mapping[str, Any]], Any]
+
+
+class Server:
+    """The pages and answers of a session; see :func:`serve`."""
+
+    def __init__(self, path: Path, host: Host, port: int, token: str) -> None:
+        self.session, self.building = Session(path, host), Building(path)
+        asks: dict[str, Answering] = {
+            "described": lambda body: self.session.described(change_of(body)),
+            "motion": lambda body: answers.motion(self.session.changed(change_of(body))),
+            "parts": lambda body: answers.parts(self.session.changed(change_of(body))),
+            "remedies": lambda body: {"findings": self.session.remedies(change_of(body))},
+            "save": lambda body: {"said": self.session.save(change_of(body), text_of(body, "digest"))},
+            "save-as": lambda body: {"said": self.session.save_as(change_of(body), text_of(body, "name"))},
+            "build": self._build,
+            "stop": self._stop,
+        }
+        routes = [
+            Route("/", _file("text/html; charset=utf-8", _page)),
+            Route("/live.js", _file("text/javascript; charset=utf-8", _script)),
+            Route("/live.css", _file("text/css; charset=utf-8", _style)),
+            Route("/news", self._news),
+            Route("/building", self._state),
+            *(Route(f"/{name}", _answer(ask), methods=["POST"]) for name, ask in asks.items()),
+        ]
+        self.app = Guard(Starlette(routes=routes, lifespan=None), token, port)
+
+    def _build(self, body: Mapping[str, Any]) -> Mapping[str, Any]:
+        if change_of(body):
+            raise DesignError("a build is made of the file: save first")
+        self.building.start()
+        return self.building.state()
+
+    def _stop(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
+        self.building.stop()
+        return self.building.state()
+
+    async def _state(self, _: Request) -> Response:
+        return JSONResponse(dict(self.building.state()))
+
+    async def _news(self, request: Request) -> Response:
+        """The digest of the file as soon as it is another than the one the page knows."""
+        known, digest = request.query_params.get("known", ""), ""
+        for _ in range(round(WAIT / LOOK)):
+            digest = await run_in_threadpool(self.session.digest)
+            if digest != known or await request.is_disconnected():
+                break
+            await asyncio.sleep(LOOK)
+        return JSONResponse({"digest": digest})
+
+    def close(self) -> None:
+        """End what was begun for the page."""
+        self.building.stop()
+        self.session.close()
+
+
+def _answer(ask: Answering) -> Callable[[Request], Awaitable[Response]]:
+    async def respond(request: Request) -> Response:
+        try:
+            body = json.loads(await request.body())
+            if not isinstance(body, dict):
+                raise DesignError("the page sent no question")
+            found = await run_in_threadpool(ask, body)
+        except MechwrightError as error:
+            found = {"error": str(error)}
+        except ClientDisconnect:
+            return Response(status_code=400)
+        except (ValueError, RecursionError):
+            return JSONResponse({"error": "the page sent no JSON"}, status_code=400)
+        except Exception as error:
+            found = {"error": f"{type(error).__name__}: {error}; please report it"}
+        return Response(json.dumps(found, allow_nan=False), media_type="application/json")
+
+    return respond
+
+
+def _file(kind: str, content: Callable[[], str]) -> Callable[[Request], Awaitable[Response]]:
+    async def respond(_: Request) -> Response:
+        return Response(content(), headers={"content-type": kind})
+
+    return respond
+
+
+def _page() -> str:
+    return templates(_SITE, _ANIMATION).get_template("live.html").render()
+
+
+def _script() -> str:
+    return templates(_SITE, _ANIMATION).get_template("live.js").render()
+
+
+def _style() -> str:
+    return (_ANIMATION / "page.css").read_text(encoding="utf-8") + (_SITE / "live.css").read_text(
+        encoding="utf-8"
+    )
+
+
+def bound(port: int) -> socket.socket:
+    """A socket on this machine alone, on any free one if ``port`` is 0; raises OutputError if taken."""
+    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        found.bind((HOST, port))
+        found.listen()
+    except (OSError, OverflowError) as error:
+        found.close()
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(
+            f"--port {port}: cannot be had: {reason}; without --port a free one is taken"
+        ) from error
+    return found
+
+
+def serve(path: Path, host: Host, port: int, ready: Callable[[str], None]) -> None:
+    """Serve the page of a design until it is interrupted; ``ready`` is told the address.
+
+    Raises
+    ------
+    OutputError
+        The port is taken.
+    MechwrightError
+        The design file cannot be read.
+    """
+    Session(path, host).design()  # what is wrong with the file is told before anything is served
+    with contextlib.closing(bound(port)) as taken:
+        number, token = taken.getsockname()[1], secrets.token_urlsafe(32)
+        server = Server(path, host, number, token)
+        settings = uvicorn.Config(
+            server.app, log_level="error", access_log=False, server_header=False, lifespan="off", ws="none"
+        )
+        try:
+            ready(f"http://{HOST}:{number}/{token}/")
+            with contextlib.suppress(KeyboardInterrupt):
+                uvicorn.Server(settings).run(sockets=[taken])
+        finally:
+            server.close()

@@ -1,0 +1,159 @@
+// The desk: what is changed, undone, saved and built; and the picture that follows.
+const button_ = (id) => document.getElementById(id);
+let known = null, change = {}, past = [], future = [], settled = {}, ghost = null, kept = () => ({}), end = new AbortController(), picture = null;
+
+function draw(scene) {
+  const before = kept();
+  end.abort();
+  end = new AbortController();
+  picture = scene;
+  const main = document.getElementById("main");
+  main.replaceChildren(document.getElementById("stage-of").content.cloneNode(true));
+  kept = player(ghost && scene.layers ? { ...scene, ghost } : scene, before, end.signal) || (() => ({}));
+}
+const parts = newest("parts", (found, asked) => {
+  if (found.scene) draw(found.scene);
+  say(found.unmade || "", true);
+  findings(found.findings, false, follow);
+  remedies(asked);
+}, failed);
+const remedies = newest("remedies", (found, asked) => {
+  if (found.findings && same(asked.change, change)) findings(found.findings, true, follow);
+}, () => { document.getElementById("waiting").textContent = ""; });
+const motion = newest("motion", (found, asked) => {
+  // While plates are drawn, links go over them; what the plates are comes a moment later.
+  draw(ghost || !picture || !picture.layers || picture.bare ? found.scene : { ...found.scene, ghost: picture });
+  say("");
+  parts(asked);
+}, failed);
+function failed(error) {
+  const key = [...fields.keys()].find((one) => error.message.includes(one.split(".").slice(1).join(".") + ":"));
+  if (key) fields.get(key).own.classList.add("wrong");
+  say(error.message, true);
+}
+function value(key) {
+  return key in change ? change[key] : fields.get(key).field.value;
+}
+function shows() {
+  for (const [key, { show }] of fields) show(value(key), key in change);
+  button_("undo").disabled = !past.length;
+  button_("redo").disabled = !future.length;
+  const clean = !Object.keys(change).length;
+  button_("save").disabled = clean;
+  button_("build").disabled = !clean;
+  button_("build").title = clean ? "" : "A build is made of the file: save first";
+  document.title = `${clean ? "" : "• "}${known ? known.name : "Mechwright"}: live`;
+}
+function take(next, done) {
+  change = next;
+  if (done && !same(change, settled)) {
+    past.push(settled);
+    future = [];
+    settled = change;
+  }
+  shows();
+  motion({ change });
+}
+function set(key, one, done) {
+  const next = { ...change };
+  if (one === undefined || same(one, fields.get(key).field.value)) delete next[key];
+  else next[key] = one;
+  take(next, done);
+}
+const follow = (fix) => take({ ...change, ...fix }, true);
+function step(from, to) {
+  if (!from.length) return;
+  to.push(settled);
+  change = settled = from.pop();
+  shows();
+  motion({ change });
+}
+button_("undo").addEventListener("click", () => step(past, future));
+button_("redo").addEventListener("click", () => step(future, past));
+document.addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || /^(input|textarea)$/i.test(event.target.tagName) && event.target.type !== "range") return;
+  event.preventDefault();
+  event.shiftKey ? step(future, past) : step(past, future);
+});
+button_("compare").addEventListener("click", () => {
+  ghost = ghost ? null : picture && picture.layers ? { ...picture, ghost: null } : null;
+  button_("compare").setAttribute("aria-pressed", String(Boolean(ghost)));
+  if (picture) draw(picture);
+  if (!ghost && picture && !picture.layers) say("Two designs over each other are shown in the plane alone.");
+});
+async function open(words) {
+  try {
+    known = await ask("described", { change: {} });
+  } catch (error) {
+    say(error.message + " The page shows the file as it was.", true);
+    return false;
+  }
+  button_("name").textContent = known.name;
+  button_("title").textContent = `${known.title} · ${known.file}`;
+  lay(known.fields, set);
+  for (const key of Object.keys(change)) if (!fields.has(key) || same(change[key], fields.get(key).field.value)) delete change[key];
+  settled = change;
+  shows();
+  say(words);
+  motion({ change });
+  return true;
+}
+async function news() {
+  for (;;) {
+    try {
+      const found = await (await fetch(`news?known=${known ? known.digest : ""}`)).json();
+      if (!known || found.digest !== known.digest) {
+        const mine = Object.keys(change).length;
+        if (!found.digest) say("The file is gone, or cannot be read. The page shows it as it was.", true);
+        else if (await open(mine ? `The file has changed; your ${mine === 1 ? "change stays" : mine + " changes stay"} on top of it.` : "")) continue;
+        await new Promise((done) => setTimeout(done, 1000));
+      }
+    } catch {
+      say("Mechwright does not answer. Is it still running? What is not saved is on this page alone.", true);
+      await new Promise((done) => setTimeout(done, 2000));
+    }
+  }
+}
+button_("save").addEventListener("click", async () => {
+  try {
+    const { said } = await ask("save", { change, digest: known.digest });
+    change = {};
+    past = []; future = []; settled = {};
+    await open(said);
+  } catch (error) { say(error.message, true); }
+});
+const naming = button_("naming");
+button_("save-as").addEventListener("click", () => { naming.hidden = false; button_("new-name").value = `${known ? known.name : "design"}-2`; button_("new-name").focus(); });
+button_("not-named").addEventListener("click", () => { naming.hidden = true; });
+naming.addEventListener("submit", async (event) => {
+  event.preventDefault();
+  try {
+    const { said } = await ask("save-as", { change, name: button_("new-name").value });
+    naming.hidden = true;
+    say(said);
+  } catch (error) { say(error.message, true); }
+});
+function progress(state) {
+  button_("building").hidden = state.state === "none";
+  const at = state.at || {}, runs = state.state === "runs";
+  button_("done").hidden = button_("stop").hidden = !runs;
+  if (at.of) button_("done").value = at.done / at.of; else button_("done").removeAttribute("value");
+  button_("doing").textContent = runs ? `${at.doing || "starting"} …` : state.state === "done"
+    ? `Built: ${state.printed}` : state.state === "failed" ? "Nothing was built:" : "";
+  button_("said").replaceChildren(...(state.said || []).map((line) => made("li", {}, null, line)));
+}
+async function watch() {
+  for (;;) {
+    let state;
+    try { state = await (await fetch("building")).json(); } catch { return; }
+    progress(state);
+    if (state.state !== "runs") return;
+    await new Promise((done) => setTimeout(done, 300));
+  }
+}
+button_("build").addEventListener("click", async () => {
+  try { progress(await ask("build", { change })); watch(); } catch (error) { say(error.message, true); }
+});
+button_("stop").addEventListener("click", async () => { try { progress(await ask("stop", {})); } catch (error) { say(error.message, true); } });
+window.addEventListener("beforeunload", (event) => { if (Object.keys(change).length) event.preventDefault(); });
+open("").then(() => { news(); watch(); });
