@@ -26,6 +26,11 @@ def rounded(values: Array, decimals: int) -> list[Any]:
     return [_plain(item) for item in np.round(values, decimals).tolist()]
 
 
+def hidden(values: Array, decimals: int) -> list[float | int | None]:
+    """Numbers rounded to ``decimals``; what is not finite is None."""
+    return [_plain(value) if np.isfinite(value) else None for value in np.round(values, decimals).tolist()]
+
+
 def _plain(value: Any) -> Any:
     if isinstance(value, list):
         return [_plain(item) for item in value]

@@ -4,9 +4,13 @@ function player(data, kept, signal) {
 
 {% include "plane.js" %}
 
+{% include "overlays.js" %}
+
 {% include "space.js" %}
 
 {% include "plots.js" %}
+
+{% include "export.js" %}
 
 {% include "player.js" %}
 }

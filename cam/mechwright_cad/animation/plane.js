@@ -23,7 +23,9 @@ function planePicture(place) {
     shown.set("path of " + name, { parts: [(on) => { line.style.display = dot.style.display = on ? "" : "none"; }] });
     return [dot, path.map((point) => point[0]), path.map((point) => point[1])];
   });
+  const over = overlays(turned, Math.max(width, height));
   return (time) => {
+    over(time);
     for (const [drawn, pose] of below) put(drawn, pose, Math.min(time * stretch, Math.max(1, pose.columns[0].length) - 1));
     for (const [drawn, pose] of groups) put(drawn, pose, time);
     for (const [dot, xs, ys] of dots) {

@@ -2,6 +2,8 @@
 const [unitOfInput, factorOfInput] = degrees(input.unit);
 const slider = document.getElementById("input"), button = document.getElementById("play");
 const pace = document.getElementById("pace"), said = document.getElementById("now");
+const asking = data.live ? {} : asked();
+kept = { ...kept, ...Object.fromEntries(Object.entries(asking).filter(([key, value]) => key !== "at" && value !== undefined)) };
 let time = Math.min(1, kept.at || 0) * last, forwards = 1, before = null;
 
 let viewed = () => kept.view; // of a picture in space
@@ -22,13 +24,6 @@ function show() {
 function seek(wanted) {
   time = wanted;
   show();
-if (kept.plays) play(true);
-if (kept.pace) pace.value = kept.pace;
-// What another player goes on from.
-return () => ({
-  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
-  hidden: [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent),
-});
 }
 function run(clock) {
   if (before === null || signal.aborted) return;
@@ -68,7 +63,7 @@ document.addEventListener("keydown", (event) => {
 const legend = document.getElementById("legend");
 for (const [name, show_] of shown) {
   const label = element("label", {}, legend), box = element("input", { type: "checkbox" }, label);
-  box.checked = !(kept.hidden || []).includes(name);
+  box.checked = kept.off ? !kept.off.includes(name) : !show_.off;
   const obey = () => show_.parts.forEach((part) => part(box.checked));
   box.addEventListener("change", obey);
   if (!box.checked) obey();
@@ -88,19 +83,20 @@ if (kept.ticked) names.filter((name) => kept.ticked.includes(name)).forEach((nam
 else firstChoice();
 table(seek, show);
 plots(seek);
-const wanted = /^#at=(-?[\d.]+)$/.exec(location.hash);
-if (wanted) {
+if (asking.at !== undefined) {
   // The first place at which the input has the value, or the end that is nearer to it.
-  const value = Number(wanted[1]) / factorOfInput, off = input.values.map((one) => one - value);
+  const value = asking.at / factorOfInput, off = input.values.map((one) => one - value);
   const after = off.findIndex((one, k) => k > 0 && one * off[k - 1] <= 0);
   time = after > 0 ? after - 1 + off[after - 1] / (off[after - 1] - off[after] || 1)
     : off.reduce((best, one, k) => Math.abs(one) < Math.abs(off[best]) ? k : best, 0);
 }
+const hiddenNow = () => [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent);
+takeAway(seek, () => time, () => address(at(input.values, time) * factorOfInput, hiddenNow(), [...ticked]));
 show();
 if (kept.plays) play(true);
 if (kept.pace) pace.value = kept.pace;
 // What another player goes on from.
 return () => ({
   at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
-  hidden: [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent),
+  off: hiddenNow(),
 });

@@ -48,6 +48,11 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
         "traces": {name: rounded(path[:, : 2 if plane else 3], MICRON) for name, path in paths.items()},
         "missing": list(dict.fromkeys(unmade)),
     }
+    if plane:
+        from mechwright_cad.animation.instants import arrows, instants, lines
+
+        found["instants"], found["arrows"] = instants(motion), arrows(motion)
+        found["lines"] = [] if bare else [one for one in lines(motion) if one["body"] in found["poses"]]
     if bare:
         found |= _skeleton(motion, plane=plane)
     elif plane:

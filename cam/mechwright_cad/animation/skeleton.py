@@ -53,7 +53,7 @@ def links_of(motion: Motion) -> tuple[list[Link], float]:
     """The links in the order of the bodies, the ground first, and the mechanism's size, mm."""
     still = Poses(np.zeros((motion.samples, 3)), np.tile(np.eye(3), (motion.samples, 1, 1)))
     poses = {GROUND: still, **motion.poses}
-    leader = _leaders(motion.joints, list(poses))
+    leader = leaders(motion.joints, list(poses))
     links = {body: Link(body) for body in poses if leader[body] == body}
     size = _size(motion, poses)
     for joint in motion.joints.values():
@@ -77,7 +77,7 @@ def links_of(motion: Motion) -> tuple[list[Link], float]:
     return list(links.values()), size
 
 
-def _leaders(joints: Mapping[str, Joint], bodies: list[str]) -> dict[str, str]:
+def leaders(joints: Mapping[str, Joint], bodies: list[str]) -> dict[str, str]:
     """Body to the one whose poses stand for all that is fixed to it."""
     leader = {body: body for body in bodies}
     for _ in bodies:

@@ -9,7 +9,7 @@ function draw(scene) {
   picture = scene;
   const main = document.getElementById("main");
   main.replaceChildren(document.getElementById("stage-of").content.cloneNode(true));
-  kept = player(ghost && scene.layers ? { ...scene, ghost } : scene, before, end.signal) || (() => ({}));
+  kept = player({ ...scene, live: true, ghost: ghost && scene.layers ? ghost : scene.ghost }, before, end.signal) || (() => ({}));
 }
 const parts = newest("parts", (found, asked) => {
   if (found.scene) draw(found.scene);
