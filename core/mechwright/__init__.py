@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Scalar, Trace
+    from mechwright.contracts.mounting import Hub, Mounting, Spindle
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
@@ -70,6 +71,7 @@ _HOMES = {
     "mechwright.contracts.joint": "GROUND Joint",
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Scalar Trace",
+    "mechwright.contracts.mounting": "Hub Mounting Spindle",
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
@@ -100,6 +102,7 @@ __all__ += ["GROUND", "Array", "Channel", "Curve", "Joint", "Motion", "Poses", "
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
+__all__ += ["Hub", "Mounting", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]

@@ -1,0 +1,94 @@
+"""The base plate on four feet, and the legs from it to the lower bearing plate, under the pillars."""
+
+from mechwright.contracts.bought import Bought
+from mechwright.contracts.holes import threaded
+from mechwright.contracts.shape import Shape, ring
+from mechwright.contracts.surroundings import Place
+from mechwright.contracts.turned import EndThread, Step, Turned
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
+from mechwright.machine.frame.plates import STOCK, Hole, add_plate
+from mechwright.machine.frame.standing import Standing
+from mechwright.standards.screws import Screw, screw, screw_size
+
+MARGIN = 16.0
+"""By how much the base plate is larger than the bearing plates on every side, mm: it stands wider."""
+
+LEAST, SLENDER = 10.0, 15.0
+"""Thickness of the base plate, mm, at least, and its longer side in thicknesses, at most."""
+
+UNDER = 10.0
+"""Between the motor and the base plate, mm: its cable, and air."""
+
+FOOT = (15.0, 10.0, 10.0)
+"""Diameter and height of a foot and the length of its stud, mm: higher than a screw's head."""
+
+
+def foot() -> Bought:
+    """A rubber foot with a stud that points up; it stands on z = 0."""
+    wide, high, stud = FOOT
+    words = f"rubber buffer {wide:g} x {high:g} with stud M{SCREW:g} x {stud:g}"
+    shape = Shape((ring(0.0, wide, high), ring(0.0, SCREW, stud, high)))
+    return Bought(words, "", None, shape, "no standard fixes it; compare with the maker's sheet")
+
+
+def thickness_for(standing: Standing) -> float:
+    """Of the base plate, mm."""
+    longer = standing.longer + 2 * (EDGE + MARGIN)
+    wanted = max(LEAST, longer / SLENDER)
+    return next((float(one) for one in STOCK if one >= wanted), float(STOCK[-1]))
+
+
+def leg_screw(thickness: float) -> Screw:
+    """From below the base plate into a leg."""
+    return screw(SCREW, thickness + SCREW)
+
+
+def add_base(
+    kit: Kit,
+    standing: Standing,
+    columns: list[Column],
+    under: float,
+    top: float,
+    depth: float,
+    material: str,
+) -> None:
+    """Base plate, legs, feet, screws.
+
+    Parameters
+    ----------
+    under, top
+        Lower face of the bearing plate, and upper face of the base plate, mm.
+    depth
+        How deep the studs of the pillars go into the legs, mm.
+    """
+    thickness = thickness_for(standing)
+    low = top - thickness
+    fixing, size = leg_screw(thickness), screw_size(SCREW)
+    leg = Turned(
+        (Step(PILLAR, under - top),),
+        note=NOTE.replace("pillars", "legs"),
+        threads=(
+            EndThread("lower", SCREW, PITCH, fixing.length - thickness + SPARE),
+            EndThread("upper", SCREW, PITCH, depth + SPARE),
+        ),
+    )
+    holes = []
+    for k, column in enumerate(columns, start=1):
+        holes.append(Hole.through(f"leg-{k}", column.point, size.clearance(), thickness))
+        kit.turned("leg", leg, column.name, top)
+        put_screw(kit, fixing, f"{column.name}-below", -low)
+    edge = EDGE + MARGIN
+    inset = edge - FOOT[0] / 2 - 2.0
+    signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
+        point = (x + a * inset, y + b * inset)
+        holes.append(Hole.through(f"foot-{k}", point, SCREW, thickness))
+        kit.places[f"foot-{k}"] = Place((*point, 0.0))
+        kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])
+    kit.places["base-carrier"] = Place()
+    add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)
+    plate = kit.parts["base-plate"]
+    for k in range(1, 5):
+        plate = threaded(plate, f"foot-{k}", f"M{SCREW:g}")
+    kit.parts["base-plate"] = plate
