@@ -82,7 +82,8 @@ class Drive:
     def peak(self) -> tuple[float, float, str]:
         """The greatest torque either way, N m with its sign, at which angle, rad, and in which run."""
         found = [(*greatest(run.torque, self.course.angle), run.name) for run in self.runs]
-        return max(found, key=lambda one: abs(one[0]))
+        most = max(abs(one[0]) for one in found)
+        return next(one for one in found if abs(one[0]) >= (1 - _SAME) * most)
 
     @property
     def rms(self) -> float:
@@ -141,7 +142,7 @@ class Drive:
 
 
 _SAME = 1e-6
-"""Share by which speeds at both ends of a period may differ."""
+"""Share by which speeds at both ends of a period may differ, and peaks that are equally high."""
 
 
 def drive_of(motion: Motion, parts: Sequence[Part], settings: MachineSettings) -> Drive:

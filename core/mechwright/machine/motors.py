@@ -6,15 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.machine.drive import Drive
 from mechwright.machine.settings import MachineSettings
 from mechwright.mechanics.strength.motor import (
     INERTIA_RATIO,
+    MARGIN,
+    PEAK,
     RESONANCE,
     Demand,
+    corner_speed,
+    dc_torque,
     gear_motor_margin,
     inertia_ratio,
     stepper_margin,
+    stepper_torque,
 )
 from mechwright.standards.motors import GearMotor, Stepper, motor, motors
 
@@ -44,6 +50,8 @@ class Choice:
         inside.
     resonant
         Whether a stepper runs at speeds at which it resonates without microsteps.
+    voltage
+        That a stepper's driver is fed with, V.
     """
 
     motor: Motor
@@ -51,6 +59,7 @@ class Choice:
     cover: float
     ratio: float | None = None
     resonant: bool = False
+    voltage: float = 24.0
 
     @property
     def enough(self) -> bool:
@@ -95,7 +104,9 @@ def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 
     felt = inertia_ratio(one.rotor, float(drive.reflected.max()), settings.gear)
     low, high = (rate / STEPS * 60 for rate in RESONANCE)
     resonant = low <= demand.speed <= high
-    return Choice(one, demand, stepper_margin(one, demand, settings.voltage), felt, resonant)
+    return Choice(
+        one, demand, stepper_margin(one, demand, settings.voltage), felt, resonant, settings.voltage
+    )
 
 
 def motor_of(drive: Drive, settings: MachineSettings) -> Choice | None:
@@ -118,6 +129,22 @@ def motor_of(drive: Drive, settings: MachineSettings) -> Choice | None:
 def _steady(one: Choice) -> bool:
     """Whether a stepper's rotor holds the inertia that it feels."""
     return one.ratio is None or one.ratio <= INERTIA_RATIO
+
+
+def curve_of(choice: Choice) -> tuple[Array, Array]:
+    """Speeds (k,), rev/min, and what the motor may be asked for a moment at each, N m."""
+    one = choice.motor
+    if isinstance(one, GearMotor):
+        speeds = np.linspace(0.0, one.no_load, _POINTS)
+        line = [dc_torque(one.no_load, one.stall_torque, float(speed)) for speed in speeds]
+        return speeds, np.minimum(line, PEAK * one.stall_torque)
+    corner = corner_speed(choice.voltage, one.inductance / 1000, one.current)
+    speeds = np.linspace(0.0, max(2 * corner, 1.2 * choice.demand.speed), _POINTS)
+    return speeds, np.array([stepper_torque(one.hold, float(speed), corner) / MARGIN for speed in speeds])
+
+
+_POINTS = 121
+"""Of the line that is drawn of a motor."""
 
 
 def able_at(drive: Drive, settings: MachineSettings, one: Motor) -> float | None:
