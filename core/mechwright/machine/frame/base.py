@@ -1,7 +1,6 @@
 """The base plate on four feet, and the legs from it to the lower bearing plate, under the pillars."""
 
 from mechwright.contracts.bought import Bought
-from mechwright.contracts.holes import threaded
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
 from mechwright.contracts.turned import EndThread, Step, Turned
@@ -20,15 +19,18 @@ LEAST, SLENDER = 10.0, 15.0
 UNDER = 10.0
 """Between the motor and the base plate, mm: its cable, and air."""
 
-FOOT = (15.0, 10.0, 10.0)
-"""Diameter and height of a foot and the length of its stud, mm: higher than a screw's head."""
+FOOT = (20.0, 15.0, 6.0)
+"""Diameter and height of a foot and the depth of the thread in it, mm: higher than a screw's head."""
+
+IN_FOOT = 4.0
+"""How far a screw goes into a foot at least, mm."""
 
 
 def foot() -> Bought:
-    """A rubber foot with a stud that points up; it stands on z = 0."""
-    wide, high, stud = FOOT
-    words = f"rubber buffer {wide:g} x {high:g} with stud M{SCREW:g} x {stud:g}"
-    shape = Shape((ring(0.0, wide, high), ring(0.0, SCREW, stud, high)))
+    """A rubber foot with a thread in its upper end; it stands on z = 0."""
+    wide, high, deep = FOOT
+    words = f"rubber buffer {wide:g} x {high:g} with thread M{SCREW:g} x {deep:g} inside"
+    shape = Shape((ring(0.0, wide, high),), (ring(0.0, SCREW, deep, high - deep),))
     return Bought(words, "", None, shape, "no standard fixes it; compare with the maker's sheet")
 
 
@@ -83,12 +85,9 @@ def add_base(
     signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
         point = (x + a * inset, y + b * inset)
-        holes.append(Hole.through(f"foot-{k}", point, SCREW, thickness))
+        holes.append(Hole.through(f"foot-{k}", point, size.clearance(), thickness))
         kit.places[f"foot-{k}"] = Place((*point, 0.0))
+        put_screw(kit, screw(SCREW, thickness + IN_FOOT), f"foot-{k}", top)
         kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])
     kit.places["base-carrier"] = Place()
     add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)
-    plate = kit.parts["base-plate"]
-    for k in range(1, 5):
-        plate = threaded(plate, f"foot-{k}", f"M{SCREW:g}")
-    kit.parts["base-plate"] = plate

@@ -2,16 +2,17 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Mounting
 from mechwright.contracts.part import Part
 from mechwright.contracts.surroundings import OVER, Place, Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.frame.base import UNDER, add_base
-from mechwright.machine.frame.bracket import Bracket, Motor, add_bracket, bracket_for, pillar_holes
+from mechwright.machine.frame.bracket import add_bracket, bracket_for, pillar_holes
+from mechwright.machine.frame.decided import Frame, Wanted
+from mechwright.machine.frame.findings import strength
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import (
@@ -38,7 +39,7 @@ from mechwright.machine.frame.plates import (
 )
 from mechwright.machine.frame.seats import Seat, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, collar, highest, lowest
-from mechwright.machine.frame.standing import Disc, Standing, stand
+from mechwright.machine.frame.standing import Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 
 STUB = 2.0
@@ -48,60 +49,17 @@ BESIDE = 1.0
 """Between a shaft and what another body sweeps at its height, mm."""
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """What a frame is to carry besides: the motor, if there is one, and the peak torque at the input, N m."""
-
-    motor: Motor | None = None
-    torque: float = 0.0
-
-
-@dataclass(frozen=True)
-class Frame:
-    """What has been decided.
-
-    Parameters
-    ----------
-    seats
-        Bearings of each spindle.
-    levels
-        Inner faces of the bearing plates.
-    thickness
-        Of both, mm.
-    standing
-        The rectangle of the columns.
-    bracket
-        Of the motor; None without one.
-    """
-
-    seats: tuple[Seat, ...]
-    levels: Levels
-    thickness: float
-    standing: Standing
-    bracket: Bracket | None
-
-    @property
-    def under(self) -> float:
-        """Lower face of the lower bearing plate, mm."""
-        return self.levels.lower - self.thickness
-
-    @property
-    def driver(self) -> Seat:
-        """The input's."""
-        return next(seat for seat in self.seats if seat.spindle.drives)
-
-
 def frame_around(
     keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
 ) -> Surroundings:
     """The frame of a mechanism with its findings; no parts where one of them is an error."""
-    from mechwright.machine.frame.findings import strength
-
     try:
         found = decided(keys, mounting, parts, motion, wanted)
         if isinstance(found, Frame):
             kit = built(found, keys)
-            said = strength(found, wanted)
+            said = [*strength(found, wanted)]
+            if errors(said):
+                return Surroundings(findings=tuple(said))
             return Surroundings(tuple(kit.parts.values()), kit.places, tuple(said))
     except DesignError as error:
         return Surroundings(findings=(refusal("frame.design", "machine.frame", str(error)),))
@@ -152,7 +110,7 @@ def decided(
 
 
 def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
-    """The inner faces: clear of the mechanism, with room for the shafts' shoulders and the pillars' threads."""
+    """The inner faces: clear of the mechanism, with room for shoulders and for the pillars' threads."""
     lower = min(space.low - keys.axial_gap, *(lowest(seat) for seat in chosen))
     upper = max(space.high + keys.axial_gap, *(highest(seat) for seat in chosen))
     short = max(least_height(thickness) - (upper - lower), 0.0)

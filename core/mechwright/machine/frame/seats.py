@@ -84,7 +84,7 @@ def needed(one: Bearing, two: Bearing, material: str) -> float:
 def _thinned(
     mounting: Mounting, choice: dict[str, list[Bearing]], material: str
 ) -> tuple[Spindle, Spindle, Bearing, Bearing] | None:
-    """Drop bearings that are too large until all have room; a pair that cannot, with its smallest bearings."""
+    """Drop bearings that are too large until all have room; a pair that cannot, with its smallest ones."""
     while True:
         for one, two in combinations(mounting.spindles, 2):
             pair = choice[one.name][0], choice[two.name][0]
@@ -92,7 +92,7 @@ def _thinned(
                 continue
             for spindle in sorted((one, two), key=lambda s: -choice[s.name][0].outside):
                 now = choice[spindle.name][0].outside
-                smaller: list[Change] = [other for other in choice[spindle.name] if other.outside < now]
+                smaller = [other for other in choice[spindle.name] if other.outside < now]
                 if smaller:
                     choice[spindle.name][:] = smaller
                     break

@@ -17,7 +17,7 @@ from mechwright.machine.frame.seats import Seat
 from mechwright.standards.keys import LENGTHS, RANGES, Key
 
 PLAY = 0.2
-"""Axial play of a shaft between its bearings, mm: what heat takes of it is 1 µm for each mm and 80 K."""
+"""Axial play of a shaft between its bearings, mm; pillars and shafts are of steel: heat takes none of it."""
 
 RELIEF = 1.0
 """Length of a shoulder that touches an inner ring alone, mm."""
