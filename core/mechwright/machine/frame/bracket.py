@@ -27,11 +27,11 @@ from mechwright.standards.screws import screw, screw_size
 
 Motor = Stepper | GearMotor
 
-PLATE = 8.0
-"""Thickness of the plate that carries the motor, mm."""
+PLATE = 6.0
+"""Thickness of the plate that carries the motor, mm: thin, for the motor's shaft goes through it."""
 
 GAP = 1.0
-"""Between coupling and bearing plate, mm."""
+"""Between coupling and bearing plate, and over the heads of the motor's screws, mm."""
 
 FLANGE = 5.0
 """Thickness of a flange with through holes, mm: NEMA 23 motors have 4.8 to 5."""
@@ -151,7 +151,7 @@ def bracket_for(
     diameter, coupling = stub_for(bore, face.shaft, torque)
     long, size = coupling.of.length, screw_size(SCREW)
     low = under - GAP - long
-    inserted = min(long / 2, face.shaft_length - PLATE - GAP)
+    inserted = min(long / 2, face.shaft_length - PLATE - screw_head(face) - GAP / 2)
     stub = (diameter, (inner - width) - (low + long / 2))
     least = max(face.spread / 2, coupling.of.outside / 2) + (PILLAR + size.head) / 2 + BESIDE
     head = size.counterbore / 2 + BESIDE
@@ -189,12 +189,18 @@ def pillar_holes(bracket: Bracket, thickness: float) -> list[Hole]:
     ]
 
 
+def screw_head(face: MotorFace) -> float:
+    """Height of the motor's screws over its plate, mm."""
+    return screw_size(face.thread).head_height if face.thread else 0.0
+
+
 def screw_places(face: MotorFace) -> list[Point]:
     """Where a motor's screws stand, from its shaft, mm."""
     x, half = -face.offset, face.spread / 2
     if not face.round:
         return [(a, b) for a in (-half, half) for b in (-half, half)]
-    turns = (math.tau * k / face.holes for k in range(face.holes))
+    # The shaft stands off the middle towards the gap between two screws.
+    turns = (math.tau * (k + 0.5) / face.holes for k in range(face.holes))
     return [(x + half * math.cos(turn), half * math.sin(turn)) for turn in turns]
 
 
@@ -226,7 +232,7 @@ def add_bracket(kit: Kit, bracket: Bracket, body: str, levels: tuple[float, floa
     corners = ((-half, -half), (half, -half), (half, half), (-half, half))
     hole = screw_size(face.thread).clearance() if face.thread else SCREW
     holes = [
-        Hole.through("pilot", (-face.offset, 0.0), face.pilot + PILOT, PLATE),
+        Hole.through("pilot", (0.0, 0.0), face.pilot + PILOT, PLATE),
         *(Hole.through(f"pillar-{k}", p, size.clearance(), PLATE) for k, p in enumerate(corners, start=1)),
         *(Hole.through(f"screw-{k}", p, hole, PLATE) for k, p in enumerate(screw_places(face), start=1)),
     ]

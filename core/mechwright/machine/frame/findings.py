@@ -46,8 +46,8 @@ def strength(frame: Frame, wanted: Wanted) -> Iterator[Finding]:
         yield Finding.note(
             f"frame.shaft-{spindle.name}",
             f"shaft {spindle.name}: {seat.bearing.name} above and below, up to {max(near, far):.3g} N each, "
-            f"{_hours(hours)}; up to {torque:.3g} N·m, safety against fatigue {_factor(safety)}; slope in the "
-            f"bearings up to {1e6 * slope:.0f} µrad",
+            f"{_hours(hours)}; up to {torque:.3g} N·m, safety against fatigue {_factor(safety)}; slope in "
+            f"the bearings up to {1e6 * slope:.0f} µrad",
             safety if math.isfinite(safety) else None,
         )
         if load * STATIC_SAFETY > seat.bearing.static:
@@ -97,8 +97,8 @@ def _weak_bearing(seat: Seat, load: float) -> Finding:
     return Finding.error(
         "frame.bearing-load",
         spindle.bore_key,
-        f"bearing {seat.bearing.name} of spindle {spindle.name} carries {load:.0f} N; with a static safety of "
-        f"{STATIC_SAFETY:g} it may carry {most:.0f} N",
+        f"bearing {seat.bearing.name} of spindle {spindle.name} carries {load:.0f} N; with a static safety "
+        f"of {STATIC_SAFETY:g} it may carry {most:.0f} N",
         load,
         most,
         "N",
@@ -128,8 +128,8 @@ def _steep(spindle: Spindle, slope: float) -> Finding:
     return Finding.warning(
         "frame.shaft-slope",
         spindle.bore_key,
-        f"the shaft of spindle {spindle.name} leans by {1e6 * slope:.0f} µrad in a bearing; ball bearings take "
-        f"{1e6 * BALL_SLOPE:.0f}",
+        f"the shaft of spindle {spindle.name} leans by {1e6 * slope:.0f} µrad in a bearing; ball bearings "
+        f"take {1e6 * BALL_SLOPE:.0f}",
         1e6 * slope,
         1e6 * BALL_SLOPE,
         "",
@@ -154,8 +154,8 @@ def _joint(spindle: Spindle, torque: float) -> Iterator[Finding]:
         yield Finding.error(
             "frame.key-pressure",
             spindle.bore_key,
-            f"the key of spindle {spindle.name} presses on {hub.material} with {pressure:.0f} MPa; {most:.0f} "
-            f"MPa are allowed of a torque that reverses: {torque * most / pressure:.3g} N·m of {torque:.3g}",
+            f"the key of spindle {spindle.name} presses on {hub.material} with {pressure:.0f} MPa; {most:.0f}"
+            f" MPa are allowed of a torque that reverses: {torque * most / pressure:.3g} N·m of {torque:.3g}",
             pressure,
             most,
             "MPa",
@@ -174,8 +174,8 @@ def _bonded(spindle: Spindle, torque: float) -> Iterator[Finding]:
         yield Finding.error(
             "frame.bond",
             spindle.bore_key,
-            f"the hub of spindle {spindle.name} has no keyway, and retaining compound holds {most:.3g} N·m of "
-            f"{torque:.3g} N·m",
+            f"the hub of spindle {spindle.name} has no keyway, and retaining compound holds {most:.3g} N·m "
+            f"of {torque:.3g} N·m",
             torque,
             most,
             "N*m",
