@@ -8,7 +8,7 @@ and so change their sign in the sense of the running.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,6 +30,9 @@ MICRO, MILLI = 1e-6, 1e-3
 
 GRAVITY = 9.80665
 """Standard gravity, m/s²."""
+
+_OWN = "[machine]"
+"""Name of the load of that table."""
 
 _UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
@@ -69,6 +72,8 @@ class Drive:
         Inertia of all that moves as the input feels it, kg m².
     runs
         In each sense that is asked for.
+    of_load
+        What of ``resisting`` is of the load of ``[machine]``.
     """
 
     course: Course
@@ -78,6 +83,14 @@ class Drive:
     resisting: Array
     reflected: Array
     runs: tuple[Run, ...]
+    of_load: Array
+
+    def lightened(self, share: float) -> "Drive":
+        """The same drive with that share of the load of ``[machine]``."""
+        resisting = self.resisting - (1 - share) * self.of_load
+        conservative = self.inertia + self.weight + self.given
+        runs = tuple(_run(self.course, conservative, resisting, run.name) for run in self.runs)
+        return replace(self, resisting=resisting, of_load=share * self.of_load, runs=runs)
 
     def peak(self) -> tuple[float, float, str]:
         """The greatest torque either way, N m with its sign, at which angle, rad, and in which run."""
@@ -158,22 +171,24 @@ def drive_of(motion: Motion, parts: Sequence[Part], settings: MachineSettings) -
     course = course_of(motion, settings.speed)
     loads = dict(motion.loads)
     if settings.load > 0:
-        loads["machine"] = Load(output_of(motion, settings.output), resisting=settings.load)
+        loads[_OWN] = Load(output_of(motion, settings.output), resisting=settings.load)
     elif settings.output:
         output_of(motion, settings.output)
     masses = _masses(motion, parts)
     inertia, reflected, weight = _of_masses(course, masses, _replaced(motion, masses), settings.up)
     given, resisting = _of_loads(course, loads)
+    of_load = _of_loads(course, {key: load for key, load in loads.items() if key == _OWN})[1]
     conservative = inertia + weight + given
     runs = tuple(
-        _run(course, conservative, resisting, name, way)
-        for name, way in (("forwards", 1.0), ("backwards", -1.0))
+        _run(course, conservative, resisting, name)
+        for name in ("forwards", "backwards")
         if settings.direction in {name, "both"}
     )
-    return Drive(course, inertia, weight, given, resisting, reflected, runs)
+    return Drive(course, inertia, weight, given, resisting, reflected, runs, of_load)
 
 
-def _run(course: Course, conservative: Array, resisting: Array, name: str, way: float) -> Run:
+def _run(course: Course, conservative: Array, resisting: Array, name: str) -> Run:
+    way = 1.0 if name == "forwards" else -1.0
     if course.rocks:
         torque = conservative + way * resisting
         return Run(name, torque, torque * way * course.speed)

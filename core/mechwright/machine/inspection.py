@@ -5,14 +5,15 @@ from collections.abc import Iterator, Sequence
 
 from mechwright.build.build import Build
 from mechwright.build.inspection import Inspection
-from mechwright.contracts.finding import Change, Finding, Severity, Stage, at_stage
+from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
+from mechwright.contracts.materials import material
 from mechwright.errors import DesignError
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motor_for, settings_of, wanted_of
-from mechwright.machine.motors import Choice, able_at, stronger
+from mechwright.machine.motor_findings import motor_findings
 from mechwright.machine.settings import MachineSettings
-from mechwright.mechanics.strength.motor import INERTIA_RATIO
-from mechwright.standards.motors import GearMotor
+from mechwright.machine.shaft_findings import shaft_findings
+from mechwright.mechanics.strength.drive import disc_inertia
 
 KEYS = "machine.key"
 """Code of the finding that a key of ``[machine]`` cannot be obeyed."""
@@ -40,11 +41,9 @@ class MachineDrive(Inspection):
                 raise
             return [Finding(KEYS, Severity.ERROR, key, message, remedy=remedy, stage=self.stage)]
         settings = settings_of(build)
-        found = [*_torque(drive, settings)]
-        choice = build.made(motor_for)
-        if choice is not None:
-            found += _motor(build, drive, settings, choice)
-        return at_stage(self.stage, found)
+        motor = motor_findings(build, drive, settings, build.made(motor_for))
+        shaft = shaft_findings(build, drive, settings, build.made(motor_for))
+        return at_stage(self.stage, [*_torque(drive, settings), *motor, *shaft])
 
 
 def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
@@ -54,119 +53,35 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
         "machine.torque",
         f"the drive needs up to {peak:.4g} N·m, {run} at {math.degrees(at):.1f} degrees of the input, "
         f"{drive.rms:.4g} N·m rms at {drive.speed * 60 / math.tau:.4g} rev/min; power up to {most:.4g} W, "
-        f"{mean:.4g} W in the mean",
+        f"{mean if abs(mean) > _NOTHING * most else 0:.4g} W in the mean",
         abs(peak),
         "N*m",
     )
     wheel = drive.flywheel(settings.irregularity)
     if wheel is not None and drive.swing is not None:
+        disc = disc_of(wheel)
         yield Finding.note(
             "machine.flywheel",
             f"work swings by {1e3 * drive.swing:.4g} mJ about its mean; a flywheel of {wheel:.4g} kg·m^2 at "
-            f"the input keeps its speed within {100 * settings.irregularity:g} %",
+            f"the input, such as a steel disc of {disc:.0f} x {disc * DISC:.0f} mm, keeps its speed within "
+            f"{100 * settings.irregularity:g} %",
             wheel,
             "kg*m^2",
         )
 
 
-def _motor(build: Build, drive: Drive, settings: MachineSettings, choice: Choice) -> Iterator[Finding]:
-    name, asked = choice.motor.name, choice.demand
-    if not choice.enough:
-        yield _too_weak(build, drive, settings, choice)
-        return
-    yield Finding.note(
-        "machine.motor",
-        f"{name} may give {choice.cover:.3g} times the {asked.peak:.4g} N·m (peak) and {asked.rms:.4g} N·m "
-        f"(rms) that are asked at {asked.speed:.4g} rev/min, a margin of {settings.margin:g} in them",
-        choice.cover,
-    )
-    if choice.ratio is not None and choice.ratio > INERTIA_RATIO:
-        gear = math.ceil(10 * settings.gear * math.sqrt(choice.ratio / INERTIA_RATIO)) / 10
-        heavier = [
-            one for one in stronger(drive, settings) if one.ratio is None or one.ratio <= INERTIA_RATIO
-        ]
-        proposed: list[Change] = [{"machine.motor": one.motor.name} for one in heavier[:1]]
-        proposed.append({"machine.gear": gear})
-        yield Finding.warning(
-            "machine.inertia",
-            "machine.motor",
-            f"{name} feels {choice.ratio:.3g} times the inertia of its rotor; steppers lose steps above "
-            f"{INERTIA_RATIO:g}",
-            choice.ratio,
-            INERTIA_RATIO,
-            remedy=f"take a motor with a heavier rotor, or gear it down to {gear:g}",
-            proposed=tuple(proposed),
-        )
-    yield from _manners(drive, choice)
+DISC = 0.1
+"""Thickness of a flywheel over its diameter."""
+
+_NOTHING = 1e-6
+"""Share of the greatest power below which the mean is rounding."""
 
 
-def _manners(drive: Drive, choice: Choice) -> Iterator[Finding]:
-    """How the motor takes it: braking, resonance."""
-    least = min(float(run.power.min()) for run in drive.runs)
-    if least < 0:
-        what = (
-            "a gear motor on a drive of one quadrant coasts there, and its worm, if it has one, locks"
-            if isinstance(choice.motor, GearMotor)
-            else "a stepper brakes there, and its driver takes the power up"
-        )
-        yield Finding.note(
-            "machine.braking",
-            f"the mechanism drives the motor with up to {-least:.4g} W; {what}",
-            -least,
-            "W",
-        )
-    if choice.resonant:
-        yield Finding.note(
-            "machine.resonance",
-            f"at {choice.demand.speed:.4g} rev/min a stepper resonates in full steps; run it in microsteps",
-            choice.demand.speed,
-            "rev/min",
-        )
+def disc_of(inertia: float) -> float:
+    """Diameter, mm, of the steel disc of usual shape that has an inertia, kg m².
 
-
-def _too_weak(build: Build, drive: Drive, settings: MachineSettings, choice: Choice) -> Finding:
-    asked = choice.demand
-    enough = stronger(drive, settings)
-    share = able_at(drive, settings, choice.motor)
-    words: list[str] = []
-    proposed: list[Change] = []
-    if enough:
-        words.append(f"take {enough[0].motor.name}")
-        proposed.append({"machine.motor": enough[0].motor.name})
-    if share is not None:
-        key, now = _speed(build, drive, settings)
-        able = _below(share * now)
-        words.append(f"run it at {able:g} rev/min")
-        proposed.append({key: able})
-    if not words:
-        words.append("gear it down")
-    return Finding.error(
-        "machine.motor",
-        "machine.motor",
-        f"{choice.motor.name} may give {choice.given:.3g} N·m of the {asked.peak:.3g} N·m that are asked at "
-        f"{asked.speed:.4g} rev/min, a margin of {settings.margin:g} in them: "
-        f"{asked.peak - choice.given:.3g} N·m are missing",
-        choice.given,
-        asked.peak,
-        "N*m",
-        ", or ".join(words),
-        proposed=tuple(proposed),
-    )
-
-
-def _speed(build: Build, drive: Drive, settings: MachineSettings) -> tuple[str, float]:
-    """The key that sets the speed, and its value, rev/min."""
-    own = getattr(build.design.params, "speed", None)
-    if settings.speed is None and isinstance(own, float):
-        return "parameters.speed", own
-    return "machine.speed", settings.speed or drive.mean_speed * 60 / math.tau
-
-
-def _below(value: float) -> float:
-    """A round number of three digits that is not above.
-
-    >>> _below(123.987), _below(0.045678)
-    (123.0, 0.0456)
+    >>> round(disc_of(0.0019178), 3)  # 120 x 12 mm
+    120.0
     """
-    step = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return float(f"{math.floor(value / step * (1 + 1e-12)) * step:.3g}")
+    one = disc_inertia(1.0, DISC, 1000 * material("steel").density)
+    return float((inertia / one) ** 0.2)

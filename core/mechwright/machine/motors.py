@@ -1,7 +1,7 @@
 """The motor of a drive: what it is asked for at its own shaft, and whether it can."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -149,13 +149,43 @@ _POINTS = 121
 
 def able_at(drive: Drive, settings: MachineSettings, one: Motor) -> float | None:
     """The greatest share of the speed at which a motor is enough; None if it is at none, however slow."""
-    low, high = 0.0, 1.0
     if not judged(drive, settings, one, _SLOWEST).enough:
         return None
+    return _greatest(lambda share: judged(drive, settings, one, share).enough)
+
+
+GEARS = (1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0, 50.0)
+"""Ratios that are proposed: preferred numbers R10."""
+
+
+def geared_down(drive: Drive, settings: MachineSettings) -> float | None:
+    """The least ratio beyond the present one with which the design's motor is enough; None if with none."""
+    for gear in GEARS:
+        if gear > settings.gear:
+            choice = motor_of(drive, settings.model_copy(update={"gear": gear}))
+            if choice is not None and choice.enough and _steady(choice):
+                return gear
+    return None
+
+
+def carried(drive: Drive, settings: MachineSettings, one: Motor) -> float | None:
+    """The greatest share of the load of ``[machine]`` at which a motor is enough; None if of none."""
+    if settings.load == 0:
+        return None
+
+    def enough(share: float) -> bool:
+        return judged(drive.lightened(share), settings, one).enough
+
+    return _greatest(enough) if enough(0.0) else None
+
+
+def _greatest(passes: Callable[[float], bool]) -> float | None:
+    """The greatest share that passes, where all smaller ones do; None if it is 0."""
+    low, high = 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        low, high = (middle, high) if judged(drive, settings, one, middle).enough else (low, middle)
-    return low if low > 0 else None
+        low, high = (middle, high) if passes(middle) else (low, middle)
+    return low or None
 
 
 _SLOWEST = 1e-3

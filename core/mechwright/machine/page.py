@@ -91,6 +91,9 @@ def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -
     }
 
 
+_NOTHING = 1e-8
+"""Share of the peak below which a part of the torque is rounding."""
+
 _DIGITS = 9
 """Significant digits of a figure: differences of samples are right to them."""
 
@@ -123,7 +126,7 @@ def _figures(name: str, drive: Drive, choice: Choice | None) -> list[Figure]:
             ("given loads", drive.given),
             ("resistance", drive.resisting),
         )
-        if np.any(values)
+        if np.abs(values).max() > _NOTHING * abs(peak[0])
     ]
     mark = (math.degrees(peak[1]), peak[0], f"{peak[0]:.3g} N·m")
     power = [Line(run.name, angle, run.power) for run in drive.runs]

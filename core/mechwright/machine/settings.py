@@ -16,7 +16,7 @@ def _designation(text: str) -> str:
     try:
         return motor(text).name
     except DesignError as error:
-        raise ValueError(str(error)) from error
+        raise ValueError(f"is no motor; {str(error).partition('; ')[2]}") from error
 
 
 MotorName = Annotated[str, Field(max_length=40), AfterValidator(_designation)]
