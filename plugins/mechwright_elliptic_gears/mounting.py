@@ -25,6 +25,5 @@ def mounting_of(params: EllipticGearParams) -> Mounting | None:
             Spindle(
                 "4", "gear-4", (2 * a, 0.0), hub, "parameters.bore", torque=(1 + e) / (1 - e), force=force
             ),
-        ),
-        "parameters.semi_major",
+        )
     )

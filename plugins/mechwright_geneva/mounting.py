@@ -45,7 +45,7 @@ def mounting_of(params: GenevaParams) -> Mounting | None:
                 "wheel", WHEEL, (0.0, 0.0), wheel_hub(m), "parameters.bore", torque=wheel_torque, force=force
             ),
         ),
-        "parameters.entry_radius",
+        ("parameters.axial_gap", sizes.axial_gap),
     )
 
 

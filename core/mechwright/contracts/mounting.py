@@ -96,8 +96,9 @@ class Mounting:
     ----------
     spindles
         All axes that turn in the frame; one of them drives.
-    distance_key
-        The design-file key that moves the axes apart; empty if none does.
+    gap
+        The design-file key of the gap along the axes between what turns over each other, and its value, mm;
+        None if there is none.
 
     Raises
     ------
@@ -107,7 +108,7 @@ class Mounting:
     """
 
     spindles: tuple[Spindle, ...]
-    distance_key: str = ""
+    gap: tuple[str, float] | None = None
 
     def __post_init__(self) -> None:
         if sum(spindle.drives for spindle in self.spindles) != 1:

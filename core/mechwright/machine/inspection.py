@@ -42,8 +42,10 @@ class MachineDrive(Inspection):
             return [Finding(KEYS, Severity.ERROR, key, message, remedy=remedy, stage=self.stage)]
         settings = settings_of(build)
         motor = motor_findings(build, drive, settings, build.made(motor_for))
-        shaft = shaft_findings(build, drive, settings, build.made(motor_for))
-        return at_stage(self.stage, [*_torque(drive, settings), *motor, *shaft])
+        found = [*_torque(drive, settings), *motor]
+        if settings.frame == "none":  # the frame judges its own shafts
+            found += shaft_findings(build, drive, settings, build.made(motor_for))
+        return at_stage(self.stage, found)
 
 
 def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:

@@ -1,5 +1,7 @@
 """The base plate on four feet, and the legs from it to the lower bearing plate, under the pillars."""
 
+import math
+
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
@@ -8,7 +10,7 @@ from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
 from mechwright.machine.frame.plates import STOCK, Hole, add_plate
 from mechwright.machine.frame.standing import Standing
-from mechwright.standards.screws import Screw, screw, screw_size
+from mechwright.standards.screws import Screw, screw
 
 MARGIN = 16.0
 """By how much the base plate is larger than the bearing plates on every side, mm: it stands wider."""
@@ -22,6 +24,12 @@ UNDER = 10.0
 FOOT = (20.0, 15.0, 6.0)
 """Diameter and height of a foot and the depth of the thread in it, mm: higher than a screw's head."""
 
+HOLE = 6.0
+"""Of the base plate's screws, mm: a drill, for mills of the clearance's size do not reach through."""
+
+RUBBER = 1.2e-3
+"""Density, g/mm³; handbook."""
+
 IN_FOOT = 4.0
 """How far a screw goes into a foot at least, mm."""
 
@@ -31,7 +39,13 @@ def foot() -> Bought:
     wide, high, deep = FOOT
     words = f"rubber buffer {wide:g} x {high:g} with thread M{SCREW:g} x {deep:g} inside"
     shape = Shape((ring(0.0, wide, high),), (ring(0.0, SCREW, deep, high - deep),))
-    return Bought(words, "", None, shape, "no standard fixes it; compare with the maker's sheet")
+    return Bought(
+        words,
+        "",
+        round(RUBBER * math.pi / 4 * wide**2 * high, 1),
+        shape,
+        "no standard fixes it; compare with the maker's sheet",
+    )
 
 
 def thickness_for(standing: Standing) -> float:
@@ -66,7 +80,7 @@ def add_base(
     """
     thickness = thickness_for(standing)
     low = top - thickness
-    fixing, size = leg_screw(thickness), screw_size(SCREW)
+    fixing = leg_screw(thickness)
     leg = Turned(
         (Step(PILLAR, under - top),),
         note=NOTE.replace("pillars", "legs"),
@@ -77,7 +91,7 @@ def add_base(
     )
     holes = []
     for k, column in enumerate(columns, start=1):
-        holes.append(Hole.through(f"leg-{k}", column.point, size.clearance(), thickness))
+        holes.append(Hole.through(f"leg-{k}", column.point, HOLE, thickness))
         kit.turned("leg", leg, column.name, top)
         put_screw(kit, fixing, f"{column.name}-below", -low)
     edge = EDGE + MARGIN
@@ -85,7 +99,7 @@ def add_base(
     signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
         point = (x + a * inset, y + b * inset)
-        holes.append(Hole.through(f"foot-{k}", point, size.clearance(), thickness))
+        holes.append(Hole.through(f"foot-{k}", point, HOLE, thickness))
         kit.places[f"foot-{k}"] = Place((*point, 0.0))
         put_screw(kit, screw(SCREW, thickness + IN_FOOT), f"foot-{k}", top)
         kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])

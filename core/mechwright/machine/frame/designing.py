@@ -13,6 +13,7 @@ from mechwright.machine.frame.base import UNDER, add_base
 from mechwright.machine.frame.bracket import add_bracket, bracket_for, pillar_holes
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.findings import strength
+from mechwright.machine.frame.free import in_the_way
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import (
@@ -38,15 +39,12 @@ from mechwright.machine.frame.plates import (
     thickness_for,
 )
 from mechwright.machine.frame.seats import Seat, seats, wall
-from mechwright.machine.frame.shafts import Levels, add_shaft, collar, highest, lowest
+from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 
 STUB = 2.0
 """Length of the shaft for a drive of one's own below the frame, in its diameters."""
-
-BESIDE = 1.0
-"""Between a shaft and what another body sweeps at its height, mm."""
 
 
 def frame_around(
@@ -86,7 +84,7 @@ def decided(
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness)
-    faults = [fault for seat in chosen for fault in _in_the_way(seat, levels, space)]
+    faults = [fault for seat in chosen for fault in in_the_way(seat, levels, space, mounting)]
     if faults:
         return faults
     held = [
@@ -131,42 +129,6 @@ def _too_thin(thickness: float, least: float) -> Finding:
         Stage.PARTS,
         ({"machine.plate_thickness": None},),
     )
-
-
-def _in_the_way(seat: Seat, levels: Levels, space: Space) -> list[Finding]:
-    """What other bodies sweep where the shaft has to stand."""
-    import shapely
-
-    spindle, hub = seat.spindle, seat.spindle.hub
-    axis = shapely.Point(spindle.point)
-    ranges = (
-        (levels.lower, hub.low, collar(hub) / 2),
-        (hub.high, hub.high + seat.circlip.width, seat.circlip.room / 2),
-        (hub.high + seat.circlip.width, levels.upper, seat.circlip.size / 2),
-    )
-    for low, high, radius in ranges:
-        for piece in space.between(low, high, without=spindle.body):
-            room = float(shapely.distance(axis, piece.region))
-            if room < radius + BESIDE:
-                said = (
-                    f"{piece.part} sweeps within {room:.1f} mm of the axis of {spindle.name} at heights "
-                    f"{max(low, piece.low):.1f} to {min(high, piece.high):.1f} mm, where its shaft of "
-                    f"{2 * radius:g} mm goes on to the other plate"
-                )
-                remedy = "take a thinner bore there, or a frame of your own"
-                return [
-                    Finding.error(
-                        "frame.shaft-in-the-way",
-                        "machine.frame",
-                        said,
-                        room,
-                        radius + BESIDE,
-                        "mm",
-                        remedy,
-                        Stage.PARTS,
-                    )
-                ]
-    return []
 
 
 def built(frame: Frame, keys: FrameKeys) -> Kit:

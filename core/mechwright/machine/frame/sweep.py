@@ -27,6 +27,10 @@ _ROUND = 32
 """Chords of a quarter circle."""
 
 
+Layer = tuple[Array, float, float]
+"""Points (n, 2) that span a slice of a part in plan, and its heights, mm."""
+
+
 @dataclass(frozen=True)
 class Swept:
     """What one part of one body takes: between two heights, mm, a region of the plane."""
@@ -70,15 +74,16 @@ def space_of(parts: Sequence[Part], motion: Motion) -> Space:
     """The space of all instances; raises DesignError for a part whose form nobody can say without a solid."""
     return Space(
         tuple(
-            _swept(part, instance, motion.poses[instance.body])
+            _swept(part, layer, instance, motion.poses[instance.body])
             for part in parts
+            for layer in layers_of(part)
             for instance in part.instances
         )
     )
 
 
-def _swept(part: Part, instance: Instance, poses: Poses) -> Swept:
-    points, low, high = _form(part)
+def _swept(part: Part, layer: Layer, instance: Instance, poses: Poses) -> Swept:
+    points, low, high = layer
     corners = shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points)))
     spread = np.ptp(poses.position, axis=0)
     tilt = np.abs(poses.rotation[:, 2, 2] - 1).max()
@@ -101,17 +106,26 @@ def _swept(part: Part, instance: Instance, poses: Poses) -> Swept:
     return Swept(instance.body, part.name, z + low, z + high, region)
 
 
-def _form(part: Part) -> tuple[Array, float, float]:
-    """Points (n, 2) that span a part in plan, mm, and its heights."""
+def layers_of(part: Part) -> list[Layer]:
+    """A part in slices of one plan, a turned one by its steps."""
     if part.outline is not None:
-        return np.asarray(part.outline.outer.flatten()), 0.0, part.thickness
-    form = part.turned or part.bought
-    if form is None or form.shape is None:
+        return [(np.asarray(part.outline.outer.flatten()), 0.0, part.thickness)]
+    if part.turned is not None:
+        steps = zip(part.turned.starts, part.turned.steps, strict=True)
+        return [
+            (_ring((0.0, 0.0), max(step.foot, step.diameter) / 2), low, low + step.length)
+            for low, step in steps
+        ]
+    if part.bought is None or part.bought.shape is None:
         raise DesignError(f"part {part.name} is a solid of its own: nothing says what it sweeps")
-    return _shape(form.shape)
+    return [_shape(part.bought.shape)]
 
 
-def _shape(shape: Shape) -> tuple[Array, float, float]:
+def _ring(centre: tuple[float, float], radius: float) -> Array:
+    return np.asarray(shapely.get_coordinates(shapely.Point(*centre).buffer(radius, quad_segs=_ROUND)))
+
+
+def _shape(shape: Shape) -> Layer:
     points: list[tuple[float, float]] = []
     heights: list[float] = []
     for piece in shape.pieces:
@@ -120,9 +134,7 @@ def _shape(shape: Shape) -> tuple[Array, float, float]:
                 points += piece.corners
                 heights += [piece.low, piece.high]
             case Revolve():
-                x, y = piece.axis
-                radius = max(r for r, _ in piece.profile)
-                ring = shapely.get_coordinates(shapely.Point(x, y).buffer(radius, quad_segs=_ROUND))
+                ring = _ring(piece.axis, max(r for r, _ in piece.profile))
                 points += [(float(a), float(b)) for a, b in ring]
                 heights += [z for _, z in piece.profile]
     return np.array(points), min(heights), max(heights)
