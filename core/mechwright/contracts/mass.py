@@ -1,4 +1,4 @@
-"""Mass of parts and of bodies: plates and plain turned parts by their own numbers, others by their solid."""
+"""Mass of parts and of bodies: plates and plain forms by their own numbers, others by their solid."""
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache
@@ -8,10 +8,11 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.materials import material
-from mechwright.contracts.moments import moments
+from mechwright.contracts.moments import moments, prism
 from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Prism, Revolve, Shape
 from mechwright.errors import GeometryError
+from mechwright.geometry import Loop
 
 if TYPE_CHECKING:
     import cadquery as cq
@@ -32,7 +33,7 @@ def mass_moments(part: Part, solid: "Callable[[Part], cq.Solid]" = _built) -> Ar
     """∫ p pᵀ dm with p = (x, y, z, 1), (4, 4), of a part in its own coordinates, in kg and mm.
 
     A bought part with a mass of its own has that, spread over its envelope. ``solid`` makes that of a part
-    that is neither a plate nor plainly turned.
+    that is neither a plate nor a plain form.
 
     Raises
     ------
@@ -60,23 +61,27 @@ def _volume_moments(part: Part, solid: "Callable[[Part], cq.Solid]") -> Array:
     form = part.turned or part.bought
     shape = None if form is None else form.shape
     if shape is not None and _plain(shape):
-        return sum((_revolved(piece) for piece in shape.pieces), np.zeros((4, 4)))
+        return _whole(shape.pieces[0])
     return _solid_moments(solid(part))
 
 
 def _plain(shape: Shape) -> bool:
-    """Whether a shape is one full turn of a profile."""
-    return (
-        len(shape.pieces) == 1
-        and not shape.less
-        and isinstance(shape.pieces[0], Revolve)
-        and shape.pieces[0].sweep == 360.0
-    )
+    """Whether a shape is one full turn of a profile, or one prism."""
+    if len(shape.pieces) > 1 or shape.less:
+        return False
+    piece = shape.pieces[0]
+    return isinstance(piece, Prism) or piece.sweep == 360.0
 
 
-def _revolved(piece: Revolve | Prism) -> Array:
+def _whole(piece: Revolve | Prism) -> Array:
+    if isinstance(piece, Prism):
+        flat = Loop.polygon(piece.corners).moments
+        return prism(flat * np.sign(flat[0]), piece.low, piece.high)
+    return _revolved(piece)
+
+
+def _revolved(piece: Revolve) -> Array:
     """Moments of a profile turned fully: by Green, ∫ f r dr dz over it is the sum over its sides."""
-    assert isinstance(piece, Revolve)  # noqa: S101 - it is plain
     corners = np.array([*piece.profile, piece.profile[0]])
     nodes, weights = np.polynomial.legendre.leggauss(4)  # exact to degree 7; r⁴ z⁰ and r² z² are asked for
     share = (1 + nodes)[:, None] / 2

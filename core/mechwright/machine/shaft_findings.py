@@ -99,8 +99,8 @@ def _key(key: Part, here: list[Part], shaft: Part, torque: float, *, reverses: b
     limit = allowed(hub).key * (REVERSING_KEY if reverses else 1.0)
     pressure = key_pressure(torque, shaft.turned.greatest, size.height - size.shaft_depth, length)
     words = (
-        f"the key {width:g} x {size.height:g} x {length:g} presses with {pressure:.3g} MPa on the {hub} of its "
-        f"hub at {torque:.3g} N·m; {limit:g} are allowed"
+        f"the key {width:g} x {size.height:g} x {length:g} presses with {pressure:.3g} MPa on the {hub} of "
+        f"its hub at {torque:.3g} N·m; {limit:g} are allowed"
         + (" where the torque changes its sense" if reverses else "")
     )
     if pressure <= limit:
