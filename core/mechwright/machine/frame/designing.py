@@ -40,7 +40,7 @@ from mechwright.machine.frame.plates import (
 )
 from mechwright.machine.frame.seats import Seat, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
-from mechwright.machine.frame.standing import Disc, stand
+from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 
 STUB = 2.0
@@ -91,6 +91,9 @@ def decided(
         Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
         for seat in chosen
     ]
+    if keys.cover:
+        x0, y0, x1, y1 = space.region.bounds
+        held += [Disc(corner, CLEARANCE) for corner in ((x0, y0), (x1, y1))]
     bracket, region = None, space.region
     if keys.frame == "base" and wanted.motor is not None:
         driver = next(seat for seat in chosen if seat.spindle.drives)

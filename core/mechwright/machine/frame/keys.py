@@ -33,6 +33,10 @@ class FrameKeys(Parameters):
         None, description="Of the bearing plates; left out, as their bearings need."
     )
     plate_material: MaterialName = Field("aluminium", description="Of all plates of the frame.")
+    cover: bool = Field(
+        False,
+        description="Whether the plates reach over all that moves, so that nothing stands out sideways.",
+    )
     axial_gap: Millimetres = Field(
         2.0, ge=0.5, le=50, description="Least gap along the axes between what moves and the bearing plates."
     )

@@ -4,6 +4,7 @@ The rectangle is the smallest, to a millimetre, that has all bearings within and
 outside of whatever the mechanism sweeps.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -92,7 +93,7 @@ def stand(swept: shapely.Geometry, held: Sequence[Disc], pillar: float, edge: fl
     )
     shapely.prepare(around)
     x0, y0, x1, y1 = around.bounds
-    below, above = _heights(y0, low[1]), _heights(high[1], y1)
+    below, above = -_heights(-low[1], -y0)[::-1], _heights(high[1], y1)
     left, right = _outwards(low[0], x0), _outwards(high[0], x1)
     lefts, rights = (
         (_first_clear(around, xs, below), _first_clear(around, xs, above)) for xs in (left, right)
@@ -110,9 +111,10 @@ def stand(swept: shapely.Geometry, held: Sequence[Disc], pillar: float, edge: fl
     )
 
 
-def _heights(one: float, two: float) -> Array:
-    low, high = sorted((np.floor(one), np.ceil(two)))
-    return np.unique(np.round(np.linspace(low, max(high, low), STEPS)))
+def _heights(start: float, end: float) -> Array:
+    """Whole millimetres from the least upwards, at most so many as are looked at."""
+    low = math.ceil(start)
+    return np.unique(np.round(np.linspace(low, max(math.ceil(end), low), STEPS)))
 
 
 def _outwards(start: float, end: float) -> Array:
