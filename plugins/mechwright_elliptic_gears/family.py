@@ -52,7 +52,7 @@ class EllipticGears(Family[EllipticGearParams]):
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
-    def mounting(self, params: EllipticGearParams) -> "Mounting | None":
+    def mounting(self, params: EllipticGearParams) -> "Mounting":
         """The shafts of a pair; a train has a base plate of its own."""
         from mechwright_elliptic_gears.mounting import mounting_of
 

@@ -50,7 +50,7 @@ class Geneva(Family[GenevaParams]):
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
 
-    def mounting(self, params: GenevaParams) -> "Mounting | None":
+    def mounting(self, params: GenevaParams) -> "Mounting":
         """The shafts of wheel and driver."""
         from mechwright_geneva.mounting import mounting_of
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright import Hub, Mounting, Spindle
+from mechwright import DesignError, Hub, Mounting, Spindle
 from mechwright_geneva.mechanism import Mechanism, mechanism_of
 from mechwright_geneva.motion import DRIVER, WHEEL, motion_of
 from mechwright_geneva.params import GenevaParams
@@ -14,12 +14,13 @@ SAMPLES = 721
 """Of a turn, for the greatest force and torque: every half degree."""
 
 
-def mounting_of(params: GenevaParams) -> Mounting | None:
-    """The camshaft and the wheel's shaft; None where a bore is 0."""
+def mounting_of(params: GenevaParams) -> Mounting:
+    """The camshaft and the wheel's shaft; raises DesignError where a bore is 0."""
     m = mechanism_of(params)
     sizes = m.params
-    if not (sizes.bore > 0 and sizes.driver_bore > 0):
-        return None
+    for key, bore in (("bore", sizes.bore), ("driver_bore", sizes.driver_bore)):
+        if bore == 0:
+            raise DesignError(f"parameters.{key}: a plate without a bore has no shaft; set {key} = 10")
     force, wheel_torque = shares(m)
     top = sizes.thickness + sizes.axial_gap + sizes.crank_thickness
     driver = Hub(

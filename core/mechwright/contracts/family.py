@@ -86,6 +86,12 @@ class Family(Plugin, Generic[P]):
 
         It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,
         and a frame is refused.
+
+        Raises
+        ------
+        DesignError
+            This design has no shafts that a frame could carry: the key, what is wrong, and what to do, as in
+            ``"parameters.bore: gears without a bore have no shafts; set bore = 10"``.
         """
         return None
 

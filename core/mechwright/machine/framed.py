@@ -21,19 +21,21 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
 
     Its drive is that of the mechanism alone; what shafts and coupling add to it is in the drive of the whole.
     """
-    mounting = family.mounting(params)
+    try:
+        mounting = family.mounting(params)
+    except DesignError as error:
+        return _refused("frame.mounting", error)
     if mounting is None:
         said = (
-            f"the family {family.name} does not say where the shafts of this design stand; "
-            'leave frame out, or set it to "none"'
+            f"the family {family.name} does not say where its shafts stand, so nothing can carry them; "
+            'leave frame out, or set frame = "none"'
         )
         return Surroundings(findings=(refusal("frame.mounting", "machine.frame", said),))
     parts = family.parts(params)
     try:
         drive = drive_of(family.solve(params, SAMPLES), parts, settings)
     except DesignError as error:
-        key, _, rest = str(error).partition(": ")
-        return Surroundings(findings=(refusal("frame.drive", key, rest),))
+        return _refused("frame.drive", error)
     choice = motor_of(drive, settings)
     wanted = Wanted(
         None if choice is None else choice.motor,
@@ -42,3 +44,9 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         drive.speed * 60 / math.tau,
     )
     return frame_around(settings, mounting, parts, family.solve(params, LOOKS), wanted)
+
+
+def _refused(code: str, error: DesignError) -> Surroundings:
+    """By an error that begins with a key."""
+    key, _, rest = str(error).partition(": ")
+    return Surroundings(findings=(refusal(code, key, rest),))

@@ -1,6 +1,7 @@
 """What the family contract asks of a mounting, and of the frames that are built on it."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -16,12 +17,15 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Mounting
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
+from mechwright.errors import DesignError
 from mechwright.machine import MachineSettings
 from mechwright.machine.framed import framed
 from mechwright.tolerances import TOLERANCES
 
 _SAMPLES = 25
 """Of the motion that a mounting is compared with."""
+
+_REFUSAL = re.compile(r"(parameters|machine)\.\w+: .+; .+")
 
 _FRAMES = ("plates", "base")
 
@@ -37,7 +41,12 @@ class FrameTests:
     def test_mounting(self, design: Mapping[str, Any]) -> None:
         """Spindles, where the family says them, are axes about which their bodies turn, with hubs on them."""
         params = self.family.Params.model_validate(dict(design))
-        mounting = self.family().mounting(params)
+        mounting, refusal = None, ""
+        try:
+            mounting = self.family().mounting(params)
+        except DesignError as error:
+            refusal = str(error)
+        assert not refusal or _REFUSAL.fullmatch(refusal), f"{refusal!r} names no key, or no cure"
         if mounting is None:
             pytest.skip("the family does not say where its shafts stand")
         found = [

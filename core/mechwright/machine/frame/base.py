@@ -15,8 +15,9 @@ from mechwright.standards.screws import Screw, screw
 MARGIN = 16.0
 """By how much the base plate is larger than the bearing plates on every side, mm: it stands wider."""
 
-LEAST, SLENDER = 10.0, 15.0
-"""Thickness of the base plate, mm, at least, and its longer side in thicknesses, at most."""
+LEAST, MOST, SLENDER = 10.0, 25.0, 15.0
+"""Thickness of the base plate, mm, at least and at most, and its longer side in thicknesses between them.
+With a foot beside every leg it carries little but itself."""
 
 UNDER = 10.0
 """Between the motor and the base plate, mm: its cable, and air."""
@@ -51,8 +52,8 @@ def foot() -> Bought:
 def thickness_for(standing: Standing) -> float:
     """Of the base plate, mm."""
     longer = standing.longer + 2 * (EDGE + MARGIN)
-    wanted = max(LEAST, longer / SLENDER)
-    return next((float(one) for one in STOCK if one >= wanted), float(STOCK[-1]))
+    wanted = min(max(LEAST, longer / SLENDER), MOST)
+    return next(float(one) for one in STOCK if one >= wanted)
 
 
 def leg_screw(thickness: float) -> Screw:

@@ -106,6 +106,10 @@ class Bracket:
         return shapely.MultiPoint(self.corners).convex_hull.buffer(EDGE)
 
 
+class NoCouplingError(DesignError):
+    """The shaft is thinner than any coupling's bore."""
+
+
 def stub_for(bearing_bore: float, motor_shaft: float, torque: float) -> tuple[float, Coupling]:
     """Diameter of the shaft's stub, mm, and its coupling; DesignError where no coupling has both bores."""
     fault: DesignError | None = None
@@ -114,9 +118,8 @@ def stub_for(bearing_bore: float, motor_shaft: float, torque: float) -> tuple[fl
             return bore, coupling_for(motor_shaft, bore, torque)
         except DesignError as error:
             fault = fault or error
-    raise fault or DesignError(
-        f"a shaft in bearings of {bearing_bore:g} mm has no coupling: hubs have bores of {BORES[0]:g} mm and "
-        "more; take a larger bore"
+    raise fault or NoCouplingError(
+        f"a shaft in bearings of {bearing_bore:g} mm has no coupling: the least has a bore of {BORES[0]:g} mm"
     )
 
 

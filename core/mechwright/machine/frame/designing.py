@@ -10,7 +10,7 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.surroundings import OVER, Place, Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.frame.base import UNDER, add_base
-from mechwright.machine.frame.bracket import add_bracket, bracket_for, pillar_holes
+from mechwright.machine.frame.bracket import NoCouplingError, add_bracket, bracket_for, pillar_holes
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.findings import strength
 from mechwright.machine.frame.free import in_the_way
@@ -38,10 +38,11 @@ from mechwright.machine.frame.plates import (
     least_thickness,
     thickness_for,
 )
-from mechwright.machine.frame.seats import Seat, seats, wall
+from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
+from mechwright.standards.couplings import BORES
 
 STUB = 2.0
 """Length of the shaft for a drive of one's own below the frame, in its diameters."""
@@ -97,13 +98,16 @@ def decided(
     bracket, region = None, space.region
     if keys.frame == "base" and wanted.motor is not None:
         driver = next(seat for seat in chosen if seat.spindle.drives)
-        bracket = bracket_for(
-            wanted.motor,
-            (driver.spindle.point, driver.bearing.bore, driver.bearing.width),
-            (levels.lower, levels.lower - thickness),
-            wanted.torque,
-            held,
-        )
+        try:
+            bracket = bracket_for(
+                wanted.motor,
+                (driver.spindle.point, driver.bearing.bore, driver.bearing.width),
+                (levels.lower, levels.lower - thickness),
+                wanted.torque,
+                held,
+            )
+        except NoCouplingError as error:
+            return [_no_coupling(driver, keys, str(error))]
         region = region.union(bracket.region)
         held += [Disc(corner, EDGE) for corner in bracket.corners]
     standing = stand(region, held, PILLAR / 2, EDGE)
@@ -118,6 +122,29 @@ def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: 
     # Whole millimetres between the plates, half of what is missing on either side.
     height = math.ceil(round(upper - lower + short, 6))
     return Levels(lower - short / 2, lower - short / 2 + height)
+
+
+def _no_coupling(driver: Seat, keys: FrameKeys, said: str) -> Finding:
+    """With the least bore whose bearings leave a shaft for a coupling."""
+    able = (bore for bore in bores() if bore > driver.spindle.hub.bore)
+    works = next((b for b in able if _bearing_bore(b, keys) >= BORES[0]), None)
+    key = driver.spindle.bore_key
+    return Finding.error(
+        "frame.coupling",
+        key,
+        said,
+        driver.spindle.hub.bore,
+        works,
+        "mm",
+        "take a larger bore" if works is None else f"make it {works:g}",
+        Stage.PARTS,
+        ({key: works},) if works is not None and key else (),
+    )
+
+
+def _bearing_bore(bore: float, keys: FrameKeys) -> float:
+    found = candidates(bore, keys.bearing)
+    return found[0].bore if found else 0.0
 
 
 def _too_thin(thickness: float, least: float) -> Finding:

@@ -105,7 +105,7 @@ def _thinned(
 
 def _no_bearing(spindle: Spindle, keys: FrameKeys) -> Finding:
     bore = spindle.hub.bore
-    able = [b for b in _bores() if candidates(b, keys.bearing)]
+    able = [b for b in bores() if candidates(b, keys.bearing)]
     near = min(able, key=lambda b: (abs(b - bore), b), default=None)
     series = "" if keys.bearing == "auto" else f" of series {keys.bearing}"
     if keys.bearing != "auto" and candidates(bore, "auto"):
@@ -147,7 +147,7 @@ def _too_near(
         proposed.append({"machine.bearing": "auto"})
     smaller: list[Change] = [
         {spindle.bore_key: bore for spindle in mounting.spindles if spindle.hub.bore > bore}
-        for bore in sorted(_bores(), reverse=True)
+        for bore in sorted(bores(), reverse=True)
         if bore < max(one.hub.bore, two.hub.bore)
         and _room(min(bore, one.hub.bore), min(bore, two.hub.bore), keys, distance)
     ]
@@ -169,7 +169,8 @@ def _room(one: float, two: float, keys: FrameKeys, distance: float) -> bool:
     return any(needed(a, b, keys.plate_material) <= distance for a in first for b in second)
 
 
-def _bores() -> list[float]:
+def bores() -> list[float]:
+    """For which there are circlips, mm, from the least."""
     return sorted({one.size for one in shaft_circlips()})
 
 
