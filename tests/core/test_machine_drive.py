@@ -177,6 +177,21 @@ def test_a_lever_is_braked_as_it_is_driven():
     assert drive.flywheel(0.05) is None
 
 
+def test_friction_turns_over_where_a_lever_does_and_its_peak_is_no_parabola_through_the_jump():
+    phase = np.linspace(0, math.tau, SAMPLES)
+    angle = 0.5 * (1 - np.cos(phase))
+    poses = {"crank": Poses.planar(0.0, 0.0, angle), "output": Poses.planar(50.0, 0.0, 2 * angle)}
+    drive = drive_of(
+        turning(angle, phase / OMEGA, poses, joints=geared().joints), [], MachineSettings(load=0.3)
+    )
+    ahead, back = drive.runs
+    np.testing.assert_allclose(ahead.torque, 0.6 * np.sign(np.round(np.sin(phase), 9)), atol=1e-8)
+    np.testing.assert_allclose(back.torque, -ahead.torque)
+    assert abs(drive.peak()[0]) == pytest.approx(0.6)
+    assert drive.power[1] == pytest.approx(0.6 * 2 / (math.tau / OMEGA), rel=1e-3)
+    assert min(run.power.min() for run in drive.runs) >= -1e-9
+
+
 def test_the_clock_is_made_where_a_motion_has_none():
     motion = geared()
     bare = Motion("phi", {"phi": motion.channels["phi"]}, motion.poses, joints=motion.joints)

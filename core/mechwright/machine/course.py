@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
@@ -37,11 +38,16 @@ class Course:
     bodies: Mapping[str, Timed]
     rocks: bool
 
+    @property
+    def rests(self) -> NDArray[np.bool_]:
+        """Where the input stands still for a moment, (n,)."""
+        return np.asarray(np.abs(self.speed) <= RESTING * np.abs(self.speed).max())
+
     def along(self, body: str) -> Array:
         """Frames' derivative (n, 3, 4) over the input's angle; where it rests, that of its starting."""
         one = self.bodies[body]
         speed, acceleration = self.speed[:, None, None], self.acceleration[:, None, None]
-        rests = np.abs(speed) <= RESTING * np.abs(speed).max()
+        rests = self.rests[:, None, None]
         moving = np.where(rests, 1.0, speed)
         starting = np.where(rests & (acceleration != 0), acceleration, 1.0)
         return np.where(rests, one.second / starting, one.first / moving)

@@ -197,7 +197,7 @@ def _run(course: Course, conservative: Array, resisting: Array, name: str) -> Ru
 
 
 def greatest(values: Array, at: Array) -> tuple[float, float]:
-    """The value (n,) farthest from 0 and where it is, by a parabola through the samples about it.
+    """The value (n,) farthest from 0 and where it is, by a parabola through the samples about a smooth one.
 
     >>> x = np.linspace(0, 3, 31)
     >>> [round(number, 5) for number in greatest(2 - (x - 1.234) ** 2, x)]
@@ -208,12 +208,16 @@ def greatest(values: Array, at: Array) -> tuple[float, float]:
         return float(values[top]), float(at[top])
     left, middle, right = values[top - 1 : top + 2]
     bend = left - 2 * middle + right
-    shift = 0.0 if bend == 0 else float((left - right) / (2 * bend))
-    if abs(shift) > 1:
+    if bend == 0 or max(abs(middle - left), abs(middle - right)) > _SMOOTH * abs(middle):
         return float(middle), float(at[top])
+    shift = float((left - right) / (2 * bend))
     return float(middle - (left - right) * shift / 4), float(
         at[top] + shift * (at[top + 1] - at[top - 1]) / 2
     )
+
+
+_SMOOTH = 0.05
+"""Share of a peak by which its neighbours differ at the most, where it is no jump."""
 
 
 def _masses(motion: Motion, parts: Sequence[Part]) -> dict[str, Array]:
@@ -265,7 +269,7 @@ def _of_loads(course: Course, loads: Mapping[str, Load]) -> tuple[Array, Array]:
             turning = course.turning(load.body)
             given -= turning @ np.array(load.torque)
             resisting += load.resisting * np.linalg.norm(turning, axis=1)
-    return given, resisting * (np.sign(course.speed) if course.rocks else 1.0)
+    return given, resisting * (np.where(course.rests, 0.0, np.sign(course.speed)) if course.rocks else 1.0)
 
 
 def _swing(torque: Array, angle: Array) -> float:

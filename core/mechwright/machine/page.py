@@ -12,7 +12,7 @@ from mechwright.build.page import Page
 from mechwright.machine.drive import Drive
 from mechwright.machine.made import drive_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motors import Choice, curve_of
-from mechwright.machine.plots import Line, key, plot
+from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
 
 FIGURES: Mapping[str, tuple[str, str]] = {
@@ -48,7 +48,7 @@ class DrivePage(Page):
             return {}
         drive, choice, settings = build.made(drive_for), build.made(motor_for), settings_of(build)
         values = figures_of(drive, settings, choice)
-        said = {name: {"value": value, "unit": FIGURES[name][1]} for name, value in values.items()}
+        numbers = {name: {"value": value, "unit": FIGURES[name][1]} for name, value in values.items()}
         motor = {} if choice is None else {"motor": choice.motor.name}
         html = figures_page(
             build.design.name,
@@ -57,7 +57,7 @@ class DrivePage(Page):
             _figures(build.motion.input_name, drive, choice),
             [_table(values)],
         )
-        return {"drive.html": html, "drive.json": json.dumps({**motor, "figures": said}, indent=2) + "\n"}
+        return {"drive.html": html, "drive.json": json.dumps({**motor, "figures": numbers}, indent=2) + "\n"}
 
 
 def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -> dict[str, float]:
@@ -115,8 +115,13 @@ def _notes(settings: MachineSettings, choice: Choice | None) -> list[str]:
 
 
 def _figures(name: str, drive: Drive, choice: Choice | None) -> list[Figure]:
-    angle = np.degrees(drive.course.angle)
-    across, peak = f"{name}, deg", drive.peak()
+    peak = drive.peak()
+    angle, across = np.degrees(drive.course.angle), f"{name}, deg"
+    place = math.degrees(peak[1])
+    if drive.course.rocks:
+        angle, across = drive.course.time, "time, s"
+        run = next(run for run in drive.runs if run.name == peak[2])
+        place = float(angle[np.argmax(np.abs(run.torque))])
     runs = [Line(run.name, angle, run.torque) for run in drive.runs]
     parts = [
         Line(words, angle, values)
@@ -128,7 +133,7 @@ def _figures(name: str, drive: Drive, choice: Choice | None) -> list[Figure]:
         )
         if np.abs(values).max() > _NOTHING * abs(peak[0])
     ]
-    mark = (math.degrees(peak[1]), peak[0], f"{peak[0]:.3g} N·m")
+    mark = (place, peak[0], f"{said(peak[0])} N·m")
     power = [Line(run.name, angle, run.power) for run in drive.runs]
     found = [
         Figure("Torque of the input", plot(runs, across, "N·m", [mark]), f"In its sense; {key(runs)}."),
@@ -162,7 +167,7 @@ def _motor(choice: Choice) -> Figure:
 def _table(values: Mapping[str, float]) -> Grid:
     units = {"N*m": "N·m", "kg*m^2": "kg·m²"}
     rows = [
-        [FIGURES[name][0], f"{value:.4g}".replace("-", "−"), units.get(FIGURES[name][1], FIGURES[name][1])]
+        [FIGURES[name][0], said(value), units.get(FIGURES[name][1], FIGURES[name][1])]
         for name, value in values.items()
     ]
     return Grid("Figures of the drive, the greater of both senses", ["", "value", "unit"], rows)

@@ -42,8 +42,8 @@ def plot(lines: Sequence[Line], across: str, up: str, marks: Sequence[tuple[floa
         return np.stack(np.broadcast_arrays(over, -above), axis=-1)
 
     drawn = [svg.element("rect", x=0, y=0, width=WIDTH, height=HEIGHT, fill="#fff")]
-    drawn += [_grid(at(first, y), at(last, y), _said(y), row=True) for y in rows]
-    drawn += [_grid(at(x, low), at(x, high), _said(x), row=False) for x in ticks(first, last, 7, inside=True)]
+    drawn += [_grid(at(first, y), at(last, y), said(y), row=True) for y in rows]
+    drawn += [_grid(at(x, low), at(x, high), said(x), row=False) for x in ticks(first, last, 7, inside=True)]
     drawn.append(_stroke(at(np.array([first, last]), 0.0), SOFT, 1.0))
     for number, line in enumerate(lines):
         step = max(1, (line.x.size - 1) // (MOST - 1))
@@ -73,8 +73,13 @@ def key(lines: Sequence[Line]) -> str:
     )
 
 
-def _said(value: float) -> str:
-    return f"{value:g}".replace("-", "−")
+def said(value: float) -> str:
+    """A number with a true minus sign.
+
+    >>> said(-0.70627)
+    '−0.7063'
+    """
+    return f"{value:.4g}".replace("-", "−")
 
 
 def _stroke(points: Array, colour: str, width: float, **look: object) -> str:
