@@ -25,7 +25,7 @@ def test_every_family_has_a_design_and_every_synthesis_a_requirement() -> None:
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_a_design_has_no_fault_and_says_what_it_is(path: Path) -> None:
     design = load(path, host())
-    found = design.family.check(design.params)
+    found = design.check()
     assert [finding for finding in found if finding.severity is not Severity.NOTE] == []
     assert path.read_text(encoding="utf-8").startswith("# ")
 

@@ -88,14 +88,14 @@ def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list
     from mechwright_cad.interference import interference_findings
 
     met = [joined(part) for part in parts]
-    return interference_findings(design.family, design.params, met, solids=solids)
+    return interference_findings(design.solve, met, solids=solids)
 
 
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:
     """The page on which the mechanism moves; ``solids`` imports the CAD kernel for what is no plate."""
     from mechwright_cad.animation import MOTION, PAGE_SAMPLES, motion_html
 
-    motion = design.family.solve(design.params, PAGE_SAMPLES)
+    motion = design.solve(PAGE_SAMPLES)
     return {MOTION: motion_html(design.name, design.family.title, parts, motion, solids=solids).encode()}
 
 

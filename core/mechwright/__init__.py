@@ -27,9 +27,11 @@ if TYPE_CHECKING:
         until_error,
     )
     from mechwright.contracts.joint import GROUND, Joint
+    from mechwright.contracts.load import Load
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
     from mechwright.contracts.materials import MaterialName, material
-    from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Scalar, Trace
+    from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
+    from mechwright.contracts.mounting import Hub, Mounting, Spindle
     from mechwright.contracts.parameters import FIRST, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
@@ -68,8 +70,10 @@ _HOMES = {
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.joint": "GROUND Joint",
+    "mechwright.contracts.load": "Load",
     "mechwright.contracts.materials": "MaterialName material",
-    "mechwright.contracts.motion": "Channel Curve Motion Poses Scalar Trace",
+    "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
+    "mechwright.contracts.mounting": "Hub Mounting Spindle",
     "mechwright.contracts.parameters": "FIRST Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
     "mechwright.contracts.plugin": "HOOK_API Plugin",
@@ -96,10 +100,24 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names.spli
 __all__ = ["HOOK_API", "Host", "Plugin", "__version__", "hookimpl", "host"]
 __all__ += ["Command", "Exporter", "Family", "Inspection", "Page", "RawStock", "Table"]
 __all__ += ["FIRST", "MaterialName", "Parameters", "material"]
-__all__ += ["GROUND", "Array", "Channel", "Curve", "Joint", "Motion", "Poses", "Scalar", "Trace"]
+__all__ += [
+    "GROUND",
+    "Array",
+    "Channel",
+    "Curve",
+    "Joint",
+    "Load",
+    "Motion",
+    "Poses",
+    "Rates",
+    "Scalar",
+    "Trace",
+]
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
+__all__ += ["Hub", "Mounting", "Spindle"]
+__all__ += ["Hub", "Mounting", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]

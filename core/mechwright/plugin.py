@@ -3,10 +3,21 @@
 from mechwright.build.tables import MotionTables
 from mechwright.build.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.contracts.plugin import Plugin
+from mechwright.machine.inspection import MachineDrive
+from mechwright.machine.page import DrivePage
+from mechwright.machine.table import MachineTable
 from mechwright.plugins.hookspecs import hookimpl
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The pages that need no other room, and the table ``[tolerances]``."""
-    return [MotionTables, TolerancesTable, ToleranceKeys, TolerancePage]
+    """The pages that need no other room, and the tables ``[tolerances]`` and ``[machine]``."""
+    return [
+        MotionTables,
+        TolerancesTable,
+        ToleranceKeys,
+        TolerancePage,
+        MachineTable,
+        MachineDrive,
+        DrivePage,
+    ]

@@ -10,7 +10,17 @@ from mechwright_elliptic_gears.requirements import REQUIREMENTS
 if TYPE_CHECKING:
     import shapely
 
-    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        MadePart,
+        Motion,
+        Mounting,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class EllipticGears(Family[EllipticGearParams]):
@@ -41,6 +51,12 @@ class EllipticGears(Family[EllipticGearParams]):
 
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
+
+    def mounting(self, params: EllipticGearParams) -> "Mounting":
+        """The shafts of a pair; a train has a base plate of its own."""
+        from mechwright_elliptic_gears.mounting import mounting_of
+
+        return mounting_of(params)
 
     def check_cut(
         self, params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]"

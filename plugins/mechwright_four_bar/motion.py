@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Channel, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import moving_figures
 from mechwright.mechanics.planar import acceleration_pole
@@ -67,7 +67,9 @@ def motion_of(params: FourBarParams, samples: int) -> Motion:
     else:
         figures |= {f"{name}_max": value for name, value in rate_peaks(period_of(params).bodies).items()}
     traces = {} if point is None else {"P": Trace("coupler", (point.real, point.imag, 0.0))}
-    return Motion("phi", channels, frames_of(params, bodies), figures, traces, held_by(params))
+    frames, held = frames_of(params, bodies), held_by(params)
+    loads = {"load_torque": Load("follower", torque=(0.0, 0.0, params.load_torque))}
+    return Motion("phi", channels, frames, figures, traces, held, loads=loads)
 
 
 def _figures(params: FourBarParams) -> dict[str, Scalar]:

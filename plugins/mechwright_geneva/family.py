@@ -8,7 +8,17 @@ from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.requirement import IndexingRequirement
 
 if TYPE_CHECKING:
-    from mechwright import AsMade, MadePart, Motion, Part, Progress, Synthesis, ToleranceModel, Tolerances
+    from mechwright import (
+        AsMade,
+        MadePart,
+        Motion,
+        Mounting,
+        Part,
+        Progress,
+        Synthesis,
+        ToleranceModel,
+        Tolerances,
+    )
 
 
 class Geneva(Family[GenevaParams]):
@@ -39,6 +49,12 @@ class Geneva(Family[GenevaParams]):
 
         refuse(findings(params), Stage.PARTS)
         return parts_of(params)
+
+    def mounting(self, params: GenevaParams) -> "Mounting":
+        """The shafts of wheel and driver."""
+        from mechwright_geneva.mounting import mounting_of
+
+        return mounting_of(params)
 
     def as_made(self, params: GenevaParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Roller in its slot, error of the wheel in motion, and the lock."""

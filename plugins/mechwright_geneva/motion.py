@@ -1,12 +1,14 @@
 """The motion of a design over one turn of the crank: strokes and dwells."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from mechwright import GROUND, Array, Channel, Curve, Joint, Motion, Poses, Stage, refuse
+from mechwright import GROUND, Array, Channel, Curve, Joint, Load, Motion, Stage, refuse
 from mechwright.contracts.joint import fixed
 from mechwright.contracts.motion import travelled
+from mechwright.mechanics.planar import BodyMotion, Turning
 from mechwright_geneva.contact import contact
 from mechwright_geneva.feasible import feasibility
 from mechwright_geneva.figures import figures
@@ -71,20 +73,30 @@ def motion_of(params: GenevaParams, samples: int) -> Motion:
         ),
         "crank_torque": Channel(still(forces.crank_torque), "N*m"),
     }
+    # The roller stands at a - b exp(iφ): the crank line points to π + φ.
+    back = turning.scaled(-1.0)
+    crank = BodyMotion.about(complex(m.axes), replace(back, theta=math.pi + m.crank_half - theta_d))
+    wheel = BodyMotion.about(0j, Turning(theta_w, *(still(rate) for rate in rates)))
     poses = {
-        # The roller stands at a - b exp(iφ): the crank line points to π + φ.
-        DRIVER: Poses.planar(m.axes, 0.0, math.pi + m.crank_half - theta_d),
-        WHEEL: Poses.planar(0.0, 0.0, theta_w),
+        DRIVER: crank.poses(rates=True),
+        WHEEL: wheel.poses(rates=True),
     }
-    arm = m.axes - m.crank * np.exp(1j * (m.crank_half - theta_d))
     for k in range(params.rollers):
-        turned = m.axes + (arm - m.axes) * np.exp(1j * k * m.pitch)
-        angle = math.pi + m.crank_half - theta_d + k * m.pitch
-        poses[roller_body(k)] = Poses.planar(turned.real, turned.imag, angle)
+        arm = crank.point(m.crank * np.exp(1j * k * m.pitch))
+        angle = replace(crank.turning, theta=crank.turning.theta + k * m.pitch)
+        poses[roller_body(k)] = BodyMotion(arm, angle).poses(rates=True)
     if m.params.slots_made == "backed":
         for k in range(m.slots):
-            poses[island_body(k)] = Poses.planar(0.0, 0.0, theta_w + 2 * m.wheel_half * k)
-    return Motion("theta_d", channels, poses, figures(m), joints=_joints(m), curves=_outline(m))
+            angle = replace(wheel.turning, theta=theta_w + 2 * m.wheel_half * k)
+            poses[island_body(k)] = BodyMotion.about(0j, angle).poses(rates=True)
+    return Motion(
+        "theta_d", channels, poses, figures(m), joints=_joints(m), curves=_outline(m), loads=_loads(m)
+    )
+
+
+def _loads(m: Mechanism) -> dict[str, Load]:
+    """What the wheel carries."""
+    return {"load": Load(WHEEL, resisting=m.params.load_torque, inertia=m.params.load_inertia)}
 
 
 _WALL_SAMPLES = 361

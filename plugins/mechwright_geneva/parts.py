@@ -114,8 +114,7 @@ def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point
 
 def _driver(m: Mechanism) -> list[Part]:
     params = m.params
-    away = math.pi if params.rollers == 1 else m.pitch / 2
-    opening = _turned(driver_opening(params), away)
+    opening = _turned(driver_opening(params), driver_keyway_angle(m))
     dowels = driver_dowels(m)
     loop, deviation = lock_loop(m)
     top = params.thickness + params.axial_gap
@@ -199,6 +198,11 @@ def _plate(
         colour,
         tuple(features),
     )
+
+
+def driver_keyway_angle(m: Mechanism) -> float:
+    """Direction of the driver's keyway: away from the rollers."""
+    return math.pi if m.params.rollers == 1 else m.pitch / 2
 
 
 def keyway_angle(m: Mechanism) -> float:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mechwright import Array, Channel, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright import Array, Channel, KinematicsError, Load, Motion, Scalar, Stage, Trace
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.linkage import Mass, moving_figures
 from mechwright.mechanics.planar import Turning, acceleration_pole
@@ -64,7 +64,9 @@ def motion_of(params: SliderCrankParams, samples: int) -> Motion:
     point = params.coupler_point
     traces = {"P": Trace("rod", (point.real, point.imag, 0.0))}
     figures = _figures(params, masses)
-    return Motion("phi", channels, body_poses(params, phi), figures, traces, held_by(params))
+    x, y = params.load * math.cos(linkage.direction), params.load * math.sin(linkage.direction)
+    loads = {"load": Load("slider", force=(x, y, 0.0))}
+    return Motion("phi", channels, body_poses(params, phi), figures, traces, held_by(params), loads=loads)
 
 
 def _slider(linkage: SliderCrank, bodies: Bodies) -> dict[str, Channel]:

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from by_night import examples
 from hypothesis import strategies as st
 
 from mechwright.testing import FamilyContract
@@ -14,6 +15,7 @@ QUICK = {"designs": 1, "starts": 1}
 
 class TestEllipticGears(FamilyContract):
     family = EllipticGears
+    max_frames = examples(8, 50)
     examples = (
         {},
         {"module": 2, "teeth": 39},

@@ -4,6 +4,7 @@ import math
 from typing import ClassVar
 
 import pytest
+from by_night import examples
 
 from mechwright.testing import FamilyContract
 from mechwright_four_bar.family import FourBars
@@ -11,6 +12,7 @@ from mechwright_four_bar.family import FourBars
 
 class TestFourBars(FamilyContract):
     family = FourBars
+    max_frames = examples(2, 50)
     examples = (
         {},
         {"crank": 70, "coupler": 70, "follower": 75, "ground": 20},

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from by_night import examples
 from hypothesis import strategies as st
 
 from mechwright.mechanics.laws import LAWS
@@ -32,6 +33,7 @@ SMALL = {
 
 class TestGeneva(FamilyContract):
     family = Geneva
+    max_frames = examples(8, 50)
     examples = (
         {
             **SMALL,

@@ -2,12 +2,15 @@
 
 from typing import ClassVar
 
+from by_night import examples
+
 from mechwright.testing import FamilyContract
 from mechwright_slider_crank.family import SliderCrankFamily
 
 
 class TestSliderCrank(FamilyContract):
     family = SliderCrankFamily
+    max_frames = examples(2, 50)
     examples = (
         {},
         {

@@ -1,5 +1,7 @@
 from typing import ClassVar
 
+from by_night import examples
+
 from mechwright.testing import FamilyContract
 from mechwright_spherical.family import Spherical
 
@@ -12,6 +14,7 @@ FOUR_BAR = {"kind": "four-bar", "radius": 60}
 
 class TestSpherical(FamilyContract):
     family = Spherical
+    max_frames = examples(2, 50)
     examples: ClassVar = (
         PATH,
         {"five_bar": {"phase": 2, "common_arcs": True}, "drive": {"gears": False}, "flat": {"make": False}},

@@ -99,7 +99,7 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
     )
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=512)
 def _slabs(part: Part, instance: Instance, solids: bool) -> tuple[Slab, ...]:
     """The layers of a plate, or of a solid if it has some and solids are asked for."""
     if part.outline is not None:
@@ -158,12 +158,17 @@ def _instant(motion: Motion, time: float) -> Instant:
 
 def faithful_motion(family: Family[Any], params: Parameters, parts: Sequence[Part]) -> Motion:
     """The motion of a design with as many samples as a cubic between them needs."""
+    return smooth_motion(partial(family.solve, params), parts)
+
+
+def smooth_motion(solve: Callable[[int], Motion], parts: Sequence[Part]) -> Motion:
+    """The motion that ``solve`` gives, with as many samples as a cubic between them needs."""
     samples = FEWEST_SAMPLES
-    motion = family.solve(params, samples)
+    motion = solve(samples)
     reach = _reach(parts)
     while samples < MOST_SAMPLES and _error(motion, reach) > FAITHFUL:
         samples = 2 * samples - 1
-        motion = family.solve(params, samples)
+        motion = solve(samples)
     return motion
 
 
@@ -179,10 +184,10 @@ def _reach(parts: Sequence[Part]) -> float:
 
 
 def interference_findings(
-    family: Family[Any], params: Parameters, parts: Sequence[Part], *, solids: bool
+    solve: Callable[[int], Motion], parts: Sequence[Part], *, solids: bool
 ) -> list[Finding]:
     """What the check says of the parts of a design whose own check found no error."""
     if sum(len(part.instances) for part in parts) < 2:
         return []
-    motion = faithful_motion(family, params, parts)
+    motion = smooth_motion(solve, parts)
     return list(interference(parts, motion, solids=solids).findings())

@@ -36,7 +36,7 @@ def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
     return tuple(Slab(slab.polygon, slab.bottom + instance.z, slab.top + instance.z) for slab in slabs)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=512)
 def _layers(part: Part) -> tuple[Slab, ...] | None:
     """The layers of a solid in its own coordinates: the same for all its copies."""
     solid = part_solid(part)

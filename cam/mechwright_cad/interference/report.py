@@ -9,6 +9,9 @@ from mechwright.contracts.finding import Finding, Stage, of_stage
 MOST = 5
 """Collisions that are printed one by one, the deepest ones: a design with more has one cause for many."""
 
+MOST_NAMES = 24
+"""Bodies that are named of those that were not compared: a machine has dozens of screws."""
+
 
 @dataclass(frozen=True, slots=True)
 class Instant:
@@ -98,7 +101,9 @@ class Report:
             remedy = "give them heights of their own, or change the sizes that bring them together"
             yield Finding.error("interference.collision", "", message, hit.depth, 0.0, "mm", remedy)
         if self.skipped:
-            names = ", ".join(self.skipped)
+            names = ", ".join(self.skipped[:MOST_NAMES])
+            if len(self.skipped) > MOST_NAMES:
+                names += f" and {len(self.skipped) - MOST_NAMES} more"
             message = f"{names}: no plates in parallel planes; the commands model and build compare them"
             yield Finding.note("interference.solids", message)
         if self.clear and self.pairs:

@@ -170,7 +170,7 @@ def _circle_centre(points: Array) -> Array:
     return centre
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=512)
 def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
     """The layers of a plate in its body, from the top down, a slab for each piece; without fillets on floors.
 

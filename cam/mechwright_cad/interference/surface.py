@@ -92,7 +92,7 @@ class Surface:
         return Surface(self.points - SKIN * shift, self.triangles)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=512)
 def surface_of(part: Part, instance: Instance) -> Surface:
     """The surface of a copy of a part in the frame of its body; GeometryError if the part cannot be made."""
     if part.outline is not None:

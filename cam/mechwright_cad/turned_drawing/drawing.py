@@ -58,6 +58,9 @@ class _Plan:
         if turned.bore:
             at, last = turned.starts[-1], turned.steps[-1]
             found.append((at + 0.8 * last.length, turned.bore, words.of_bore(turned)))
+        for thread in turned.threads:
+            at = 0.0 if thread.end == "lower" else turned.length
+            found.append((at, thread.core, words.of_thread(thread)))
         ends = {turned.length, *turned.starts[1:]}
         ends |= {groove.at for groove in turned.grooves}
         for seat in turned.seats:

@@ -31,6 +31,14 @@ def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
     if inner > 0:
         sheet.lines([(left, axis + inner), (end, axis + inner)])
         _hatch(sheet, corners, inner, axis)
+    for thread in turned.threads:
+        deep = s * (thread.depth if thread.end == "lower" else -thread.depth)
+        x0 = left if thread.end == "lower" else end
+        for wide in (thread.core, thread.diameter):  # ISO 6410: core and nominal diameter, hidden
+            half = s * wide / 2
+            sheet.lines([(x0, axis - half), (x0 + deep, axis - half)], "HATCH")
+            sheet.lines([(x0, axis + half), (x0 + deep, axis + half)], "HATCH")
+            sheet.lines([(x0 + deep, axis - half), (x0 + deep, axis + half)], "HATCH")
     for seat in turned.seats:
         x0, x1, half = left + s * seat.at, left + s * (seat.at + seat.length), s * seat.width / 2
         sheet.lines(

@@ -3,7 +3,7 @@
 import re
 
 from mechwright.contracts.fits import signed
-from mechwright.contracts.turned import Groove, Step, Turned
+from mechwright.contracts.turned import EndThread, Groove, Step, Turned
 
 FINE, FAIR, PLAIN = "Ra 0.8", "Ra 1.6", "Ra 3.2"
 """Roughness of seats that are pressed, of those that turn or slide, and of all else, µm."""
@@ -48,6 +48,15 @@ def of_bore(turned: Turned) -> str:
     if turned.bore_fit is not None:
         return f"⌀{turned.bore_fit.text} {FAIR}, through"
     return f"⌀{number(turned.bore)} through"
+
+
+def of_thread(thread: EndThread) -> str:
+    """The thread in an end.
+
+    >>> of_thread(EndThread("upper", 4.0, 0.7, 10.0))
+    'M4, 10 deep'
+    """
+    return f"M{number(thread.diameter)}, {number(thread.depth)} deep"
 
 
 def notes(turned: Turned) -> list[str]:

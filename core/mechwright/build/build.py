@@ -84,13 +84,13 @@ class Build:
 
     @cached_property
     def findings(self) -> "tuple[Finding, ...]":
-        """What the family finds."""
-        return tuple(self.design.family.check(self.design.params))
+        """What the family finds, and what there is to say of what stands around the mechanism."""
+        return self.design.check()
 
     @cached_property
     def motion(self) -> "Motion":
         """The motion, with as many samples as are wanted."""
-        return self.design.family.solve(self.design.params, self.wanted.samples)
+        return self.design.solve(self.wanted.samples)
 
     @cached_property
     def parts(self) -> "Sequence[Part]":
@@ -109,10 +109,9 @@ class Build:
         """A motion, and the sample of it that the assembly shows; raises DesignError for a wrong ``--at``."""
         from mechwright.build import pose
 
-        solve, params = self.design.family.solve, self.design.params
         if not self.wanted.at:
-            return solve(params, 2), 0
-        motion = solve(params, pose.SAMPLES)
+            return self.design.solve(2), 0
+        motion = self.design.solve(pose.SAMPLES)
         return motion, pose.sample_at(motion, self.wanted.at)
 
     def made(self, make: "Callable[[Build], T]") -> T:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.as_made import AsMade
     from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.motion import Motion
+    from mechwright.contracts.mounting import Mounting
     from mechwright.contracts.part import Part
     from mechwright.contracts.synthesis import Progress, Synthesis
     from mechwright.contracts.tolerance_settings import Tolerances
@@ -79,6 +80,20 @@ class Family(Plugin, Generic[P]):
         MechwrightError
             The parameters describe no part; ``check`` says why.
         """
+
+    def mounting(self, params: P) -> "Mounting | None":  # noqa: ARG002 - used by families that say it
+        """Where its shafts stand, so that a frame can be built around it.
+
+        It is asked of a design whose ``check`` finds no error. None, the default: the family does not say,
+        and a frame is refused.
+
+        Raises
+        ------
+        DesignError
+            This design has no shafts that a frame could carry: the key, what is wrong, and what to do, as in
+            ``"parameters.bore: gears without a bore have no shafts; set bore = 10"``.
+        """
+        return None
 
     def check_cut(
         self,

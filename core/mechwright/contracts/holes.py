@@ -114,8 +114,10 @@ def threaded(part: Part, name: str, designation: str, depth: float | None = None
 def joined(part: Part) -> Part:
     """The part with its holes as wide as what is pressed or screwed into them; others stay as they are.
 
-    A pin in a hole of class N7 or P7, and a screw in its thread, stand in the plate by their design.
+    A pin in a hole of class N7 or P7, and a screw in its thread, stand in the part by their design.
     """
+    if part.turned is not None and part.turned.threads:
+        return replace(part, build=part.turned.screwed.solid)
     for bore in [feature for feature in part.features if isinstance(feature, Bore)]:
         nominal = [
             detail.diameter

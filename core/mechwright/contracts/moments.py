@@ -50,14 +50,14 @@ def moments(part: Part) -> Array:
     """
     if part.outline is None:
         return np.zeros((4, 4))
-    found = _prism(part.outline.moments, 0.0, part.thickness)
+    found = prism(part.outline.moments, 0.0, part.thickness)
     if not blind(part) and not part.details:
         return found
     whole = polygon_moments(part.outline.polygon(FINE))
     layers = plain_layers(part, FINE)
     for layer in layers:
         taken = whole - polygon_moments(layer.shape)
-        found = found - _prism(taken, part.thickness - layer.bottom, part.thickness - layer.top)
+        found = found - prism(taken, part.thickness - layer.bottom, part.thickness - layer.top)
     for feature in blind(part):
         if isinstance(feature, Pocket) and feature.floor_radius > 0:
             found = found + _fillet(part, feature, layers)
@@ -112,7 +112,7 @@ def _gauss(low: float, high: float, count: int) -> Iterator[tuple[float, float]]
     return zip((low + half * (1 + nodes)).tolist(), (half * weights).tolist(), strict=True)
 
 
-def _prism(m: Array, low: float, high: float) -> Array:
+def prism(m: Array, low: float, high: float) -> Array:
     """Moments of a section that is extruded between two heights; two nodes are exact for z²."""
     found: Array = np.sum([weight * _slice(m, z) for z, weight in _gauss(low, high, 2)], axis=0)
     return found

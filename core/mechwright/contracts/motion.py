@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint, check_bodies
+from mechwright.contracts.load import Load
 from mechwright.errors import DesignError, KinematicsError
 
 TIME = "time"
@@ -44,6 +45,20 @@ class Scalar:
 
 
 @dataclass(frozen=True, slots=True)
+class Rates:
+    """How fast the frames [rotation | position] of a body change.
+
+    Parameters
+    ----------
+    first, second
+        (n, 3, 4) float: their derivatives over time, per s and s², mm.
+    """
+
+    first: Array
+    second: Array
+
+
+@dataclass(frozen=True, slots=True)
 class Poses:
     """Where a body is at each sample: a body point p stands at ``rotation @ p + position``.
 
@@ -53,10 +68,19 @@ class Poses:
         (n, 3) float, mm.
     rotation
         (n, 3, 3) float, proper orthogonal.
+    rates
+        Where the family knows them; else whoever needs them takes differences, which are exact but where the
+        acceleration jumps.
     """
 
     position: Array
     rotation: Array
+    rates: Rates | None = None
+
+    @property
+    def frames(self) -> Array:
+        """[rotation | position] (n, 3, 4)."""
+        return np.concatenate([self.rotation, self.position[:, :, None]], axis=2)
 
     @classmethod
     def planar(cls, x: Array | float, y: Array | float, angle: Array, z: float = 0.0) -> "Poses":
@@ -126,12 +150,14 @@ class Motion:
         How the bodies hold each other, by name; empty where the family does not say.
     curves
         Lines fixed to bodies, by name.
+    loads
+        What works on bodies from outside, by name.
 
     Raises
     ------
     KinematicsError
         The input is no channel, a channel or body has another number of samples than the input, or a trace,
-        joint or curve is that of no body.
+        joint, curve or load is that of no body.
     """
 
     input_name: str
@@ -141,6 +167,7 @@ class Motion:
     traces: Mapping[str, Trace] = field(default_factory=dict)
     joints: Mapping[str, Joint] = field(default_factory=dict)
     curves: Mapping[str, Curve] = field(default_factory=dict)
+    loads: Mapping[str, Load] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.input_name not in self.channels:
@@ -152,6 +179,8 @@ class Motion:
         for body, poses in self.poses.items():
             shapes[f"positions of body {body}"] = (poses.position.shape, (n, 3))
             shapes[f"rotations of body {body}"] = (poses.rotation.shape, (n, 3, 3))
+            for which in () if poses.rates is None else (poses.rates.first, poses.rates.second):
+                shapes[f"rates of body {body}"] = (which.shape, (n, 3, 4))
         for what, (shape, wanted) in shapes.items():
             if shape != wanted:
                 raise KinematicsError(f"{what}: shape {shape}; the input has {n} samples, so {wanted}")
@@ -166,6 +195,9 @@ class Motion:
                     f"the curve {name!r} has points of shape {curve.points.shape} in body {curve.body!r}; it "
                     "needs (n, 3) in a body that has poses"
                 )
+        for name, load in self.loads.items():
+            if load.body not in self.poses:
+                raise KinematicsError(f"the load {name!r} is on body {load.body!r}, which has no poses")
         check_bodies(self.joints, self.poses.keys())
 
     def path(self, name: str) -> Array:

@@ -3,11 +3,15 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
+
+if TYPE_CHECKING:
+    from mechwright.contracts.family import Family
+    from mechwright.contracts.surroundings import Surroundings
 
 V = TypeVar("V")
 
@@ -59,6 +63,18 @@ class Table(Plugin, Generic[V]):
             What is asked cannot be done, or of a part that is not there; it begins with ``path`` and the key.
         """
         return parts
+
+    def surroundings(
+        self,
+        value: V,  # noqa: ARG002 - for tables that put something around a mechanism
+        family: "Family[Any]",  # noqa: ARG002
+        params: Parameters,  # noqa: ARG002
+    ) -> "Surroundings | None":
+        """What the table puts around a mechanism, such as a frame; None, the default, for nothing.
+
+        It is asked where the family's own check finds no error, and what cannot be had is a finding.
+        """
+        return None
 
     def inputs(self, value: V, path: Path) -> Mapping[str, Path]:  # noqa: ARG002 - for tables that name files
         """The files that the table names, by the names it gives them; the manifest has their hashes."""

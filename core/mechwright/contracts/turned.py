@@ -13,9 +13,10 @@ key seat
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 from mechwright.contracts.fits import Fit
-from mechwright.contracts.shape import Revolve, Shape, box
+from mechwright.contracts.shape import Revolve, Shape, box, ring
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
@@ -67,6 +68,35 @@ class KeySeat:
     floor: float
 
 
+TAP_RUN = 3.0
+"""A drilled hole goes on so many pitches below its last full turn of thread: the tap's own lead."""
+
+
+@dataclass(frozen=True)
+class EndThread:
+    """A threaded blind hole in an end, along the axis: nominal diameter, pitch and full depth, mm."""
+
+    end: Literal["lower", "upper"]
+    diameter: float
+    pitch: float
+    depth: float
+
+    @property
+    def core(self) -> float:
+        """Diameter of the hole to be threaded, mm."""
+        return round(self.diameter - 1.0825 * self.pitch, 6)
+
+    @property
+    def drilled(self) -> float:
+        """Depth of that hole, mm."""
+        return self.depth + TAP_RUN * self.pitch
+
+    def hole(self, length: float, *, screwed: bool) -> Revolve:
+        """The hole in a part of this length; ``screwed``: as wide as the screw that stands in it."""
+        low = 0.0 if self.end == "lower" else length - self.drilled
+        return ring(0.0, self.diameter if screwed else self.core, self.drilled, low)
+
+
 @dataclass(frozen=True)
 class Turned:
     """A turned part that stands on z = 0 with its axis upright.
@@ -85,12 +115,14 @@ class Turned:
         What is cut into the steps.
     note
         A line more on its drawing.
+    threads
+        In its ends; of a part without a bore.
 
     Raises
     ------
     GeometryError
-        A size is not above 0, a groove or seat lies outside of the part or cuts nothing, or the bore or the
-        chamfer is as large as a step.
+        A size is not above 0, threads meet or leave no wall, a groove or seat lies outside of the part or
+        cuts nothing, or the bore or the chamfer is as large as a step.
 
     Examples
     --------
@@ -106,6 +138,7 @@ class Turned:
     grooves: tuple[Groove, ...] = ()
     seats: tuple[KeySeat, ...] = ()
     note: str = ""
+    threads: tuple[EndThread, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.steps or not all(step.diameter > 0 and step.length > 0 for step in self.steps):
@@ -125,6 +158,7 @@ class Turned:
             raise GeometryError(
                 f"a chamfer of {self.chamfer:g} mm does not fit on both ends; one below {room:g} mm does"
             )
+        self._check_threads()
         for groove in self.grooves:
             step = self._step_of(groove)
             if not self.bore < groove.diameter < step.least:
@@ -142,6 +176,19 @@ class Turned:
                 raise GeometryError(
                     f"a key seat {seat.width:g} mm wide with its floor at {seat.floor:g} mm cuts nothing, or "
                     f"the bore; the part has a radius of {self.greatest / 2:g} mm"
+                )
+
+    def _check_threads(self) -> None:
+        deep = sum(thread.drilled for thread in self.threads)
+        if self.threads and (self.bore or deep >= self.length):
+            raise GeometryError(
+                f"threads need {deep:g} mm of a part without a bore; it is {self.length:g} mm long"
+            )
+        for thread in self.threads:
+            step = self.steps[0 if thread.end == "lower" else -1]
+            if not 0 < thread.diameter + 2 * thread.pitch <= step.least:
+                raise GeometryError(
+                    f"M{thread.diameter:g} leaves less than one pitch of wall in an end of {step.least:g} mm"
                 )
 
     def _step_of(self, groove: Groove) -> Step:
@@ -191,16 +238,27 @@ class Turned:
 
     @property
     def shape(self) -> Shape:
-        """The profile turned, less its key seats."""
+        """The profile turned, less its key seats and threaded holes."""
+        return self._shape(screwed=False)
+
+    @property
+    def screwed(self) -> Shape:
+        """The same with threaded holes as wide as the screws that stand in them."""
+        return self._shape(screwed=True)
+
+    def _shape(self, *, screwed: bool) -> Shape:
         r = self.bore / 2
         ends = [(r, 0.0), *self.profile, (r, self.length)]
         body = Revolve(tuple(one for k, one in enumerate(ends) if one != ends[k - 1]))
         wide = self.greatest
         return Shape(
             (body,),
-            tuple(
-                box((seat.floor, wide), (-seat.width / 2, seat.width / 2), (seat.at, seat.at + seat.length))
-                for seat in self.seats
+            (
+                *(
+                    box((one.floor, wide), (-one.width / 2, one.width / 2), (one.at, one.at + one.length))
+                    for one in self.seats
+                ),
+                *(thread.hole(self.length, screwed=screwed) for thread in self.threads),
             ),
         )
 

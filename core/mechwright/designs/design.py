@@ -16,11 +16,12 @@ A design file is data. It names a family, gives its parameters and says how the 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Change
+from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name
 from mechwright.contracts.table import Table
@@ -31,6 +32,10 @@ from mechwright.designs.schema import FORMAT, HEAD
 from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError, PluginError
 from mechwright.plugins.host import Host
+
+if TYPE_CHECKING:
+    from mechwright.contracts.motion import Motion
+    from mechwright.contracts.surroundings import Surroundings
 
 V = TypeVar("V")
 
@@ -68,14 +73,41 @@ class Design:
         return value
 
     def parts(self) -> Sequence[Part]:
-        """The parts as the family gives them, with what the tables ask of them.
+        """The parts as the family gives them and what stands around, with what the tables ask of them.
 
         Raises GeometryError for a part that cannot be made, DesignError for what a table cannot have.
         """
         parts: Sequence[Part] = self.family.parts(self.params)
+        for around in self.surroundings:
+            parts = [*parts, *around.parts]
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts
+
+    @cached_property
+    def surroundings(self) -> "tuple[Surroundings, ...]":
+        """What the tables put around the mechanism; nothing where the family's own check finds an error."""
+        if errors(self._own_findings, Stage.PARTS):
+            return ()
+        found = (
+            reader.surroundings(self.tables[reader.name], self.family, self.params) for reader in self.readers
+        )
+        return tuple(one for one in found if one is not None)
+
+    @cached_property
+    def _own_findings(self) -> tuple[Finding, ...]:
+        return tuple(self.family.check(self.params))
+
+    def check(self) -> tuple[Finding, ...]:
+        """What the family finds, and what there is to say of what stands around the mechanism."""
+        return (*self._own_findings, *(one for around in self.surroundings for one in around.findings))
+
+    def solve(self, samples: int) -> "Motion":
+        """The motion as the family gives it, with the bodies of what stands around the mechanism."""
+        motion: Motion = self.family.solve(self.params, samples)
+        for around in self.surroundings:
+            motion = around.around(motion)
+        return motion
 
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""

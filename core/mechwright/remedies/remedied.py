@@ -47,7 +47,7 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = N
 
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
-    bench = Bench(design, lambda one: one.family.check(one.params), limits=limits or CHECKED)
+    bench = Bench(design, Design.check, limits=limits or CHECKED)
     return remedied(bench, findings)
 
 

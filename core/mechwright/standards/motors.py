@@ -3,6 +3,7 @@
 The origin is the shaft's axis in the mounting face; the shaft points along +z, the body lies below.
 """
 
+import difflib
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import Bought
@@ -90,6 +91,15 @@ class GearMotor:
     mass: float
 
     @property
+    def name(self) -> str:
+        """Size and ratio.
+
+        >>> gear_motors()[0].name
+        '37D 18.75:1'
+        """
+        return f"37D {self.ratio:g}:1"
+
+    @property
     def stall_torque(self) -> float:
         """N m."""
         return self.stall * KG_MM
@@ -115,6 +125,25 @@ def steppers() -> tuple[Stepper, ...]:
 def gear_motors() -> tuple[GearMotor, ...]:
     """From the fastest to the slowest."""
     return table("gear-motors").of(GearMotor)
+
+
+def motors() -> tuple[Stepper | GearMotor, ...]:
+    """All of them, the lightest first."""
+    return tuple(sorted((*steppers(), *gear_motors()), key=lambda one: one.mass))
+
+
+def motor(name: str) -> Stepper | GearMotor:
+    """The motor of that name; raises DesignError that says the nearest.
+
+    >>> motor("NEMA 17 - 40").hold
+    0.36
+    """
+    known: dict[str, Stepper | GearMotor] = {one.name: one for one in motors()}
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, 1)
+    hint = f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
+    raise DesignError(f"no motor {name!r}; {hint}")
 
 
 def motor_faces() -> tuple[MotorFace, ...]:

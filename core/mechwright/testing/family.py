@@ -36,6 +36,7 @@ from mechwright.plugins.host import host
 from mechwright.testing import commands, rules
 from mechwright.testing.compare import assert_derivative, assert_rotations
 from mechwright.testing.fixes import FixTests
+from mechwright.testing.frames import FrameTests
 from mechwright.testing.joints import joint_faults
 from mechwright.testing.results import difference
 from mechwright.testing.tolerances import ToleranceTests
@@ -46,7 +47,7 @@ _REFINED = 1e-9
 """Part of a channel's largest value by which the same instant may differ between two samplings: rounding."""
 
 
-class FamilyContract(ToleranceTests, FixTests):
+class FamilyContract(ToleranceTests, FixTests, FrameTests):
     """Tests of one family; subclass it and set :attr:`family`.
 
     Examples

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.build.tolerances.units import degrees, shown_unit
 from mechwright.mechanics.tolerance import Analysis, Result
+from mechwright.output.ticks import ticks
 
 WIDTH, HEIGHT = 640, 250
 LEFT, RIGHT, TOP, BOTTOM = 74, 22, 12, 40
@@ -59,8 +60,8 @@ def plot(analysis: Analysis, result: Result) -> Plot | None:
     top, bottom = float(high[good].max()), float(min(low[good].min(), 0.0))
     steep = _STEEP * float(np.median(np.abs(np.concatenate([low[good], high[good]]))))
     top, bottom = min(top, steep), max(bottom, -steep)
-    ticks = _ticks(bottom, top)
-    bottom, top = min(bottom, ticks[0]), max(top, ticks[-1])
+    rows = ticks(bottom, top)
+    bottom, top = min(bottom, rows[0]), max(top, rows[-1])
 
     def x(value: Array | float) -> Array:
         return np.asarray(LEFT + (WIDTH - LEFT - RIGHT) * (value - at[0]) / (at[-1] - at[0]))
@@ -75,9 +76,9 @@ def plot(analysis: Analysis, result: Result) -> Plot | None:
         tuple(_outline(x(at[part]), y(low[part]), y(high[part])) for part in stretches),
         tuple(_outline(x(at[part]), y(sigma_low[part]), y(sigma_high[part])) for part in stretches),
         tuple(_points(x(at[part]), y(middle[part])) for part in stretches),
-        tuple((float(y(value)), f"{value:g}") for value in ticks),
+        tuple((float(y(value)), f"{value:g}") for value in rows),
         tuple(
-            (float(x(value)), f"{value:g}") for value in _ticks(float(at[0]), float(at[-1]), 7, inside=True)
+            (float(x(value)), f"{value:g}") for value in ticks(float(at[0]), float(at[-1]), 7, inside=True)
         ),
         None if worst_at is None else float(x(math.degrees(worst_at))),
         f"{result.output.name}, {shown_unit(result.output.unit)}",
@@ -96,19 +97,3 @@ def _outline(x: Array, low: Array, high: Array) -> str:
 
 def _points(x: Array, y: Array) -> str:
     return " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))
-
-
-def _ticks(low: float, high: float, most: int = 6, *, inside: bool = False) -> list[float]:
-    """Round numbers from low to high, beyond both unless ``inside``."""
-    span = high - low
-    if not span > 0:
-        return [low - 1.0, low, low + 1.0]
-    raw = span / most
-    power = 10.0 ** math.floor(math.log10(raw))
-    steps = (1, 2, 5, 10) if not inside else (1, 1.5, 2, 3, 4.5, 6, 9, 10)
-    step = power * next(one for one in steps if one * power >= raw * (1 - 1e-9))
-    first, last = low / step, high / step
-    slack = 1e-9 * max(abs(first), abs(last), 1.0)
-    start = math.ceil(first - slack) if inside else math.floor(first + slack)
-    end = math.floor(last + slack) if inside else math.ceil(last - slack)
-    return [round(number * step, 12) for number in range(start, end + 1)]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechwright.arrays import Array
-from mechwright.contracts.motion import Poses
+from mechwright.contracts.motion import Poses, Rates
 
 Plane = NDArray[np.complex128]
 """Points or vectors of the plane, x + i y."""
@@ -139,10 +139,28 @@ class BodyMotion:
             origin.jerk + turning.jerk_factor * lever,
         )
 
-    def poses(self, z: float = 0.0) -> Poses:
-        """Give the poses for a :class:`mechwright.contracts.motion.Motion`, all at the height ``z``, mm."""
-        position = self.origin.position
-        return Poses.planar(position.real, position.imag, self.turning.theta, z)
+    def poses(self, z: float = 0.0, *, rates: bool = False) -> Poses:
+        """Give the poses for a :class:`mechwright.contracts.motion.Motion`, all at the height ``z``, mm.
+
+        With ``rates`` they have those of this motion; leave that out where it is one of angles alone.
+        """
+        position, turning = self.origin.position, self.turning
+        still = Poses.planar(position.real, position.imag, turning.theta, z)
+        if not rates:
+            return still
+        turned = turning.direction
+        first = _frame_rates(turning.velocity_factor * turned, self.origin.velocity)
+        second = _frame_rates(turning.acceleration_factor * turned, self.origin.acceleration)
+        return Poses(still.position, still.rotation, Rates(first, second))
+
+
+def _frame_rates(turning: Plane, moving: Plane) -> Array:
+    """A rate (n, 3, 4) of frames, from that of their x axis and that of their origin."""
+    found = np.zeros((turning.size, 3, 4))
+    found[:, 0, 0] = found[:, 1, 1] = turning.real
+    found[:, 1, 0], found[:, 0, 1] = turning.imag, -turning.imag
+    found[:, 0, 3], found[:, 1, 3] = moving.real, moving.imag
+    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,130 @@
+"""Where the shafts of a mechanism stand, so that a frame can be built around it.
+
+Glossary
+--------
+spindle
+    An axis about which a body of the motion turns in the frame. It is upright, and goes through the body's
+    origin.
+hub
+    What sits on the spindle's shaft and turns with it: one part, or several on each other with one bore.
+share
+    A torque or force for each newton metre at the input, at its greatest over the motion.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Point
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A hub's seat on its shaft.
+
+    Parameters
+    ----------
+    low, high
+        Heights between which it sits, mm.
+    bore
+        Diameter, mm.
+    key
+        Width of its keyway of DIN 6885-1, mm; 0 for a plain bore.
+    key_angle
+        Direction of the keyway in the body, rad.
+    material
+        Of the hub: what the key presses on.
+    recess
+        Diameter of a counterbore about the bore, mm, in which what holds the hub has to stay; infinite
+        without one.
+    """
+
+    low: float
+    high: float
+    bore: float
+    key: float = 0.0
+    key_angle: float = 0.0
+    material: str = "aluminium"
+    recess: float = math.inf
+
+    @property
+    def length(self) -> float:
+        """Of the seat, mm."""
+        return self.high - self.low
+
+
+@dataclass(frozen=True)
+class Spindle:
+    """An upright axis that turns in the frame.
+
+    Parameters
+    ----------
+    name
+        Of its parts: ``"2"`` gives ``shaft-2``.
+    body
+        Of the motion; its origin is on the axis.
+    point
+        Where the axis stands in the ground, mm.
+    hub
+        What sits on it.
+    bore_key
+        The design-file key that sets the hub's bore, such as ``"parameters.bore"``.
+    drives
+        Whether the input turns it.
+    torque
+        Share of torque that goes through the shaft; 1 of the input itself.
+    force
+        Share of radial force in the middle of the hub, N for each N m.
+    """
+
+    name: str
+    body: str
+    point: Point
+    hub: Hub
+    bore_key: str = ""
+    drives: bool = False
+    torque: float = 1.0
+    force: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """What a family says of where its mechanism is held.
+
+    Parameters
+    ----------
+    spindles
+        All axes that turn in the frame; one of them drives.
+    gap
+        The design-file key of the gap along the axes between what turns over each other, and its value, mm;
+        None if there is none.
+
+    Raises
+    ------
+    GeometryError
+        No spindle, or not one of them, drives; two have one name or stand in one place; or a hub has no bore
+        or no length.
+    """
+
+    spindles: tuple[Spindle, ...]
+    gap: tuple[str, float] | None = None
+
+    def __post_init__(self) -> None:
+        if sum(spindle.drives for spindle in self.spindles) != 1:
+            raise GeometryError("a mounting has one spindle that drives")
+        for what in ("name", "point"):
+            if len({getattr(one, what) for one in self.spindles}) < len(self.spindles):
+                raise GeometryError(f"two spindles of a mounting have one {what}")
+        for one in self.spindles:
+            if not (one.hub.bore > 0 and one.hub.length > 0):
+                raise GeometryError(f"the hub of spindle {one.name} has no bore or no length")
+
+    @property
+    def driver(self) -> Spindle:
+        """The spindle that the input turns."""
+        return next(one for one in self.spindles if one.drives)
+
+    def others(self, spindle: Spindle) -> Sequence[Spindle]:
+        """All but one."""
+        return [one for one in self.spindles if one is not spindle]

@@ -1,0 +1,108 @@
+"""The base plate on four feet, and the legs from it to the lower bearing plate, under the pillars."""
+
+import math
+
+from mechwright.contracts.bought import Bought
+from mechwright.contracts.shape import Shape, ring
+from mechwright.contracts.surroundings import Place
+from mechwright.contracts.turned import EndThread, Step, Turned
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
+from mechwright.machine.frame.plates import STOCK, Hole, add_plate
+from mechwright.machine.frame.standing import Standing
+from mechwright.standards.screws import Screw, screw
+
+MARGIN = 16.0
+"""By how much the base plate is larger than the bearing plates on every side, mm: it stands wider."""
+
+LEAST, MOST, SLENDER = 10.0, 25.0, 15.0
+"""Thickness of the base plate, mm, at least and at most, and its longer side in thicknesses between them.
+With a foot beside every leg it carries little but itself."""
+
+UNDER = 10.0
+"""Between the motor and the base plate, mm: its cable, and air."""
+
+FOOT = (20.0, 15.0, 6.0)
+"""Diameter and height of a foot and the depth of the thread in it, mm: higher than a screw's head."""
+
+HOLE = 6.0
+"""Of the base plate's screws, mm: a drill, for mills of the clearance's size do not reach through."""
+
+RUBBER = 1.2e-3
+"""Density, g/mm³; handbook."""
+
+IN_FOOT = 4.0
+"""How far a screw goes into a foot at least, mm."""
+
+
+def foot() -> Bought:
+    """A rubber foot with a thread in its upper end; it stands on z = 0."""
+    wide, high, deep = FOOT
+    words = f"rubber buffer {wide:g} x {high:g} with thread M{SCREW:g} x {deep:g} inside"
+    shape = Shape((ring(0.0, wide, high),), (ring(0.0, SCREW, deep, high - deep),))
+    return Bought(
+        words,
+        "",
+        round(RUBBER * math.pi / 4 * wide**2 * high, 1),
+        shape,
+        "no standard fixes it; compare with the maker's sheet",
+    )
+
+
+def thickness_for(standing: Standing) -> float:
+    """Of the base plate, mm."""
+    longer = standing.longer + 2 * (EDGE + MARGIN)
+    wanted = min(max(LEAST, longer / SLENDER), MOST)
+    return next(float(one) for one in STOCK if one >= wanted)
+
+
+def leg_screw(thickness: float) -> Screw:
+    """From below the base plate into a leg."""
+    return screw(SCREW, thickness + SCREW)
+
+
+def add_base(
+    kit: Kit,
+    standing: Standing,
+    columns: list[Column],
+    under: float,
+    top: float,
+    depth: float,
+    material: str,
+) -> None:
+    """Base plate, legs, feet, screws.
+
+    Parameters
+    ----------
+    under, top
+        Lower face of the bearing plate, and upper face of the base plate, mm.
+    depth
+        How deep the studs of the pillars go into the legs, mm.
+    """
+    thickness = thickness_for(standing)
+    low = top - thickness
+    fixing = leg_screw(thickness)
+    leg = Turned(
+        (Step(PILLAR, under - top),),
+        note=NOTE.replace("pillars", "legs"),
+        threads=(
+            EndThread("lower", SCREW, PITCH, fixing.length - thickness + SPARE),
+            EndThread("upper", SCREW, PITCH, depth + SPARE),
+        ),
+    )
+    holes = []
+    for k, column in enumerate(columns, start=1):
+        holes.append(Hole.through(f"leg-{k}", column.point, HOLE, thickness))
+        kit.turned("leg", leg, column.name, top)
+        put_screw(kit, fixing, f"{column.name}-below", -low)
+    edge = EDGE + MARGIN
+    inset = edge - FOOT[0] / 2 - 2.0
+    signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
+        point = (x + a * inset, y + b * inset)
+        holes.append(Hole.through(f"foot-{k}", point, HOLE, thickness))
+        kit.places[f"foot-{k}"] = Place((*point, 0.0))
+        put_screw(kit, screw(SCREW, thickness + IN_FOOT), f"foot-{k}", top)
+        kit.bought("foot", foot(), f"foot-{k}", low - FOOT[1])
+    kit.places["base-carrier"] = Place()
+    add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)

@@ -1,0 +1,225 @@
+"""A frame from the mounting of a mechanism: every decision in its order, or a finding that says why not."""
+
+import math
+from collections.abc import Sequence
+
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.mounting import Mounting
+from mechwright.contracts.part import Part
+from mechwright.contracts.surroundings import OVER, Place, Surroundings
+from mechwright.errors import DesignError
+from mechwright.machine.frame.base import UNDER, add_base
+from mechwright.machine.frame.bracket import NoCouplingError, add_bracket, bracket_for, pillar_holes
+from mechwright.machine.frame.decided import Frame, Wanted
+from mechwright.machine.frame.findings import strength
+from mechwright.machine.frame.free import in_the_way
+from mechwright.machine.frame.keys import FrameKeys
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import (
+    EDGE,
+    PILLAR,
+    REGISTER,
+    SHORT,
+    SPARE,
+    Column,
+    cap_screw,
+    columns,
+    least_height,
+    pillar,
+    put_screw,
+    register,
+    stud,
+)
+from mechwright.machine.frame.plates import (
+    STOCK,
+    add_plate,
+    bearing_hole,
+    least_thickness,
+    thickness_for,
+)
+from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
+from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
+from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
+from mechwright.machine.frame.sweep import Space, space_of
+from mechwright.standards.couplings import BORES
+
+STUB = 2.0
+"""Length of the shaft for a drive of one's own below the frame, in its diameters."""
+
+
+def frame_around(
+    keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
+) -> Surroundings:
+    """The frame of a mechanism with its findings; no parts where one of them is an error."""
+    try:
+        found = decided(keys, mounting, parts, motion, wanted)
+        if isinstance(found, Frame):
+            kit = built(found, keys)
+            said = [*strength(found, wanted)]
+            if errors(said):
+                return Surroundings(findings=tuple(said))
+            return Surroundings(tuple(kit.parts.values()), kit.places, tuple(said))
+    except DesignError as error:
+        return Surroundings(findings=(refusal("frame.design", "machine.frame", str(error)),))
+    return Surroundings(findings=tuple(found))
+
+
+def refusal(code: str, key: str, said: str) -> Finding:
+    """A frame that cannot be had, in a sentence whose end says what to do."""
+    message, _, remedy = said.rpartition("; ")
+    return Finding.error(code, key, message or said, remedy=remedy if message else "", stage=Stage.PARTS)
+
+
+def decided(
+    keys: FrameKeys, mounting: Mounting, parts: Sequence[Part], motion: Motion, wanted: Wanted
+) -> Frame | list[Finding]:
+    """All sizes, or what is in the way; raises DesignError for what there is no room for."""
+    chosen, faults = seats(mounting, keys)
+    if faults:
+        return faults
+    bearings = [seat.bearing for seat in chosen]
+    thickness = keys.plate_thickness or thickness_for(bearings)
+    if thickness < least_thickness(bearings):
+        least = next(float(one) for one in STOCK if one >= least_thickness(bearings))
+        return [_too_thin(thickness, least)]
+    space = space_of(parts, motion)
+    levels = levels_of(space, chosen, keys, thickness)
+    faults = [fault for seat in chosen for fault in in_the_way(seat, levels, space, mounting)]
+    if faults:
+        return faults
+    held = [
+        Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
+        for seat in chosen
+    ]
+    if keys.cover:
+        x0, y0, x1, y1 = space.region.bounds
+        held += [Disc(corner, CLEARANCE) for corner in ((x0, y0), (x1, y1))]
+    bracket, region = None, space.region
+    if keys.frame == "base" and wanted.motor is not None:
+        driver = next(seat for seat in chosen if seat.spindle.drives)
+        try:
+            bracket = bracket_for(
+                wanted.motor,
+                (driver.spindle.point, driver.bearing.bore, driver.bearing.width),
+                (levels.lower, levels.lower - thickness),
+                wanted.torque,
+                held,
+            )
+        except NoCouplingError as error:
+            return [_no_coupling(driver, keys, str(error))]
+        region = region.union(bracket.region)
+        held += [Disc(corner, EDGE) for corner in bracket.corners]
+    standing = stand(region, held, PILLAR / 2, EDGE)
+    return Frame(tuple(chosen), levels, thickness, standing, bracket)
+
+
+def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
+    """The inner faces: clear of the mechanism, with room for shoulders and for the pillars' threads."""
+    lower = min(space.low - keys.axial_gap, *(lowest(seat) for seat in chosen))
+    upper = max(space.high + keys.axial_gap, *(highest(seat) for seat in chosen))
+    short = max(least_height(thickness) - (upper - lower), 0.0)
+    # Whole millimetres between the plates, half of what is missing on either side.
+    height = math.ceil(round(upper - lower + short, 6))
+    return Levels(lower - short / 2, lower - short / 2 + height)
+
+
+def _no_coupling(driver: Seat, keys: FrameKeys, said: str) -> Finding:
+    """With the least bore whose bearings leave a shaft for a coupling."""
+    able = (bore for bore in bores() if bore > driver.spindle.hub.bore)
+    works = next((b for b in able if _bearing_bore(b, keys) >= BORES[0]), None)
+    key = driver.spindle.bore_key
+    return Finding.error(
+        "frame.coupling",
+        key,
+        said,
+        driver.spindle.hub.bore,
+        works,
+        "mm",
+        "take a larger bore" if works is None else f"make it {works:g}",
+        Stage.PARTS,
+        ({key: works},) if works is not None and key else (),
+    )
+
+
+def _bearing_bore(bore: float, keys: FrameKeys) -> float:
+    found = candidates(bore, keys.bearing)
+    return found[0].bore if found else 0.0
+
+
+def _too_thin(thickness: float, least: float) -> Finding:
+    return Finding.error(
+        "frame.plate-thickness",
+        "machine.plate_thickness",
+        f"a plate of {thickness:g} mm has no floor under its bearings",
+        thickness,
+        least,
+        "mm",
+        f"make it {least:g}, or leave it out",
+        Stage.PARTS,
+        ({"machine.plate_thickness": None},),
+    )
+
+
+def built(frame: Frame, keys: FrameKeys) -> Kit:
+    """All parts where they stand."""
+    kit = Kit()
+    levels, thickness, standing, bracket = frame.levels, frame.thickness, frame.standing, frame.bracket
+    posts = columns(standing.corners)
+    lower = [bearing_hole(seat, thickness) for seat in frame.seats]
+    upper = list(lower)
+    for post in posts:
+        post.place(kit)
+        hole = register(post.name, post.point, thickness, spigot=post.spigot)
+        lower.append(hole)
+        upper.append(hole)
+    if bracket is not None:
+        lower += pillar_holes(bracket, thickness)
+    kit.places["lower-carrier"] = Place()
+    kit.places["upper-carrier"] = Place(rotation=OVER)
+    material = keys.plate_material
+    add_plate(kit, "lower-plate", standing, EDGE, thickness, material, lower, "lower-carrier", frame.under)
+    top = -levels.upper - thickness
+    add_plate(kit, "upper-plate", standing, EDGE, thickness, material, upper, "upper-carrier", top, over=True)
+    for seat in frame.seats:
+        add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
+    _add_columns(kit, frame, keys, posts)
+    if bracket is not None:
+        body = frame.driver.spindle.body
+        add_bracket(kit, bracket, body, (levels.lower, frame.under), material)
+    return kit
+
+
+def _stub(frame: Frame) -> tuple[float, float]:
+    """Diameter and length of the input's shaft below its bearing, mm."""
+    if frame.bracket is not None:
+        return frame.bracket.stub
+    bearing = frame.driver.bearing
+    diameter = bearing.bore - 1.0 if bearing.bore > 4 else bearing.bore
+    return diameter, frame.thickness - bearing.width + STUB * bearing.bore
+
+
+def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column]) -> None:
+    """Pillars and their screws; of a base its legs."""
+    levels, thickness = frame.levels, frame.thickness
+    fixing = cap_screw(thickness)
+    deep = fixing.length - thickness
+    based = keys.frame == "base"
+    joint = stud(thickness, deep + SPARE) if based else None
+    below = deep if joint is None else (joint.length - thickness) / 2
+    for post in posts:
+        name = "pillar" if post.spigot else "plain-pillar"
+        foot = levels.lower - (REGISTER - SHORT if post.spigot else 0.0)
+        kit.turned(name, pillar(levels.height, below, deep, spigot=post.spigot), post.name, foot)
+        put_screw(kit, fixing, post.name, levels.upper + thickness)
+        if joint is None:
+            put_screw(kit, fixing, f"{post.name}-below", -frame.under)
+        else:
+            put_screw(kit, joint, post.name, levels.lower + below)
+    if based:
+        bracket = frame.bracket
+        stub = _stub(frame)
+        lowest_point = bracket.low if bracket else levels.lower - frame.driver.bearing.width - stub[1]
+        add_base(
+            kit, frame.standing, list(posts), frame.under, lowest_point - UNDER, below, keys.plate_material
+        )

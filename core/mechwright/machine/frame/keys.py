@@ -1,0 +1,42 @@
+"""The keys of the table ``[machine]`` that a frame takes."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mechwright.contracts.materials import MaterialName
+from mechwright.contracts.parameters import FIRST, Parameters
+from mechwright.units import Millimetres, Unit
+
+FrameName = Literal["none", "plates", "base"]
+BearingSeries = Literal["auto", "62", "60", "619", "618"]
+
+
+class FrameKeys(Parameters):
+    """What a workshop chooses of a frame; the rest follows from the mechanism."""
+
+    frame: FrameName = Field(
+        "none",
+        description=(
+            "What carries the shafts. plates: two bearing plates on pillars; base: the same on legs over a "
+            "base plate, with the motor on a bracket."
+        ),
+        json_schema_extra=FIRST,
+    )
+    bearing: BearingSeries = Field(
+        "auto",
+        description=(
+            "Series of the ball bearings: 62 is the heaviest, 618 the thinnest; auto: the first that fits."
+        ),
+    )
+    plate_thickness: Annotated[float, Field(ge=4, le=60), Unit("mm")] | None = Field(
+        None, description="Of the bearing plates; left out, as their bearings need."
+    )
+    plate_material: MaterialName = Field("aluminium", description="Of all plates of the frame.")
+    cover: bool = Field(
+        False,
+        description="Whether the plates reach over all that moves, so that nothing stands out sideways.",
+    )
+    axial_gap: Millimetres = Field(
+        2.0, ge=0.5, le=50, description="Least gap along the axes between what moves and the bearing plates."
+    )

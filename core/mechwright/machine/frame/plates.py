@@ -1,0 +1,112 @@
+"""The two bearing plates: bores for bearings, registers for two of the pillars, holes for screws.
+
+A plate is drawn with its inner face up, and milled from there in one setting: bearings and pillars go into
+that face. The lower plate stands as it is drawn, the upper one is turned over about x.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.part import Bore
+from mechwright.geometry.segments import Point
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.seats import Seat
+from mechwright.machine.frame.standing import Standing
+from mechwright.mechanics.linkage import Boss, rectangle
+from mechwright.standards.bearings import Bearing
+
+STOCK = (6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 60)
+"""Thicknesses in which plates are sold, mm."""
+
+FLOOR = 2.5
+"""Least thickness behind a bearing, mm: the shoulder that it leans on."""
+
+CORNER = 9.0
+"""Radius of a plate's corners, mm."""
+
+LEAST = 10.0
+"""Least thickness of a bearing plate, mm: room for a counterbored screw."""
+
+
+def least_thickness(bearings: Sequence[Bearing]) -> float:
+    """Of a plate that has these bearings, mm."""
+    return max(bearing.width for bearing in bearings) + FLOOR
+
+
+def thickness_for(bearings: Sequence[Bearing]) -> float:
+    """The stock size of a plate that has these bearings, mm."""
+    return next(float(t) for t in STOCK if t >= max(LEAST, least_thickness(bearings)))
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A hole of a plate: its bores, one within the other, each with diameter, top and depth, mm."""
+
+    name: str
+    point: Point
+    steps: tuple[tuple[float, float, float], ...]
+    fit: bool = False
+    """Whether the first one is made to H7."""
+
+    @classmethod
+    def through(cls, name: str, point: Point, diameter: float, thickness: float) -> "Hole":
+        """One diameter."""
+        return cls(name, point, ((diameter, 0.0, thickness),))
+
+    def bores(self) -> list[Bore]:
+        """As features, the through one first."""
+        found = []
+        for number, (diameter, top, depth) in enumerate(self.steps):
+            fit = hole_fit(diameter, "H7") if self.fit and number == 0 else None
+            name = self.name if number == 0 else f"{self.name}-through"
+            found.append(Bore(name, self.point, fit.middle if fit else diameter, top, depth, fit))
+        return found[::-1]
+
+
+def bearing_hole(seat: Seat, thickness: float) -> Hole:
+    """The bore of a bearing with its shoulder; through the shoulder goes what the outer ring leaves free."""
+    bearing = seat.bearing
+    return Hole(
+        f"bearing-{seat.spindle.name}",
+        seat.spindle.point,
+        (
+            (bearing.outside, 0.0, bearing.width),
+            (bearing.abutment, 0.0, thickness),
+        ),
+        fit=True,
+    )
+
+
+def mirrored(hole: Hole) -> Hole:
+    """The hole of a plate that is turned over about x."""
+    return Hole(hole.name, (hole.point[0], -hole.point[1]), hole.steps, hole.fit)
+
+
+def add_plate(
+    kit: Kit,
+    name: str,
+    standing: Standing,
+    edge: float,
+    thickness: float,
+    material: str,
+    holes: Sequence[Hole],
+    body: str,
+    z: float,
+    *,
+    over: bool = False,
+) -> None:
+    """A rectangular plate, ``edge`` larger all round than its pillars; ``over``: turned over about x."""
+    low = complex(standing.left - edge, standing.below - edge)
+    high = complex(standing.right + edge, standing.above + edge)
+    if over:
+        low, high = complex(low.real, -high.imag), complex(high.real, -low.imag)
+        holes = [mirrored(hole) for hole in holes]
+    bores = [bore for hole in holes for bore in hole.bores()]
+    through = [
+        Boss(complex(*bore.centre), 0.0, bore.diameter, bore.name)
+        for bore in bores
+        if bore.top + bore.depth >= thickness
+    ]
+    outline = rectangle(low, high, min(edge, CORNER), through)
+    kit.plate(name, outline, thickness, material, bores, body, z)

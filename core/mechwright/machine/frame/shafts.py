@@ -1,0 +1,129 @@
+"""The shaft of a spindle from the stack of what it carries, with key and circlip.
+
+From below: the stub for the drive, the seat of the lower bearing, a shoulder against its inner ring, the
+collar that the hub stands on, the hub's seat, the circlip's groove, a shoulder against the upper bearing's
+inner ring, and its seat. The shaft floats between the shoulders of both plates with a little play.
+"""
+
+from dataclasses import dataclass
+
+from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.mounting import Hub
+from mechwright.contracts.surroundings import Place, turned
+from mechwright.contracts.turned import Groove, KeySeat, Step, Turned
+from mechwright.geometry.keyway import key_of_width
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.seats import Seat
+from mechwright.standards.keys import LENGTHS, RANGES, Key
+
+PLAY = 0.2
+"""Axial play of a shaft between its bearings, mm; pillars and shafts are of steel: heat takes none of it."""
+
+RELIEF = 1.0
+"""Length of a shoulder that touches an inner ring alone, mm."""
+
+COLLAR = 4.0
+"""By how much the collar is larger than the hub's bore, mm: a step of 2 mm all round, more than 1.5."""
+
+LEAST_COLLAR = 1.5
+"""Length of the collar, mm."""
+
+SHORT = 0.3
+"""By how much the hub's seat is shorter than the hub, mm: the circlip holds the hub, not the step."""
+
+BREAK = 0.5
+"""Chamfer of both ends, mm."""
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Inner faces of both bearing plates, mm."""
+
+    lower: float
+    upper: float
+
+    @property
+    def height(self) -> float:
+        """Between them."""
+        return self.upper - self.lower
+
+
+def lowest(seat: Seat) -> float:
+    """Greatest height of the lower plate's inner face, mm, that the hub's collar leaves."""
+    return seat.spindle.hub.low - RELIEF - LEAST_COLLAR
+
+
+def highest(seat: Seat) -> float:
+    """Least height of the upper plate's inner face, mm, that the circlip leaves."""
+    ring = seat.circlip
+    return seat.spindle.hub.high + ring.width + ring.edge + RELIEF + PLAY
+
+
+def collar(hub: Hub) -> float:
+    """Diameter of the collar under a hub, mm: no larger than the hub's counterbore."""
+    return min(hub.bore + COLLAR, hub.recess - 1.0)
+
+
+def sections(seat: Seat, levels: Levels, stub: tuple[float, float] | None = None) -> list[Step]:
+    """The steps from below; ``stub``: diameter and length, mm, below the lower bearing."""
+    hub, bearing, ring = seat.spindle.hub, seat.bearing, seat.circlip
+    journal = Step(bearing.bore, bearing.width, shaft_fit(bearing.bore, "j6"))
+    steps = [Step(stub[0], stub[1], shaft_fit(stub[0], "h6"))] if stub else []
+    steps += [
+        journal,
+        Step(bearing.shoulder, RELIEF),
+        Step(collar(hub), hub.low - levels.lower - RELIEF),
+        Step(hub.bore, hub.length - SHORT, shaft_fit(hub.bore, "h6")),
+    ]
+    rest = levels.upper - PLAY - (hub.high - SHORT)
+    steps += [Step(ring.size, rest - RELIEF), Step(min(bearing.shoulder, ring.size), RELIEF)]
+    return [*steps, Step(bearing.bore, bearing.width + PLAY, shaft_fit(bearing.bore, "j6"))]
+
+
+def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | None) -> Turned:
+    """The shaft of a spindle with its key, circlip and bearings; gives the shaft."""
+    spindle, hub, bearing, ring = seat.spindle, seat.spindle.hub, seat.bearing, seat.circlip
+    body, axis = f"spindle-{spindle.name}", f"axis-{spindle.name}"
+    kit.places[body] = Place(rotation=turned(hub.key_angle), on=spindle.body)
+    kit.places[axis] = Place((*spindle.point, 0.0))
+    foot = levels.lower - bearing.width - (stub[1] if stub else 0.0)
+    groove = Groove(hub.high - foot, ring.width, ring.groove, ring.tolerance)
+    key = key_of(hub)
+    seats: tuple[KeySeat, ...] = ()
+    if key is not None:
+        at = hub.low + (hub.length - key.length) / 2
+        seats = (KeySeat(at - foot, key.length, hub.key, hub.bore / 2 - key.size.shaft_depth),)
+        name = f"key-{hub.key:g}x{key.size.height:g}x{key.length:g}".replace(".", "_")
+        kit.bought(name, key.bought(hub.bore), body, at)
+    note = f"between shoulders of the bearings {levels.height - PLAY:.2f} ±0.05"
+    shaft = Turned(
+        _merged(sections(seat, levels, stub)), chamfer=BREAK, grooves=(groove,), seats=seats, note=note
+    )
+    kit.turned(f"shaft-{spindle.name}", shaft, body, foot)
+    kit.bought(f"circlip-{ring.size:g}", ring.bought, body, hub.high)
+    name = f"bearing-{bearing.name.replace('/', '_')}"
+    for z in (levels.lower - bearing.width, levels.upper):
+        kit.bought(name, bearing.bought, axis, z)
+    return shaft
+
+
+def key_of(hub: Hub) -> Key | None:
+    """The longest key that is sold for a hub's keyway and no longer than the hub; None without a keyway."""
+    size = key_of_width(hub.key) if hub.key else None
+    if size is None:
+        return None
+    least, most = RANGES.get(round(hub.key), (0, 0))
+    fitting = [one for one in LENGTHS if least <= one <= min(most, hub.length - 2 * SHORT)]
+    return Key(size, fitting[-1]) if fitting else None
+
+
+def _merged(steps: list[Step]) -> tuple[Step, ...]:
+    """Neighbours of one diameter and without a fit as one."""
+    found: list[Step] = []
+    for step in steps:
+        last = found[-1] if found else None
+        if last is not None and last.fit is None and step.fit is None and last.diameter == step.diameter:
+            found[-1] = Step(step.diameter, last.length + step.length)
+        else:
+            found.append(step)
+    return tuple(found)

@@ -1,0 +1,140 @@
+"""The space that a mechanism takes over its motion: a region of the plane for each range of heights.
+
+Bodies are taken by their convex hulls, so the region is never too small. One that turns about its origin
+takes a disc; others are looked at so often that the chord between two looks is far below any clearance.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from mechwright.arrays import Array
+from mechwright.contracts.motion import Motion, Poses
+from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.shape import Prism, Revolve, Shape
+from mechwright.errors import DesignError
+
+LOOKS = 121
+"""Samples of the motion: every 3 degrees of a turn, whose chords are 0.03 % of the radius off."""
+
+_STILL = 1e-9
+"""A body whose origin moves less than this, mm, and whose axis stays upright, turns about it."""
+
+_ROUND = 32
+"""Chords of a quarter circle."""
+
+
+Layer = tuple[Array, float, float]
+"""Points (n, 2) that span a slice of a part in plan, and its heights, mm."""
+
+
+@dataclass(frozen=True)
+class Swept:
+    """What one part of one body takes: between two heights, mm, a region of the plane."""
+
+    body: str
+    part: str
+    low: float
+    high: float
+    region: shapely.Geometry
+
+
+@dataclass(frozen=True)
+class Space:
+    """All that a mechanism takes."""
+
+    pieces: tuple[Swept, ...]
+
+    @property
+    def low(self) -> float:
+        """Lowest height, mm."""
+        return min(piece.low for piece in self.pieces)
+
+    @property
+    def high(self) -> float:
+        """Greatest height, mm."""
+        return max(piece.high for piece in self.pieces)
+
+    @cached_property
+    def region(self) -> shapely.Geometry:
+        """At any height."""
+        return shapely.union_all([piece.region for piece in self.pieces])
+
+    def between(self, low: float, high: float, *, without: str = "") -> Iterator[Swept]:
+        """What stands at heights between two, but not of one body."""
+        for piece in self.pieces:
+            if piece.body != without and piece.low < high and piece.high > low:
+                yield piece
+
+
+def space_of(parts: Sequence[Part], motion: Motion) -> Space:
+    """The space of all instances; raises DesignError for a part whose form nobody can say without a solid."""
+    return Space(
+        tuple(
+            _swept(part, layer, instance, motion.poses[instance.body])
+            for part in parts
+            for layer in layers_of(part)
+            for instance in part.instances
+        )
+    )
+
+
+def _swept(part: Part, layer: Layer, instance: Instance, poses: Poses) -> Swept:
+    points, low, high = layer
+    corners = shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points)))
+    spread = np.ptp(poses.position, axis=0)
+    tilt = np.abs(poses.rotation[:, 2, 2] - 1).max()
+    if tilt > _STILL:
+        raise DesignError(
+            f"body {instance.body!r} of part {part.name} tilts: a frame of plates is for mechanisms that "
+            "move in one plane"
+        )
+    z = float(poses.position[0, 2]) + instance.z
+    if (
+        float(spread.max()) < _STILL
+        and float(np.abs(np.diff(poses.rotation, axis=0)).max(initial=0)) > _STILL
+    ):
+        radius = float(np.hypot(*corners.T).max())
+        region: shapely.Geometry = shapely.Point(poses.position[0, :2]).buffer(radius, quad_segs=_ROUND)
+    else:
+        flat = np.column_stack((corners, np.zeros(len(corners))))
+        looks = poses.transform(flat)[..., :2]
+        region = shapely.union_all([shapely.convex_hull(shapely.multipoints(one)) for one in looks])
+    return Swept(instance.body, part.name, z + low, z + high, region)
+
+
+def layers_of(part: Part) -> list[Layer]:
+    """A part in slices of one plan, a turned one by its steps."""
+    if part.outline is not None:
+        return [(np.asarray(part.outline.outer.flatten()), 0.0, part.thickness)]
+    if part.turned is not None:
+        steps = zip(part.turned.starts, part.turned.steps, strict=True)
+        return [
+            (_ring((0.0, 0.0), max(step.foot, step.diameter) / 2), low, low + step.length)
+            for low, step in steps
+        ]
+    if part.bought is None or part.bought.shape is None:
+        raise DesignError(f"part {part.name} is a solid of its own: nothing says what it sweeps")
+    return [_shape(part.bought.shape)]
+
+
+def _ring(centre: tuple[float, float], radius: float) -> Array:
+    return np.asarray(shapely.get_coordinates(shapely.Point(*centre).buffer(radius, quad_segs=_ROUND)))
+
+
+def _shape(shape: Shape) -> Layer:
+    points: list[tuple[float, float]] = []
+    heights: list[float] = []
+    for piece in shape.pieces:
+        match piece:
+            case Prism():
+                points += piece.corners
+                heights += [piece.low, piece.high]
+            case Revolve():
+                ring = _ring(piece.axis, max(r for r, _ in piece.profile))
+                points += [(float(a), float(b)) for a, b in ring]
+                heights += [z for _, z in piece.profile]
+    return np.array(points), min(heights), max(heights)

@@ -1,0 +1,52 @@
+"""The frame of a design: what its family says of its shafts, and what its drive asks of them."""
+
+import math
+from typing import Any
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.parameters import Parameters, kept
+from mechwright.contracts.surroundings import Surroundings
+from mechwright.errors import DesignError
+from mechwright.machine.drive import SAMPLES, drive_of
+from mechwright.machine.frame.decided import Wanted
+from mechwright.machine.frame.designing import frame_around, refusal
+from mechwright.machine.frame.sweep import LOOKS
+from mechwright.machine.motors import motor_of
+from mechwright.machine.settings import MachineSettings
+
+
+@kept
+def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -> Surroundings:
+    """The frame that the settings ask for, or findings that say why there is none.
+
+    Its drive is that of the mechanism alone; what shafts and coupling add to it is in the drive of the whole.
+    """
+    try:
+        mounting = family.mounting(params)
+    except DesignError as error:
+        return _refused("frame.mounting", error)
+    if mounting is None:
+        said = (
+            f"the family {family.name} does not say where its shafts stand, so nothing can carry them; "
+            'leave frame out, or set frame = "none"'
+        )
+        return Surroundings(findings=(refusal("frame.mounting", "machine.frame", said),))
+    parts = family.parts(params)
+    try:
+        drive = drive_of(family.solve(params, SAMPLES), parts, settings)
+    except DesignError as error:
+        return _refused("frame.drive", error)
+    choice = motor_of(drive, settings)
+    wanted = Wanted(
+        None if choice is None else choice.motor,
+        settings.margin * abs(drive.peak()[0]),
+        settings.margin * drive.rms,
+        drive.speed * 60 / math.tau,
+    )
+    return frame_around(settings, mounting, parts, family.solve(params, LOOKS), wanted)
+
+
+def _refused(code: str, error: DesignError) -> Surroundings:
+    """By an error that begins with a key."""
+    key, _, rest = str(error).partition(": ")
+    return Surroundings(findings=(refusal(code, key, rest),))

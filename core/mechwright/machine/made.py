@@ -1,0 +1,29 @@
+"""Drive and motor of a build; made once, by ``build.made``."""
+
+from mechwright.build.build import Build
+from mechwright.machine.drive import SAMPLES, Drive, drive_of
+from mechwright.machine.motors import Choice, motor_of
+from mechwright.machine.settings import MachineSettings
+from mechwright.machine.table import MachineTable
+
+
+def settings_of(build: Build) -> MachineSettings:
+    """What the design says of its machine."""
+    value: MachineSettings = build.design.tables.get(MachineTable.name, MachineSettings())
+    return value
+
+
+def wanted_of(build: Build) -> bool:
+    """Whether the design says anything of a machine."""
+    return settings_of(build) != MachineSettings()
+
+
+def drive_for(build: Build) -> Drive:
+    """The drive of a build; raises as :func:`drive_of` does, and as parts do."""
+    motion = build.design.solve(SAMPLES)
+    return drive_of(motion, build.parts, settings_of(build))
+
+
+def motor_for(build: Build) -> Choice | None:
+    """Its motor."""
+    return motor_of(build.made(drive_for), settings_of(build))

@@ -1,0 +1,199 @@
+"""The motor of a drive: what it is asked for at its own shaft, and whether it can."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright.arrays import Array
+from mechwright.machine.drive import Drive
+from mechwright.machine.settings import MachineSettings
+from mechwright.mechanics.strength.motor import (
+    INERTIA_RATIO,
+    MARGIN,
+    PEAK,
+    RESONANCE,
+    Demand,
+    corner_speed,
+    dc_torque,
+    gear_motor_margin,
+    inertia_ratio,
+    stepper_margin,
+    stepper_torque,
+)
+from mechwright.standards.motors import GearMotor, Stepper, motor, motors
+
+EFFICIENCY = 0.9
+"""Of a belt or gears between motor and input; a handbook figure."""
+
+STEPS = 200
+"""Full steps of a turn of a stepper."""
+
+Motor = Stepper | GearMotor
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A motor and how it stands to its drive.
+
+    Parameters
+    ----------
+    motor
+        As the standards know it.
+    demand
+        At its shaft, the margin of the design included.
+    cover
+        How often what it may give covers that; at least 1 is enough.
+    ratio
+        Of the greatest inertia that it feels to its rotor's; None of a gear motor, which has one of its own
+        inside.
+    resonant
+        Whether a stepper runs at speeds at which it resonates without microsteps.
+    voltage
+        That a stepper's driver is fed with, V.
+    """
+
+    motor: Motor
+    demand: Demand
+    cover: float
+    ratio: float | None = None
+    resonant: bool = False
+    voltage: float = 24.0
+
+    @property
+    def enough(self) -> bool:
+        """Whether it runs the machine."""
+        return self.cover >= 1
+
+    @property
+    def given(self) -> float:
+        """The part of the demand's peak that it covers, N m."""
+        return self.cover * self.demand.peak
+
+
+def demand_of(drive: Drive, settings: MachineSettings, rotor: float = 0.0, slower: float = 1.0) -> Demand:
+    """What a drive asks at the shaft of a motor with that rotor, kg m², margin included.
+
+    ``slower`` is the share of the speed at which it runs: torques of inertia go with its square.
+    """
+    course, gear = drive.course, settings.gear
+    efficiency = 1.0 if gear == 1 else EFFICIENCY
+    accelerating = rotor * gear * course.acceleration * slower**2
+    if not course.rocks:
+        accelerating = accelerating * np.sign(course.angle[-1] - course.angle[0])
+    peak = rms = inertia = 0.0
+    for number, run in enumerate(drive.runs):
+        own = accelerating * (1 if course.rocks or run.name == "forwards" else -1)
+        fast = drive.inertia_of(number) * slower**2
+        torque = run.torque - drive.inertia_of(number) + fast
+        driving = torque * np.where(run.power >= 0, 1 / efficiency, efficiency) / gear + own
+        peak = max(peak, float(np.abs(driving).max()))
+        rms = max(rms, math.sqrt(drive.mean_of(driving**2)))
+        inertia = max(inertia, float(np.abs(fast).max()) / gear / efficiency)
+    speed = drive.speed * slower * gear * 60 / math.tau
+    return Demand(speed, settings.margin * peak, settings.margin * rms, settings.margin * inertia)
+
+
+def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 1.0) -> Choice:
+    """How a motor stands to a drive that runs at that share of its speed."""
+    if isinstance(one, GearMotor):
+        demand = demand_of(drive, settings, slower=slower)
+        return Choice(one, demand, gear_motor_margin(one, demand))
+    demand = demand_of(drive, settings, one.rotor, slower)
+    felt = inertia_ratio(one.rotor, float(drive.reflected.max()), settings.gear)
+    low, high = (rate / STEPS * 60 for rate in RESONANCE)
+    resonant = low <= demand.speed <= high
+    return Choice(
+        one, demand, stepper_margin(one, demand, settings.voltage), felt, resonant, settings.voltage
+    )
+
+
+def motor_of(drive: Drive, settings: MachineSettings) -> Choice | None:
+    """The motor that is named, or the lightest that is enough; None where none is wanted.
+
+    Where none is enough, that which covers most.
+    """
+    if settings.motor == "none":
+        return None
+    if settings.motor != "auto":
+        return judged(drive, settings, motor(settings.motor))
+    found = [judged(drive, settings, one) for one in motors()]
+    return (
+        next((one for one in found if one.enough and _steady(one)), None)
+        or next((one for one in found if one.enough), None)
+        or max(found, key=lambda one: one.cover)
+    )
+
+
+def _steady(one: Choice) -> bool:
+    """Whether a stepper's rotor holds the inertia that it feels."""
+    return one.ratio is None or one.ratio <= INERTIA_RATIO
+
+
+def curve_of(choice: Choice) -> tuple[Array, Array]:
+    """Speeds (k,), rev/min, and what the motor may be asked for a moment at each, N m."""
+    one = choice.motor
+    if isinstance(one, GearMotor):
+        speeds = np.linspace(0.0, one.no_load, _POINTS)
+        line = [dc_torque(one.no_load, one.stall_torque, float(speed)) for speed in speeds]
+        return speeds, np.minimum(line, PEAK * one.stall_torque)
+    corner = corner_speed(choice.voltage, one.inductance / 1000, one.current)
+    speeds = np.linspace(0.0, max(2 * corner, 1.2 * choice.demand.speed), _POINTS)
+    return speeds, np.array([stepper_torque(one.hold, float(speed), corner) / MARGIN for speed in speeds])
+
+
+_POINTS = 121
+"""Of the line that is drawn of a motor."""
+
+
+def able_at(drive: Drive, settings: MachineSettings, one: Motor) -> float | None:
+    """The greatest share of the speed at which a motor is enough; None if it is at none, however slow."""
+    if not judged(drive, settings, one, _SLOWEST).enough:
+        return None
+    return _greatest(lambda share: judged(drive, settings, one, share).enough)
+
+
+GEARS = (1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0, 50.0)
+"""Ratios that are proposed: preferred numbers R10."""
+
+
+def geared_down(drive: Drive, settings: MachineSettings) -> float | None:
+    """The least ratio beyond the present one with which the design's motor is enough; None if with none."""
+    for gear in GEARS:
+        if gear > settings.gear:
+            choice = motor_of(drive, settings.model_copy(update={"gear": gear}))
+            if choice is not None and choice.enough and _steady(choice):
+                return gear
+    return None
+
+
+def carried(drive: Drive, settings: MachineSettings, one: Motor) -> float | None:
+    """The greatest share of the load of ``[machine]`` at which a motor is enough; None if of none."""
+    if settings.load == 0:
+        return None
+
+    def enough(share: float) -> bool:
+        return judged(drive.lightened(share), settings, one).enough
+
+    return _greatest(enough) if enough(0.0) else None
+
+
+def _greatest(passes: Callable[[float], bool]) -> float | None:
+    """The greatest share that passes, where all smaller ones do; None if it is 0."""
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if passes(middle) else (low, middle)
+    return low or None
+
+
+_SLOWEST = 1e-3
+"""Share of the speed at which the torque of inertia is a millionth."""
+
+_HALVINGS = 24
+
+
+def stronger(drive: Drive, settings: MachineSettings) -> Sequence[Choice]:
+    """All motors that are enough, the lightest first."""
+    return [one for one in (judged(drive, settings, each) for each in motors()) if one.enough]

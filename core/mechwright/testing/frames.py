@@ -1,0 +1,114 @@
+"""What the family contract asks of a mounting, and of the frames that are built on it."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, event, given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from mechwright.contracts.family import Family
+from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.mounting import Mounting
+from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.part import Part
+from mechwright.errors import DesignError
+from mechwright.machine import MachineSettings
+from mechwright.machine.framed import framed
+from mechwright.tolerances import TOLERANCES
+
+_SAMPLES = 25
+"""Of the motion that a mounting is compared with."""
+
+_REFUSAL = re.compile(r"(parameters|machine)\.\w+: .+; .+")
+
+_FRAMES = ("plates", "base")
+
+
+class FrameTests:
+    """The part of :class:`mechwright.testing.FamilyContract` that is about frames."""
+
+    family: ClassVar[type[Family[Any]]]
+    """The class under test."""
+    max_frames: ClassVar[int] = 4
+    """Random designs that get a frame or a refusal."""
+
+    def test_mounting(self, design: Mapping[str, Any]) -> None:
+        """Spindles, where the family says them, are axes about which their bodies turn, with hubs on them."""
+        params = self.family.Params.model_validate(dict(design))
+        mounting, refusal = None, ""
+        try:
+            mounting = self.family().mounting(params)
+        except DesignError as error:
+            refusal = str(error)
+        assert not refusal or _REFUSAL.fullmatch(refusal), f"{refusal!r} names no key, or no cure"
+        if mounting is None:
+            pytest.skip("the family does not say where its shafts stand")
+        found = [
+            *mounting_faults(mounting, self.family().parts(params), self.family().solve(params, _SAMPLES))
+        ]
+        assert not found, "; ".join(found)
+
+    def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
+        """Random tables; the contract says which."""
+        raise NotImplementedError
+
+    def test_random_designs_have_a_frame_or_a_refusal(self) -> None:
+        """A frame has all its bodies in their places, or there is an error that says why there is none."""
+
+        # Inside the method: hypothesis wants one test function for each class that inherits this one.
+        @settings(max_examples=self.max_frames, deadline=None, suppress_health_check=list(HealthCheck))
+        @given(self.strategy(), st.sampled_from(_FRAMES))
+        def frame_or_refusal(table: Mapping[str, Any], kind: str) -> None:
+            try:
+                params = self.family.Params.model_validate(dict(table))
+            except ValidationError:
+                return
+            if errors(self.family().check(params), Stage.PARTS):
+                return
+            found = [*frame_faults(self.family(), params, kind)]
+            assert not found, "; ".join(found)
+
+        frame_or_refusal()
+
+
+def mounting_faults(mounting: Mounting, parts: Sequence[Part], motion: Motion) -> Iterator[str]:
+    """Spindles that are no axes of their bodies, or have nothing where their hub is said to sit."""
+    for one in mounting.spindles:
+        if one.body not in motion.poses:
+            yield f"spindle {one.name}: the motion has no body {one.body!r}"
+            continue
+        poses = motion.poses[one.body]
+        off = float(np.abs(poses.position[:, :2] - one.point).max())
+        lean = float(np.abs(poses.rotation[:, 2, 2] - 1).max())
+        if max(off, lean) > TOLERANCES.closure:
+            yield f"spindle {one.name}: body {one.body!r} turns {off:g} mm off {one.point}, or leans"
+        here = [
+            (at.z, at.z + part.thickness)
+            for part in parts
+            for at in part.instances
+            if at.body == one.body and part.outline is not None
+        ]
+        low, high = min((a for a, _ in here), default=math.inf), max((b for _, b in here), default=-math.inf)
+        if one.hub.low < low - TOLERANCES.closure or one.hub.high > high + TOLERANCES.closure:
+            yield f"spindle {one.name}: its hub from {one.hub.low:g} to {one.hub.high:g} mm is no part of it"
+
+
+def frame_faults(family: Family[Any], params: Parameters, kind: str) -> Iterator[str]:
+    """What is wrong with the frame of a design, or with its refusal."""
+    found = framed(MachineSettings(frame=kind, motor="auto"), family, params)
+    refused = errors(found.findings)
+    event("refused" if refused else "framed")
+    if bool(refused) == bool(found.parts):
+        yield f"{len(found.parts)} parts and {len(refused)} errors"
+    for one in refused:
+        if one.stage is not Stage.PARTS or not one.remedy or not one.parameter:
+            yield f"{one} is of the stage {one.stage}, and says no key or no remedy"
+    bodies = found.around(family.solve(params, _SAMPLES)).poses
+    for part in found.parts:
+        yield from (f"{part.name} stands on no body" for at in part.instances if at.body not in bodies)

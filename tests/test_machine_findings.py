@@ -1,0 +1,189 @@
+"""What is found of a machine, what is written of it, and what is said of mistakes in its table."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from mechwright import Build, host
+from mechwright.contracts.finding import Severity
+from mechwright.designs.design import load
+from mechwright.errors import DesignError
+from mechwright.machine.inspection import MachineDrive
+from mechwright.machine.page import FIGURES, DrivePage
+from mechwright.machine.table import MachineTable
+from mechwright.remedies import proposed_tried
+
+Run = Callable[..., tuple[int, str, str]]
+ROOT = Path(__file__).parents[1]
+
+
+def build_of(folder: Path, example: str, table: str) -> Build:
+    path = folder / "design.toml"
+    said = (ROOT / "examples" / f"{example}.toml").read_text(encoding="utf-8")
+    path.write_text(f"{said}\n[machine]\n{table}\n", encoding="utf-8")
+    return Build(path, host())
+
+
+def found(build: Build) -> dict[str, str]:
+    return {one.code: one.message for one in MachineDrive().findings(build)}
+
+
+FOUR_BAR, SLIDER, TRAIN = "crank-rocker-three-poles", "slider-crank-quick-return", "figure-eight-variable"
+
+
+def test_a_design_without_the_table_is_as_before(tmp_path: Path) -> None:
+    for table in ("", "margin = 1.5"):
+        build = build_of(tmp_path, FOUR_BAR, table)
+        assert MachineDrive().findings(build) == ()
+        assert DrivePage().files(build) == {}
+    assert MachineTable().text(build_of(tmp_path, FOUR_BAR, "").design.table(MachineTable)) == []
+
+
+def test_torque_flywheel_and_motor_are_told(tmp_path: Path) -> None:
+    build = build_of(tmp_path, FOUR_BAR, 'load = 0.05\nmotor = "auto"\nup = "y"')
+    notes = MachineDrive().findings(build)
+    assert {one.severity for one in notes} == {Severity.NOTE}
+    said = {one.code: one for one in notes}
+    assert {
+        "machine.torque",
+        "machine.flywheel",
+        "machine.motor",
+        "machine.shaft",
+        "machine.coupling",
+    } <= set(said)
+    data = json.loads(DrivePage().files(build)["drive.json"])
+    assert said["machine.torque"].value == pytest.approx(abs(data["figures"]["peak_torque"]["value"]))
+    assert said["machine.flywheel"].value == pytest.approx(data["figures"]["flywheel"]["value"])
+    assert said["machine.motor"].value == pytest.approx(data["figures"]["motor_cover"]["value"])
+    assert data["motor"] in said["machine.motor"].message
+    assert "flexible coupling" in said["machine.coupling"].message
+
+
+def test_the_page_draws_each_part_of_the_torque_and_says_it_the_same_way_twice(tmp_path: Path) -> None:
+    def page() -> str:
+        build = build_of(tmp_path, FOUR_BAR, 'load = 0.05\nmotor = "NEMA 17 - 40"\nup = "y"\nspeed = 90')
+        return str(DrivePage().files(build)["drive.html"])
+
+    html = page()
+    assert html == page()
+    for words in ("accelerated masses", "weights", "resistance", "Motor NEMA 17 - 40", "backwards", "y up"):
+        assert words in html
+    assert "given loads" not in html
+    pictures = [piece.partition("</svg>")[0] + "</svg>" for piece in html.split("<svg")[1:]]
+    assert len(pictures) == 5
+    for picture in pictures:
+        assert len(ElementTree.fromstring("<svg" + picture)) > 10  # noqa: S314 - our own
+    build = build_of(tmp_path, FOUR_BAR, "speed = 90\nload = 0.05")
+    figures = json.loads(DrivePage().files(build)["drive.json"])["figures"]
+    assert figures.keys() < FIGURES.keys()
+    assert figures["greatest_speed"]["value"] == pytest.approx(90)
+    swings = 2 * build.motion.scalars["swing"].value * 90 / 60
+    assert figures["mean_power"]["value"] == pytest.approx(0.05 * swings, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("table", "fixed"),
+    [
+        ('load = 0.3\nmotor = "NEMA 17 - 34"', "machine.motor"),
+        ('load = 0.6\nmotor = "37D 18.75:1"\nspeed = 30', "machine.motor"),
+        ('speed = 3000\nmotor = "NEMA 23 - 76"\nup = "y"', "machine.speed"),
+        ('load = 40\nmotor = "NEMA 23 - 76"\nspeed = 60', "machine.load"),
+    ],
+)
+def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fixed: str) -> None:
+    build = build_of(tmp_path, FOUR_BAR, table)
+    inspection = MachineDrive()
+    (fault,) = (one for one in inspection.findings(build) if one.severity is Severity.ERROR)
+    assert fault.code == fault.parameter == "machine.motor"
+    assert fault.value is not None
+    assert fault.limit is not None
+    assert fault.value < fault.limit
+    assert f"{fault.limit - fault.value:.3g} N·m are missing" in fault.message
+    (told,) = (one for one in proposed_tried(build, inspection, [fault]) if one.code == "machine.motor")
+    assert told.fix is not None
+    assert list(told.fix) == [fixed]
+    changed = build.design.changed(told.fix)
+    again = MachineDrive().findings(Build(changed, host()))
+    assert not [one for one in again if one.severity is Severity.ERROR]
+
+
+def test_the_speed_of_the_parameters_is_changed_where_the_table_has_none(tmp_path: Path) -> None:
+    build = build_of(tmp_path, "crank-rocker-three-poles", 'motor = "37D 150:1"')
+    build = Build(build.design.changed({"parameters.speed": 400.0}), host())
+    (fault,) = (one for one in MachineDrive().findings(build) if one.severity is Severity.ERROR)
+    assert {"parameters.speed"} in [set(change) for change in fault.proposed]
+
+
+def test_a_stepper_that_feels_too_much_inertia_is_told(tmp_path: Path) -> None:
+    build = build_of(tmp_path, FOUR_BAR, 'motor = "NEMA 17 - 34"\nspeed = 25')
+    told = {one.code: one for one in MachineDrive().findings(build)}
+    warned = told["machine.inertia"]
+    assert warned.severity is Severity.WARNING
+    assert warned.value > warned.limit == 10
+    assert "machine.resonance" in told
+    assert "machine.braking" in told
+    (tried,) = proposed_tried(build, MachineDrive(), [warned])
+    assert tried.fix is not None
+
+
+def test_the_key_of_the_driven_shaft_is_pressed(tmp_path: Path) -> None:
+    light = build_of(tmp_path, TRAIN, 'load = 0.5\noutput = "gear-5"')
+    said = found(light)["machine.key-pressure"]
+    assert "the key 4 x 4 x 10" in said
+    assert "aluminium" in said
+    heavy = build_of(tmp_path, TRAIN, 'load = 12\noutput = "gear-5"\ndirection = "forwards"')
+    warned = {one.code for one in MachineDrive().findings(heavy) if one.severity is Severity.WARNING}
+    assert warned == {"machine.key-pressure", "machine.shaft"}
+
+
+@pytest.mark.parametrize(
+    ("example", "table", "said"),
+    [
+        (SLIDER, "load = 0.3", "machine.load: no body turns in the frame besides the driven one"),
+        (TRAIN, "load = 0.3", "machine.output: gear-3, gear-5 turn in the frame"),
+        (FOUR_BAR, 'output = "crank"', "machine.output: no body 'crank' turns .* those that do: follower"),
+    ],
+)
+def test_what_the_mechanism_has_not_is_an_error_of_its_key(
+    tmp_path: Path, example: str, table: str, said: str
+) -> None:
+    (fault,) = MachineDrive().findings(build_of(tmp_path, example, table))
+    assert fault.severity is Severity.ERROR
+    key, _, words = said.partition(": ")
+    assert fault.parameter == key
+    assert re.search(words, f"{fault.message}; {fault.remedy}")
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ('motor = "NEMA 17 -40"', "machine.motor: 'NEMA 17 -40' is no motor; did you mean 'NEMA 17 - 40'?"),
+        ('motor = "steam"', "'steam' is no motor; one of: "),
+        ("speed = 0", "machine.speed: 0 should be greater than or equal to 0.001"),
+        ("speed = inf", "machine.speed: inf should be"),
+        ("load = nan", "machine.load: nan should be a finite number"),
+        ("margin = 0.5", "machine.margin: 0.5 should be greater than or equal to 1"),
+        ('up = "w"', "machine.up: 'w' should be"),
+        ("torque = 1", "unknown key 'torque'"),
+        ("gear = 0", "machine.gear: 0 should be greater"),
+    ],
+)
+def test_a_wrong_key_is_told_in_one_line(tmp_path: Path, table: str, said: str) -> None:
+    with pytest.raises(DesignError) as caught:
+        load(build_of(tmp_path, FOUR_BAR, table).path, host())
+    assert said in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, command_line: Run) -> None:
+    path = build_of(tmp_path, FOUR_BAR, 'load = 0.3\nmotor = "NEMA 17 - 34"').path
+    code, out, _ = command_line("check", path, "--json")
+    assert code == 1
+    findings = {one["code"]: one for one in json.loads(out)["findings"]}
+    assert findings["machine.motor"]["severity"] == "error"
+    assert list(findings["machine.motor"]["fix"]) == ["machine.motor"]
+    assert findings["machine.torque"]["stage"] == "parts"
