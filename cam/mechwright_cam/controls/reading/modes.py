@@ -69,7 +69,8 @@ class Modal(Compensation):
         return int(value)
 
     def _set(self, **changes: Any) -> None:
-        self.state = replace(self.state, **changes)
+        if any(getattr(self.state, name) != value for name, value in changes.items()):
+            self.state = replace(self.state, **changes)
 
     def _state(self, group: str) -> None:
         self._set(stated=self.state.stated | {group})
