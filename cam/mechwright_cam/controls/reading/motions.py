@@ -33,7 +33,8 @@ class Moving(Modal):
                 self.motion = None
             elif named in CYCLES and named != self.motion:
                 self.sticky = {}
-                self.initial = self.z
+                if self.motion not in CYCLES:  # the next cycle goes back to where the first began
+                    self.initial = self.z
                 self.motion = named
             else:
                 self.motion = named
@@ -69,6 +70,8 @@ class Moving(Modal):
         name = "G28" if 280 in block.g else "G30"
         if self.side:
             raise fail(block.line, f"{name} while compensation is on; write G40 before")
+        if self.motion in CYCLES and self.dialect.ends_cycles:
+            raise fail(block.line, f"{name} while {spell(self.motion)} is in force; write G80 before")
         named = [axis for axis in AXES if axis in words]
         if not named and not self.dialect.bare_home:
             raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
