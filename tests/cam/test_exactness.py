@@ -171,7 +171,7 @@ def test_lots_change_nothing_and_any_one_is_one_of_all(monkeypatch: pytest.Monke
     more = np.full(len(scene.run), 0.25)  # as far as from roughed walls to finished ones
     whole = reaching(scene.paths, made, more, TOLERANCES.gouge)
     assert 0 < whole.sum() < whole.size
-    monkeypatch.setattr("mechwright_cam.proof.off_path.MOST_CORNERS", 40)
+    monkeypatch.setattr("mechwright_cam.proof.gouge.MOST_CORNERS", 40)
     assert np.array_equal(reaching(scene.paths, made, more, TOLERANCES.gouge), whole)
     some = reaching(scene.paths, made, more, TOLERANCES.gouge, any_one=True)
     assert 0 < some.sum() < whole.sum()

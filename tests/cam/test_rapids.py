@@ -55,6 +55,14 @@ def test_beside_the_stock_a_low_rapid_stays_clear_of_its_corners(words: str, pas
     assert rapid_height(scene(low, of)).passed == passed
 
 
+@pytest.mark.parametrize(("count", "said"), [(1, "1 in all"), (19, "19 in all"), (300, "20 or more")])
+def test_more_than_twenty_rapids_in_the_stock_are_not_counted(count: int, said: str) -> None:
+    over = "G0 X0 Y0\nG43 H3 Z5\nG1 Z-2 F100\n"
+    along = "\n".join(f"G0 X{7 + k / 10:.1f}" for k in range(1, count + 1))
+    found = rapids_in_stock(scene(over + along, plate_job()))
+    assert found.message.startswith(f"line 8: a rapid into the stock ({said}); feed there, at X7.")
+
+
 CORNER = 3 / 2**0.5
 """Of the mill's radius that much lies along X, and along Y, where it goes past a corner."""
 

@@ -54,6 +54,8 @@ def test_cycles(tmp_path: Path) -> None:
         "G17 G21 G40 G49 G80 G90 G94\nG54 G0 X1 Y1\nG0 Z8\n"
         "G98 G81 X5 Y5 Z-3 R2 F100\nX7\nY9 Z-4\nG99 X1 Y2\nX3\nG80\nG0 Z9\n"
         "G98 G83 X6 Y2 Z-3.3 R2 Q1 F50\nX9\nG73 X8 Y2 Z-3 R2 Q1.1\nG82 X4 Y4 Z-1 R1 P0.1\n"
+        # Another cycle behind a cycle goes back to where the first of them began.
+        "G0 Z9\nG99 G81 X5 Y5 Z-3 R2 F100\nG98 G82 X7 Z-3 R1 P0.1\nX8\nG80\nG0 Z4\nG98 G85 X1 Z-1 R1\nG80\nG0 Z9\n"
         "G85 X3 Y3 Z-1 R1\nG89 X2 Y2 Z-2 R1 P0.2\nG80\nG0 Z1\nG99 G81 X1 Y1 Z-1 R3\nM2\n",
         tmp_path,
     )

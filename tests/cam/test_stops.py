@@ -42,6 +42,32 @@ def test_an_optional_stop_sets_no_clamp(control: str) -> None:
 
 
 @pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("stop", ["M0", "M1"])
+@pytest.mark.parametrize(
+    ("before", "said"),
+    [
+        ("", "at stops spindle and coolant are off and the tool is up"),
+        ("M3\n", "stops the program while the spindle turns; write M5 before it"),
+        ("M8\n", "stops the program while coolant runs; write M9 before it"),
+        ("G1 Z-1. F100.\n", "stops the program with the tool down; before it retract"),
+    ],
+)
+def test_a_stop_that_a_switch_makes_is_judged_as_any(before: str, said: str, stop: str, control: str) -> None:
+    (one,) = made("profile-outside", control)
+    head, after = one.text.rsplit("\nM5\n", 1)
+    found = prove(f"{head}\nM5\n{before}{stop}\n{after}", one.job, BY_NAME[control]).checks["stops"]
+    assert (stop if before else "") + " " * bool(before) + said in found.message
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas"])
+def test_a_spindle_that_is_turned_to_its_mark_stands_still(control: str) -> None:
+    (one,) = made("profile-outside", control)
+    head, after = one.text.rsplit("\nM8\n", 1)
+    assert failed(f"{head}\nM19\nM8\n{after}", control) == {"spindle"}
+    assert not failed(f"{head}\nM19\nM3\nM8\n{after}", control)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
 def test_the_length_offset_is_stated_anew_after_a_stop(control: str) -> None:
     (one,) = made("profile-outside", control)
     head, after = one.text.rsplit("\nM0\n", 1)
@@ -59,3 +85,14 @@ def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> N
             continue
         run = interpret(text, replace(reader.dialect, percent=True))
         assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "fanuc", "haas", "mach3"])
+def test_coolant_is_stated_anew_after_a_change_of_tool_where_that_may_stop_it(control: str) -> None:
+    (one,) = made("drill", control)
+    first, second = one.text.split("\nM9\n", 1)
+    head, after = second.rsplit("\nM8\n", 1)
+    found = prove(f"{first}\n{head}\n{after}", one.job, BY_NAME[control])
+    assert {check.name for check in found.failures} == (
+        {"coolant"} if control in {"fanuc", "haas"} else set()
+    )

@@ -75,6 +75,12 @@ def test_linuxcnc_refuses_it_as_well(lines: str, tmp_path: Path) -> None:
         ("fanuc", "G5.1", "G5.1 needs Q"),
         ("fanuc", "G5.1 R10", "G5.1 needs Q"),
         ("fanuc", "G8", "G8 needs P"),
+        ("fanuc", "G5.1 Q2", r"G5\.1 Q2 lets Fanuc round corners further .* write Q1"),
+        ("fanuc", "G8 P3", r"G8 P3 lets Fanuc round corners further .* write P1"),
+        ("fanuc", "G4 P0.5", r"P0\.5 has a decimal point, and Fanuc takes P whole"),
+        ("fanuc", "G82 X1. Y1. Z-1. R1. P250.", r"P250 has a decimal point"),
+        *((c, "G20", "G20 in a program with other units") for c in ("fanuc", "haas")),
+        *((c, "M3 M19", "M3 and M19 exclude each other") for c in ("fanuc", "haas")),
     ],
 )
 def test_the_reason_is_the_right_one(control: str, lines: str, reason: str) -> None:
@@ -177,3 +183,13 @@ def test_parameters_of_the_machine_are_not_written(line: str) -> None:
 @pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
 def test_macros_of_other_controls_are_refused(line: str, control: str) -> None:
     assert said(line, control).startswith(f"line {LINE}: ")
+
+
+@pytest.mark.parametrize("control", ["fanuc", "haas"])
+@pytest.mark.parametrize("home", ["G28", "G30"])
+def test_a_cycle_is_ended_before_the_way_to_a_reference_point(home: str, control: str) -> None:
+    hole, up = "G81 X1. Y1. Z-1. R1.", f"G91 {home} Z0.\nG90"
+    reason = f"line {LINE + 1}: {home} while G81 is in force; write G80 before"
+    assert said(f"{hole}\n{up}", control) == reason
+    assert said(f"{hole}\nG80\n{up}", control) == said(f"{hole}\nG0 Z5.\n{up}", control) == ""
+    assert home != "G28" or said(f"{hole}\n{up}") == ""  # LinuxCNC goes there

@@ -79,6 +79,10 @@ class Dialect:
     """Seconds per unit of P in G4."""
     bare_dwell_unit: float | None = None
     """The same for a P without a decimal point; None if the point makes no difference."""
+    whole_dwells: bool = False
+    """Whether P of a dwell has no decimal point."""
+    one_unit: bool = False
+    """Whether a program keeps to the units that it has stated first."""
     absolute_centres: bool = False
     """Whether I and J are absolute coordinates at the start of a program."""
     semicolon_comments: bool = True
@@ -124,6 +128,10 @@ class Dialect:
     """L of the G10 that the control knows."""
     change_stops_spindle: bool = True
     """Whether M6 stops the spindle."""
+    change_stops_coolant: bool = False
+    """Whether M6 may stop the coolant, so that it has to be stated anew."""
+    ends_cycles: bool = False
+    """Whether a drilling cycle has to be ended by G80, or a move, before G28 and G30."""
     percent_ends: bool = True
     """Whether a second ``%`` line ends the program as M2 does."""
     percent: bool = True

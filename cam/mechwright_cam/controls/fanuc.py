@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, Corners, Dialect
+from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
 from mechwright_cam.controls.writing.text import comment_lines
@@ -27,7 +27,7 @@ class Fanuc(GcodeControl):
         unsupported=NOT_SIMULATED,
         inert=((90, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
         inert_with=frozenset({51, 80}),
-        inert_m=frozenset({19}),
+        m_codes=USUAL_M | {19},
         bare_dwell_unit=0.001,
         semicolon_comments=False,
         peck_clearance=1.0,
@@ -43,9 +43,18 @@ class Fanuc(GcodeControl):
         numbers_needed="DH",
         length_write=(10, "R"),
         bare_home=False,
-        # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed.
+        one_unit=True,
+        change_stops_coolant=True,
+        ends_cycles=True,
+        whole_dwells=True,
+        # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and
+        # with Q2 or more it puts curves through the places of the program.
         corners=Corners(
-            looser=((51, "R", frozenset({10.0}), "write R10 (precision), or leave the level to the machine"),)
+            looser=(
+                (51, "R", frozenset({10.0}), "write R10 (precision), or leave the level to the machine"),
+                (51, "Q", frozenset({0.0, 1.0}), "write Q1 (look ahead) or Q0"),
+                (80, "P", frozenset({0.0, 1.0}), "write P1 (look ahead) or P0"),
+            )
         ),
     )
     offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)

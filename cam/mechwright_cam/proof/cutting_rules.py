@@ -5,9 +5,11 @@ they know nothing. Programs of others cut otherwise than ours, so only what is f
 """
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
+from mechwright.arrays import Array
 from mechwright.contracts.materials import material
 from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.paths import NEAR
@@ -73,12 +75,14 @@ def chips(scene: Scene) -> Check:
         share = np.where(thick, BEYOND, THIN_CHIPS)
         # Whole feeds are as near as some posts come to a small one.
         fastest = share * data.chip_load * rpm[steps] * tool.flutes + 1.0
-        for index in np.flatnonzero(run.feed[steps] > fastest).tolist():
+        fast = np.flatnonzero(run.feed[steps] > fastest)
+        teeth = run.feed[steps[fast]] / rpm[steps[fast]] / tool.flutes
+        thick_at = _where_thick(tool, BEYOND * data.chip_load / teeth)
+        for index, tooth, (lift, radius) in zip(fast.tolist(), teeth.tolist(), thick_at, strict=True):
             step = int(steps[index])
-            feed, turns = float(run.feed[step]), float(rpm[step])
-            tooth = feed / turns / tool.flutes
-            if not _too_thick(scene, tool, step, BEYOND * data.chip_load / tooth):
+            if not scene.stock.meets(step, lift=lift, radius=radius):
                 continue
+            feed, turns = float(run.feed[step]), float(rpm[step])
             message = (
                 f"F{feed:g} at S{turns:g} feeds T{tool.number} ({tool.name}) {tooth:.3f} mm per tooth into "
                 f"{scene.job.part.material}, the tool library says {data.chip_load:g}; lower F, or set "
@@ -102,17 +106,17 @@ def _full_chips(scene: Scene) -> Ints:
     return found
 
 
-def _too_thick(scene: Scene, tool: Tool, step: int, thin: float) -> bool:
-    """Whether a move meets material where chips are thicker than this share of the feed per tooth.
+def _where_thick(tool: Tool, thin: Array) -> Iterable[tuple[float, float | None]]:
+    """Where chips are thicker than shares (n,) of the feed per tooth: height above the tip and radius, mm.
 
     They are f_z sin θ with the engagement θ of a mill, which reaches in by r (1 - cos θ); where a rounded
     corner cuts, less by the sine of the angle of its edge.
     """
     if tool.kind not in MILLS:
-        return scene.stock.meets(step)
-    on_nose = tool.radius - tool.nose * (1 - max(thin, MIDDLE))
-    radius = min(tool.radius * math.sqrt(1 - thin * thin) - SHAVES, on_nose)
-    return radius > 0 and scene.stock.meets(step, lift=float(cutter(tool).height_at(radius)), radius=radius)
+        return [(0.0, None)] * thin.size
+    on_nose = tool.radius - tool.nose * (1 - np.maximum(thin, MIDDLE))
+    radius = np.minimum(tool.radius * np.sqrt(1 - thin**2) - SHAVES, on_nose)
+    return zip(cutter(tool).height_at(radius).tolist(), radius.tolist(), strict=True)
 
 
 def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:
@@ -122,7 +126,7 @@ def meets_middle(scene: Scene, tool: Tool, step: int, above: float) -> bool:
     """
     radius = middle(scene, tool)
     lift = max(above, float(cutter(tool).height_at(radius)))
-    return radius > 0 and scene.stock.meets(step, lift=lift, radius=radius)
+    return scene.stock.meets(step, lift=lift, radius=radius)
 
 
 def middle(scene: Scene, tool: Tool) -> float:

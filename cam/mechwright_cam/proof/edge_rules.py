@@ -192,11 +192,16 @@ RETURNED = 0.25
 
 
 def _to_and_fro(scene: Scene, loads: Loads) -> NDArray[np.bool_]:
-    """(n,) which pieces of path are of a ramp that goes down to and fro, and so mills either way."""
+    """(n,) which pieces of path are of a way down that goes to and fro, and so mills either way.
+
+    Moves down that follow on each other are one way down.
+    """
     paths = scene.paths
-    ramp = np.abs(paths.end[loads.step, 2] - paths.start[loads.step, 2]) > NEAR
-    ways = [float(loads.path[ramp & (way * loads.side > ONE_SIDED)].sum()) for way in (1, -1)]
-    return ramp if min(ways) > RETURNED * max(ways) else np.zeros_like(ramp)
+    ramp = scene.run.cutting & (paths.start[:, 2] - paths.end[:, 2] > NEAR)
+    way, mine = np.cumsum(~ramp)[loads.step], ramp[loads.step]
+    sides = [np.bincount(way, loads.path * (mine & (side * loads.side > ONE_SIDED))) for side in (1, -1)]
+    returns = np.minimum(*sides) > RETURNED * np.maximum(*sides)
+    return np.asarray(mine & returns[way], dtype=np.bool_)
 
 
 AT_WALL = 0.02

@@ -12,7 +12,7 @@ from mechwright_cam.proof.cutting_rules import BEYOND, cutting_data
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.stock import TOUCH, UNEVEN
+from mechwright_cam.proof.stock import MOST_TOLD, TOUCH, UNEVEN
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
 STEEPEST = 15.0
@@ -132,7 +132,8 @@ def rapids_in_stock(scene: Scene) -> Check:
         message = f"a rapid goes down less than {UNEVEN:g} mm beside the stock; feed there, or keep off more"
         return scene.bad(beside, message, 0.0, UNEVEN, "mm")
     if found:
-        message = f"a rapid into the stock ({len(found)} in all); feed there"
+        many = f"{len(found)} or more" if len(found) == MOST_TOLD else f"{len(found)} in all"
+        message = f"a rapid into the stock ({many}); feed there"
         return scene.bad(found[0], message, float(len(found)), 0.0)
     return Check(True, "no rapid meets material", value=0.0, limit=0.0)
 

@@ -8,7 +8,7 @@ along the moves near it the cutter is asked, place by place, how far the highest
 covers stands above its tip.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,7 @@ from mechwright_cam.setup.holding import Tab
 DEAR = 12
 """To grow a shape by one corner takes about a twelfth of the time of one question about nearness."""
 FIRST_ASKED = 500
-"""So many of the lowest moves are asked first; if none of them cuts deep, all others are."""
+"""So many pieces are asked first, and all others if these have not settled it."""
 MOST_CORNERS = 1_000_000
 """Corners of lines that are looked at together."""
 
@@ -53,13 +53,15 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
         return None
     pieces = distinct(paths, _about(paths, paths.below(top - NEAR), keep))
     edge, most = Boundary(keep), np.round((top - pieces.low) / NEAR)
-    todo: Ints = np.lexsort((pieces.step, -most))
-    worst, deepest, asked = -1, 0.0, FIRST_ASKED
-    while todo.size:
-        # Arcs have corners, and memory must not go with their number.
-        count = np.searchsorted(np.cumsum(paths.corners(pieces.only(todo))[:asked]), MOST_CORNERS)
-        now, todo = np.split(todo, [max(int(count), 1)])
-        asked = len(pieces)
+    order: Ints = np.lexsort((pieces.step, -most))
+    worst, deepest = -1, 0.0
+    for lot in lots(paths, pieces.only(order)):
+        now = order[lot]
+        if worst >= 0:  # of moves that cut equally deep the first is to blame
+            deeper, alike = (most[now] > deepest / NEAR + more for more in (1, -1))
+            now = now[deeper | alike & (pieces.step[now] < pieces.step[worst])]
+        if not now.size:
+            continue
         depth = _depths(paths, pieces.only(now), edge, top)
         alike = now[depth >= max(depth.max(), deepest) - NEAR]
         if depth.max() > 0 and alike.size:
@@ -67,17 +69,21 @@ def deepest_cut(paths: Paths, keep: Shape, top: float) -> Gouge | None:
             if depth.max() > deepest + NEAR or pieces.step[first] < pieces.step[worst]:
                 worst = first
             deepest = max(deepest, float(depth.max()))
-        # Of moves that cut equally deep the first is to blame.
-        enough = deepest / NEAR
-        todo = todo[
-            (most[todo] > enough + 1) | (most[todo] > enough - 1) & (pieces.step[todo] < pieces.step[worst])
-        ]
     if worst < 0:
         return None
     one = pieces.only(np.array([worst]))
     x, y = edge.nearest(paths.lines(one)[0])
     depth = _depths(paths, one, edge, top)
     return Gouge(float(depth[0]), int(one.step[0]), (x, y, float(one.low[0])))
+
+
+def lots(paths: Paths, pieces: Pieces) -> Iterator[Ints]:
+    """Indices of pieces, in order and in lots: a few first, then so many corners as memory is for.
+
+    Arcs have corners, and memory must not go with their number.
+    """
+    lot = np.cumsum(paths.corners(pieces)) // MOST_CORNERS + (np.arange(len(pieces)) >= FIRST_ASKED)
+    yield from np.split(np.arange(len(pieces)), np.flatnonzero(np.diff(lot)) + 1)
 
 
 def _depths(paths: Paths, pieces: Pieces, edge: Boundary, top: float) -> Array:

@@ -170,7 +170,7 @@ class Loads:
 
 
 _ARRAYS: dict[str, type] = {
-    field.name: {"Ints": np.int64, "Array": np.float64}.get(str(field.type), np.bool_)
+    field.name: np.int64 if field.type == Ints else np.float64 if field.type == Array else np.bool_
     for field in fields(Loads)[1:]
 }
 """Name and kind of the arrays of Loads."""

@@ -70,18 +70,23 @@ def tool_change(scene: Scene) -> Check:
 
 
 def stops(scene: Scene) -> Check:
-    """Where the program stops for the operator's hands, spindle and coolant are off and the tool is up."""
-    run = scene.run
-    stop, halt = run.kind == Kind.STOP, scene.control.m(0)
-    if (step := first(stop & (scene.run.of_states(lambda state: state.spindle) != 0))) is not None:
-        message = f"{halt} stops the program while the spindle turns; write {scene.control.m(5)} before it"
-        return scene.bad(step, message)
-    if (step := first(stop & ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR))) is not None:
-        return scene.bad(step, f"{halt} stops the program with the tool down; before it {retract(scene)}")
+    """Where the program stops for the operator's hands, spindle and coolant are off and the tool is up.
+
+    So it is where it stops only if a switch is on.
+    """
+    run, control = scene.run, scene.control
+    stop = np.isin(run.kind, (Kind.STOP, Kind.MAYBE))
+    turns = run.of_states(lambda state: state.spindle) != 0
+    down = ~(run.start[:, 2] >= scene.job.settings.clearance - NEAR)
     wet = run.of_states(lambda state: state.coolant != "off")
-    if (step := first(stop & wet)) is not None:
-        message = f"{halt} stops the program while coolant runs; write {scene.control.m(9)} before it"
-        return scene.bad(step, message)
+    for wrong, how in (
+        (turns, f"while the spindle turns; write {control.m(5)} before it"),
+        (down, f"with the tool down; before it {retract(scene)}"),
+        (wet, f"while coolant runs; write {control.m(9)} before it"),
+    ):
+        if (step := first(stop & wrong)) is not None:
+            halt = control.m(0 if run.kind[step] == Kind.STOP else 1)
+            return scene.bad(step, f"{halt} stops the program {how}")
     return Check(True, "at stops spindle and coolant are off and the tool is up")
 
 

@@ -20,8 +20,8 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.proof.bands import bands
 from mechwright_cam.proof.details import deepest, deepest_in_fillet, heights
 from mechwright_cam.proof.fillets import fillets
-from mechwright_cam.proof.gouge import MOST_CORNERS, Gouge, kinds, near_ones
-from mechwright_cam.proof.paths import NEAR, Paths, Pieces
+from mechwright_cam.proof.gouge import Gouge, kinds, lots, near_ones
+from mechwright_cam.proof.paths import NEAR, Paths
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import Cutter
 from mechwright_cam.shop.tool import ToolKind
@@ -169,7 +169,7 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float, *, any_one: bool 
             _roughly(paths.radius[one.step], more[one.step]),
             np.zeros(chosen.size, dtype=np.bool_),
         )
-        for now in _portions(paths, one):
+        for now in lots(paths, one):
             lines = paths.lines(one.only(now))
             close = near_ones(keep, lines, rough[now])
             within[now[close]] = shapely.dwithin(keep, lines[close], wide[now[close]])
@@ -179,20 +179,12 @@ def reaching(paths: Paths, job: Job, more: Array, sunk: float, *, any_one: bool 
         less = reach[widest[met]] < wide[kind[met]]
         found[pieces.step[widest[met[~less]]]] = True
         some = pieces.only(widest[met[less]])
-        for now in _portions(paths, some):
+        for now in lots(paths, some):
             own = shapely.dwithin(keep, paths.lines(some.only(now)), reach[widest[met[less][now]]])
             found[some.step[now[own]]] = True
         if any_one and found.any():
             break
     return found
-
-
-def _portions(paths: Paths, pieces: Pieces) -> list[Ints]:
-    """Indices of the pieces, in lots that have so many corners together as memory is for."""
-    if not len(pieces):
-        return []
-    lot = np.cumsum(paths.corners(pieces)) // MOST_CORNERS
-    return np.split(np.arange(len(pieces)), np.flatnonzero(np.diff(lot)) + 1)
 
 
 def _roughly(radius: Array, more: Array) -> Array:

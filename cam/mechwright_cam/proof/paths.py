@@ -217,11 +217,11 @@ class Paths:
                 least[at, axis] = np.minimum(least[at, axis], reach)
         return least, most
 
-    def lines(self, pieces: Pieces) -> Geometries:
+    def lines(self, pieces: Pieces, chord: float = PATH_CHORD) -> Geometries:
         """One line per piece; a point where it goes straight down."""
         if len(pieces) == 0:
             return np.empty(0, dtype=object)
-        return _lines(*self.points(pieces))
+        return _lines(*self.points(pieces, chord))
 
     def room(self, pieces: Pieces) -> Geometries:
         """Where the tip may be in plan view while it makes each piece: of a feed move that is its line.

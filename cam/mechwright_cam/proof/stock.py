@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, first_of_each
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
@@ -21,7 +21,7 @@ from mechwright_cam.setup.views import quarter
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""
-MOST_TOLD = 100
+MOST_TOLD = 20
 """So many rapids that meet material are enough to know of."""
 UNEVEN = 0.2
 """Plates are uneven and are set up to tenths, mm: a rapid keeps so far off a side or a face not yet cut."""
@@ -31,8 +31,9 @@ LAST = 2000
 """So many of the last cuts are asked before all others whether they have cleared the way."""
 FEW = 16
 """So many cuts are taken off at first, and then twice as many each time, until nothing is left."""
-ASKED, COMPARED, GROWN = 500, 20, 25
-"""What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs."""
+ASKED, COMPARED, GROWN = 500, 20, 75
+"""What a question takes, µs; cuts that are compared in one; and what one that is grown takes, µs, besides one
+for each of its corners."""
 MOST_WORK = 10_000_000
 """What all questions may take, µs; a program that asks for more is refused. None of ours takes a tenth."""
 ACCURACY = 0.001
@@ -52,13 +53,20 @@ class Stock:
         self.air = [air for air in job.gone if air.top < -NEAR]
         self._work = self._asked = 0
         self._free: dict[tuple[Any, ...], int] = {}
-        """Moves that have met nothing, and when: material does not come back."""
+        """Ways that have met nothing, and when: material does not come back."""
         self.cuts: Ints = paths.cuts[paths.low[paths.cuts] < 0]
 
     @cached_property
     def extents(self) -> tuple[Array, Array]:
         """Least and greatest x and y (n, 2) of each of the cuts, mm."""
         return self.paths.extent(self.cuts)
+
+    @cached_property
+    def _way(self) -> Ints:
+        """(n,) a number for each way: steps of one number have tool, ends and centre in common."""
+        paths, run = self.paths, self.paths.run
+        ways = np.column_stack((run.tool, paths.start, paths.end, run.centre, run.sweep))
+        return first_of_each(ways.view(np.int64))[1]
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -136,27 +144,19 @@ class Stock:
         """Whether the tool, moving as this step does, meets material that earlier steps left.
 
         With ``lift`` and ``radius`` it is not the cutter that is asked about, but a cylinder of that radius
-        which begins so far above the cutter's tip: shank or holder. A ``rough`` plate has its margin.
+        which begins so far above the cutter's tip: shank, holder or middle. One without a radius meets
+        nothing. A ``rough`` plate has its margin.
         """
         paths = self.paths
         z = float(paths.low[step]) + lift
-        if z >= -NEAR:
+        if z >= -NEAR or (radius is not None and radius <= 0):
             return False
-        pieces = paths.below(-NEAR - lift, steps=np.array([step]))
-        reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
-        move = (*paths.start[step, :2], *paths.end[step, :2], *paths.run.centre[step], paths.run.sweep[step])
-        key = (
-            rough,
-            paths.run.tool[step],
-            lift,
-            reach,
-            paths.start[step, 2],
-            paths.end[step, 2],
-            *map(repr, move),
-        )
+        key = (int(self._way[step]), lift, radius, rough)
         if self._free.get(key, step) < step:
             return False
         self._asked += 1
+        pieces = paths.below(-NEAR - lift, steps=np.array([step]))
+        reach = float(paths.radius_at(pieces, 0.0)[0]) if radius is None else radius
         plate = self.rough if rough else self.plate
         body = shapely.intersection(grow(paths.room(pieces)[0], reach, ACCURACY), plate)
         if self._meets(step, z, body):
@@ -195,10 +195,10 @@ class Stock:
         own = paths.run.tool[pieces.step] == paths.run.tool[step]
         radius = np.where(own, paths.radius[pieces.step], paths.radius_at(pieces, z))
         pieces, radius = pieces.only(radius > 0), radius[radius > 0]
-        lines, first, count = paths.lines(pieces), 0, FEW
+        lines, first, count = paths.lines(pieces, ACCURACY), 0, FEW
         while first < len(pieces) and not body.is_empty:
             some = slice(first, first + count)
-            self._count(step, GROWN * lines[some].size)
+            self._count(step, GROWN * lines[some].size + int(shapely.get_num_coordinates(lines[some]).sum()))
             body = shapely.difference(body, shapely.union_all(_discs(lines[some], radius[some])))
             first, count = first + count, 2 * count
         return body

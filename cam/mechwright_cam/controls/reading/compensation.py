@@ -159,9 +159,9 @@ class Compensation(Recorder):
 
     def _beside(self, line: int, start: Point, end: Point, centre: Point | None, ccw: bool) -> Cut:
         move = Cut(start, end, centre, ccw)
-        along, sweep = None, math.inf
+        sweep = math.inf
         if centre is None:
-            along = move.heading(end)
+            move.along = move.heading(end)
         else:
             self._check_arc(line, start, end, centre)
             sweep = abs(sweep_of(start, end, centre, ccw))
@@ -173,7 +173,7 @@ class Compensation(Recorder):
                     f"{math.dist(start, centre):.3f} mm",
                 )
         first, last = (self._aside(point, move.heading(point)) for point in (start, end))
-        return Cut(first, last, centre, ccw, along, sweep, self.offset)
+        return Cut(first, last, centre, ccw, move.along, sweep, self.offset)
 
     def _join(self, line: int, kind: Kind, corner: Point, cut: Cut) -> None:
         """Lead from the last offset to the next one, around or into the corner between them."""

@@ -43,10 +43,11 @@ _BINARY: tuple[dict[str, Callable[[float, float], float]], ...] = (
         "le": lambda a, b: float(a <= b),
     },
     {"+": operator.add, "-": operator.sub},
-    {"*": operator.mul, "/": operator.truediv, "mod": lambda a, b: a - b * math.floor(a / b)},
+    {"*": operator.mul, "/": operator.truediv, "mod": lambda a, b: a % abs(b)},
     {"**": operator.pow},
 )
-"""Operators by precedence, the loosest first; those of one row are worked out from left to right."""
+"""Operators by precedence, the loosest first; those of one row are worked out from left to right. MOD is
+never negative, whatever its divisor."""
 
 
 class Reader:

@@ -19,7 +19,7 @@ GROUPS: dict[str, frozenset[int]] = {
 M_GROUPS: dict[str, frozenset[int]] = {
     "stop": frozenset({0, 1, 2, 30}),
     "tool change": frozenset({6}),
-    "spindle": frozenset({3, 4, 5}),
+    "spindle": frozenset({3, 4, 5, 19}),
 }
 """M groups. Coolant is none: M7 and M8 may stand in one line."""
 

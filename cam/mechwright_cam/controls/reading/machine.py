@@ -61,7 +61,8 @@ class Machine(Moving):
             self.remarks.append(Remark(block.line, comment, self.steps))
         if not (block.g or block.m or block.words):
             return
-        self._check_codes(block)
+        if block.g or block.m:
+            self._check_codes(block)
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect)
         words = block.words
@@ -76,10 +77,11 @@ class Machine(Moving):
             if seconds < 0:
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
-        self._modes(block, words)
-        self._length_offset(block)
-        self._work_offset(block, words)
-        self._tables(block, words)
+        if block.g:
+            self._modes(block, words)
+            self._length_offset(block)
+            self._work_offset(block, words)
+            self._tables(block, words)
         self._keep_state()
         if 280 in block.g or 300 in block.g:
             self._home(block, words)

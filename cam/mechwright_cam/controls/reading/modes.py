@@ -25,6 +25,8 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
     (False, True): "flood",
     (True, True): "both",
 }
+_SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0}
+"""What M codes make of the spindle; M19 stops it, and turns it to its mark."""
 
 
 class Modal(Compensation):
@@ -57,6 +59,8 @@ class Modal(Compensation):
         """A time, s: without a point it may be in another unit."""
         bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
         value = self._take(block, letter, missing)
+        if letter == "P" and self.dialect.whole_dwells and "P" not in block.bare:
+            raise fail(block.line, f"P{value:g} has a decimal point, and {self.dialect.name} takes P whole")
         return value * (bare if bare is not None and letter in block.bare else unit)
 
     def _without_compensation(self, block: Block, name: str) -> None:
@@ -69,7 +73,8 @@ class Modal(Compensation):
         return int(value)
 
     def _set(self, **changes: Any) -> None:
-        self.state = replace(self.state, **changes)
+        if any(getattr(self.state, name) != value for name, value in changes.items()):
+            self.state = replace(self.state, **changes)
 
     def _state(self, group: str) -> None:
         self._set(stated=self.state.stated | {group})
@@ -83,7 +88,14 @@ class Modal(Compensation):
     def _units(self, block: Block) -> None:
         for code in block.g:
             if code in GROUPS["units"]:
-                self.scale = INCH if code == 200 else 1.0
+                scale = INCH if code == 200 else 1.0
+                if self.dialect.one_unit and scale != self.scale and "units" in self.state.stated:
+                    raise fail(
+                        block.line,
+                        f"{spell(code)} in a program with other units; {self.dialect.name} takes one of G20 "
+                        "and G21, at the head of the program",
+                    )
+                self.scale = scale
                 self._state("units")
 
     def _speeds(self, block: Block, words: dict[str, float]) -> None:
@@ -116,13 +128,15 @@ class Modal(Compensation):
             self._set(tool=self.selected)
             if self.dialect.change_stops_spindle:
                 self._set(spindle=0)
+            if self.dialect.change_stops_coolant:
+                self._set(coolant="off")
             self._keep_state()
             self._row(Kind.TOOL, block.line, self.x, self.y, self.z)
 
     def _spindle_and_coolant(self, block: Block) -> None:
         for code in block.m:
             if code in M_GROUPS["spindle"]:
-                self._set(spindle={3: 1, 4: -1, 5: 0}[code])
+                self._set(spindle=_SPINDLE[code])
         mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
         if 9 in block.m:
             if 7 in block.m or 8 in block.m:

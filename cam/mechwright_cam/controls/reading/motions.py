@@ -11,6 +11,8 @@ from mechwright_cam.controls.reading.run import Kind
 
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
+PLACES = POLAR | set(AXES)
+"""Letters that say where to go."""
 ARC_CHORD = 0.0005
 """Chord error of an arc in another plane than XY, mm: a tenth of the gouge limit."""
 
@@ -31,14 +33,15 @@ class Moving(Modal):
                 self.motion = None
             elif named in CYCLES and named != self.motion:
                 self.sticky = {}
-                self.initial = self.z
+                if self.motion not in CYCLES:  # the next cycle goes back to where the first began
+                    self.initial = self.z
                 self.motion = named
             else:
                 self.motion = named
         if named == 10 and not self.feed > 0 and 530 not in block.g:
             raise fail(block.line, "G1 without a feed; write F above 0")
-        axes = words.keys() & (set(AXES) | POLAR)
-        centre = words.keys() & {"I", "J", "K", "R"} if self.motion in {20, 30} else set()
+        axes = not words.keys().isdisjoint(PLACES)
+        centre = self.motion in {20, 30} and not words.keys().isdisjoint("IJKR")
         if 530 in block.g:
             self._machine_move(block, words)
         elif axes or centre:
@@ -67,6 +70,8 @@ class Moving(Modal):
         name = "G28" if 280 in block.g else "G30"
         if self.side:
             raise fail(block.line, f"{name} while compensation is on; write G40 before")
+        if self.motion in CYCLES and self.dialect.ends_cycles:
+            raise fail(block.line, f"{name} while {spell(self.motion)} is in force; write G80 before")
         named = [axis for axis in AXES if axis in words]
         if not named and not self.dialect.bare_home:
             raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
@@ -117,7 +122,7 @@ class Moving(Modal):
         elif self.left is not None:
             here["X"], here["Y"] = self.left
             self.left = None
-        if words.keys() & POLAR:
+        if not words.keys().isdisjoint(POLAR):
             here["X"], here["Y"] = self._polar(block, words, here["X"], here["Y"])
         for axis in AXES:
             if axis not in words:
@@ -228,7 +233,7 @@ class Moving(Modal):
         if self.sticky.get("P", 0.0) < 0:
             raise fail(line, f"{name} waits for {self.sticky['P']:g} s; write P 0 or more")
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
-        if words.keys() & POLAR:
+        if not words.keys().isdisjoint(POLAR):
             here["X"], here["Y"] = self._polar(block, words, self.x, self.y)
         x, y = here.get("X", self.x), here.get("Y", self.y)
         for letter in asked:

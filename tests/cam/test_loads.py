@@ -1,0 +1,70 @@
+"""Loads of what takes nothing, and ways round of what goes down along walls."""
+
+from dataclasses import fields
+
+import pytest
+from by_control import prove, scene_of
+from shop import plate_job
+
+from mechwright_cam.proof.loads import Loads
+
+HEAD = "G17 G21 G40 G49 G80 G90\nG53 G0 Z0\nT3 M6\nG54 S8000 M3\nG0 X0 Y0\nG43 H3 Z5\n"
+TAIL = "\nG0 Z5\nM5 M9\nG53 G0 Z0\nM30\n"
+
+
+def test_a_program_that_takes_nothing_has_loads_of_the_same_kinds() -> None:
+    nothing, something = (
+        scene_of(f"{HEAD}G1 Z{z} F100\nG1 X10 F300{TAIL}", plate_job()).simulation.loads for z in (1, -1)
+    )
+    assert (nothing.step.size, bool(something.step.size)) == (0, True)
+    for name in [field.name for field in fields(Loads)[1:]]:
+        assert getattr(nothing, name).dtype == getattr(something, name).dtype, name
+
+
+@pytest.mark.parametrize("climb", [True, False])
+def test_a_program_that_takes_nothing_is_judged(climb: bool) -> None:
+    proof = prove(f"{HEAD}G1 Z1 F100\nG1 X10 F300{TAIL}", plate_job(climb=climb))
+    assert proof.checks["climb"].passed
+    assert "leftover" in {check.name for check in proof.failures}
+
+
+WALLS = (-33.0, 33.0)
+"""X of the mill's axis where it finishes the left and the right side of the plate."""
+
+
+def finished(left: str, right: str) -> str:
+    """Both sides of the plate roughed 0.2 mm away from them, then finished so."""
+    rough = "".join(f"G0 X{x + 0.2 * x / abs(x):.1f} Y-30\nG1 Z-5 F100\nG1 Y30 F300\nG0 Z5\n" for x in WALLS)
+    return f"{HEAD}{rough}{left}{right}{TAIL}"
+
+
+def down(x: float, legs: str, depth: float) -> str:
+    """Down a side in legs of 24 mm along it, each to + or - Y; lifted and taken back where one follows its like."""
+    text, z = f"G0 X{x} Y{-12 if legs[0] == '+' else 12}\nG1 Z0 F100\n", 0.0
+    for before, leg in zip(" " + legs, legs, strict=False):
+        end = 12 if leg == "+" else -12
+        if before == leg:
+            text += f"G0 Z5\nG0 Y{-end}\nG1 Z{z:.3f} F100\n"
+        z -= depth / len(legs)
+        text += f"G1 Y{end} Z{z:.3f} F300\n"
+    return text + "G0 Z5\n"
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "passed"),
+    [
+        # On the left of the plate +Y is climb milling, on its right -Y is.
+        (("++++", 3), ("----", 4), True),
+        (("----", 4), ("----", 3), False),
+        (("++++", 3), ("++++", 4), False),  # one side each way round: neither excuses the other
+        (("+-+-", 3), ("+-+-", 4), True),
+        (("++++", 3), ("+-+-", 4), True),
+        (("+-+-", 3), ("++++", 4), False),
+    ],
+)
+def test_a_way_down_to_and_fro_excuses_itself_alone(
+    left: tuple[str, float], right: tuple[str, float], passed: bool
+) -> None:
+    text = finished(down(WALLS[0], *left), down(WALLS[1], *right))
+    found = prove(text, plate_job(climb=True)).checks["climb"]
+    assert found.passed == passed, found.message
