@@ -1,8 +1,9 @@
 """Trying changes of one design, and remembering what came of each."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Stage, errors
@@ -48,6 +49,8 @@ class Bench:
         As the file says it.
     judge
         What is found of it, or of a changed one.
+    tell
+        All that is found of it, with all that is said of remedies, which takes longer; by default the judge.
     stage
         Errors of this stage and of earlier ones count.
     limits
@@ -58,6 +61,7 @@ class Bench:
     judge: Judge
     stage: Stage = Stage.MACHINING
     limits: Limits = Limits()
+    tell: Judge | None = None
     tries: int = 0
     keys: dict[str, Key] = field(init=False)
 
@@ -92,6 +96,20 @@ class Bench:
         found = self.found(change)
         return None if found is None else errors(found, self.stage)
 
+    @cached_property
+    def sure(self) -> "Bench":
+        """A bench whose judge is what tells all; this one, where there is no other.
+
+        It has time left when this one is spent.
+        """
+        if self.tell is None:
+            return self
+        return Bench(self.design, self.tell, self.stage, Limits(self.limits.tries, 2 * self.limits.seconds))
+
+    def told(self, finding: Finding, change: Change) -> Finding:
+        """A finding of the design with a change, with all that is said of its remedies."""
+        return finding if self.tell is None else same(finding, self.sure.found(change)) or finding
+
     def builds(self, change: Change) -> bool:
         """Whether no error is left with a change."""
         return self.errors(change) == []
@@ -121,6 +139,23 @@ class Bench:
             return None
 
 
+def same(finding: Finding, findings: Iterable[Finding] | None) -> Finding | None:
+    """Which of some findings says the same; None where none does."""
+    known = (one for one in findings or () if (one.code, one.message) == (finding.code, finding.message))
+    return next(known, None)
+
+
 def identity(finding: Finding) -> tuple[str, str]:
     """What makes a finding the same one after a change."""
     return finding.code, finding.parameter
+
+
+def of_family(design: Design, limits: Limits, stage: Stage = Stage.MACHINING) -> Bench:
+    """A bench whose judge is the design's family."""
+    return Bench(
+        design,
+        lambda one: one.family.judge(one.params),
+        stage,
+        limits,
+        lambda one: one.family.check(one.params),
+    )

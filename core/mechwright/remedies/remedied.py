@@ -7,7 +7,7 @@ from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Change, Finding, Severity, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.advice import advised
-from mechwright.remedies.bench import Bench, Limits
+from mechwright.remedies.bench import Bench, Limits, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import Worth, best_step, path_of, refined, related, worth, written
@@ -26,6 +26,19 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     ``remedy`` then says the change, or what was tried where nothing helped.
     """
     findings = list(findings)
+    if any(same(one, bench.found({})) is None for one in findings if one.severity is not Severity.NOTE):
+        return _remedied(bench.sure, findings)
+    told = _remedied(bench, findings)
+    lost = any(one.fix is not None and not holds(bench.sure, one, one.fix) for one in told)
+    return _remedied(bench.sure, findings) if lost else told
+
+
+def holds(bench: Bench, finding: Finding, change: Change) -> bool:
+    """Whether a change removes a finding of the design and spoils nothing."""
+    return worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS
+
+
+def _remedied(bench: Bench, findings: list[Finding]) -> list[Finding]:
     grave = [finding for finding in findings if _grave(finding)]
     # What removes several errors at once is sought first, before the tries are spent on each by itself.
     whole = nearest(bench) if len(grave) > 1 else None
@@ -47,8 +60,7 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = N
 
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
-    bench = Bench(design, lambda one: one.family.check(one.params), limits=limits or CHECKED)
-    return remedied(bench, findings)
+    return remedied(of_family(design, limits or CHECKED), findings)
 
 
 def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
@@ -95,19 +107,19 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
     """The smallest change of one key, or the first proposed, that removes a finding and spoils nothing."""
     if finding.severity is Severity.NOTE:
         return None
-    before = bench.errors({}) or []
-    best = best_step(bench, finding, {}, before)
+    before, judged = bench.errors({}) or [], same(finding, bench.found({})) or finding
+    best = best_step(bench, judged, {}, before)
     if best is None or best.worth > Worth.HELPS:
         return None
     if best.change in [written(bench, one, {}) for one in finding.proposed]:
         return best.change
-    return refined(bench, finding, before, best.change)
+    return refined(bench, judged, before, best.change)
 
 
 def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
     if finding.severity is Severity.NOTE:
         return finding
-    if change is not None and worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS:
+    if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
     tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
     ended = f" in {bench.tries} tries" if bench.spent else ""
