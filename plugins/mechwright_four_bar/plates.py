@@ -27,7 +27,7 @@ BOLT = 1.5
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
-_TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
+TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
 """On how many sides of the links ground plates are tried; fewer need fewer parts."""
 
 COLOURS: Mapping[str, Colour] = {
@@ -64,7 +64,7 @@ def _layout(params: FourBarParams) -> Layout | str:
     faults = []
     try:
         poses = _turn(params)
-        for sides in _TRIED[params.frame]:
+        for sides in TRIED[params.frame]:
             try:
                 return laid_out(params, poses, sides)
             except GeometryError as error:
@@ -101,7 +101,7 @@ def layout_or_none(params: FourBarParams) -> Layout | None:
 def sides_of(params: FourBarParams) -> int:
     """On how many sides of the links ground plates stand; without a layout, on those first asked for."""
     layout = layout_or_none(params)
-    return _TRIED[params.frame][0] if layout is None else layout.sides
+    return TRIED[params.frame][0] if layout is None else layout.sides
 
 
 def joints_of(params: FourBarParams) -> dict[str, Joint]:
