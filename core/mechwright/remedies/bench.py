@@ -31,8 +31,8 @@ class Limits:
     tries
         Designs that are judged; the same number of tries gives the same remedy.
     seconds
-        Processor time after which no further one is judged, for designs whose check takes long: what else the
-        machine does changes no remedy.
+        Processor time of judging after which no further one is judged, for designs whose check takes long:
+        what else the machine does changes no remedy.
     """
 
     tries: int = 400
@@ -68,12 +68,12 @@ class Bench:
     def __post_init__(self) -> None:
         self.keys = keys_of(self.design)
         self._found: dict[str, tuple[Finding, ...] | None] = {}
-        self._end = time.process_time() + self.limits.seconds
+        self._used = 0.0
 
     @property
     def spent(self) -> bool:
         """Whether the search has to end."""
-        return self.tries >= self.limits.tries or time.process_time() > self._end
+        return self.tries >= self.limits.tries or self._used >= self.limits.seconds
 
     def now(self, key: Key, change: Change | None = None) -> Any:
         """The value of a key, with a change that has been decided on."""
@@ -98,13 +98,8 @@ class Bench:
 
     @cached_property
     def sure(self) -> "Bench":
-        """A bench whose judge is what tells all; this one, where there is no other.
-
-        It has time left when this one is spent.
-        """
-        if self.tell is None:
-            return self
-        return Bench(self.design, self.tell, self.stage, Limits(self.limits.tries, 2 * self.limits.seconds))
+        """A bench whose judge is what tells all, with limits of its own; this one without one that does."""
+        return self if self.tell is None else Bench(self.design, self.tell, self.stage, self.limits)
 
     def told(self, finding: Finding, change: Change) -> Finding:
         """A finding of the design with a change, with all that is said of its remedies."""
@@ -131,12 +126,15 @@ class Bench:
         return ASKED if key.first else SAID
 
     def _judged(self, change: Change) -> tuple[Finding, ...] | None:
+        start = time.process_time()
         try:
             design = self.design.changed(change)
             self.tries += 1
             return tuple(self.judge(design))
         except Exception:  # noqa: BLE001,RUF100 - whatever a design nobody asked for leads to, it is no remedy
             return None
+        finally:
+            self._used += time.process_time() - start
 
 
 def same(finding: Finding, findings: Iterable[Finding] | None) -> Finding | None:

@@ -16,7 +16,13 @@ from mechwright.remedies.words import said
 NOT_ENOUGH = "that was tried, and is not enough by itself"
 
 CHECKED = Limits()
-"""For ``check`` and for what is refused."""
+"""For what is refused."""
+
+WARNED = Limits(tries=200, seconds=2.0)
+"""For a design that has warnings alone: they stop nothing, and are told by every command."""
+
+REMARKED = Limits(tries=6, seconds=4.0)
+"""For the warnings of an inspection."""
 
 
 def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
@@ -60,7 +66,8 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = N
 
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
-    return remedied(of_family(design, limits or CHECKED), findings)
+    findings = list(findings)
+    return remedied(of_family(design, limits or (CHECKED if errors(findings) else WARNED)), findings)
 
 
 def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
@@ -77,11 +84,13 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
         return () if errors(one.findings) else inspection.findings(one)
 
     judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
-    bench = Bench(build.design, judge, inspection.stage, INSPECTED)
-    return [_with_proposed(bench, finding) for finding in findings]
+    limits = INSPECTED if errors(findings) else REMARKED
+    bench = Bench(build.design, judge, inspection.stage, limits)
+    return [with_proposed(bench, finding) for finding in findings]
 
 
-def _with_proposed(bench: Bench, finding: Finding) -> Finding:
+def with_proposed(bench: Bench, finding: Finding) -> Finding:
+    """A finding with the first change that it proposes and that removes it; else its own words."""
     if finding.severity is Severity.NOTE:
         return finding
     # An error that was raised has its advice behind its last semicolon.
@@ -94,7 +103,7 @@ def _with_proposed(bench: Bench, finding: Finding) -> Finding:
     if change is not None:
         fixed = replace(finding, fix=change, remedy=said(bench, change))
         return replace(fixed, message=message) if message else fixed
-    if said_so:
+    if said_so and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
 
