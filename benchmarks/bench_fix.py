@@ -17,7 +17,7 @@ from harness import require
 from random_designs import WAYS, designs
 
 from mechwright import Design, Family, Stage, host
-from mechwright.remedies import MOST_CHANGES, Bench, Repair, nearest, repaired
+from mechwright.remedies import MOST_CHANGES, Repair, nearest, of_family, repaired
 from mechwright.remedies.repair import FAMILY
 
 GOAL = 0.95
@@ -47,7 +47,7 @@ def main() -> int:
 
 def checked(design: Design) -> Repair:
     """A repair by the family's check alone."""
-    bench = Bench(design, lambda one: one.family.check(one.params), limits=FAMILY)
+    bench = of_family(design, FAMILY)
     stood = bench.errors({}) or []
     change = nearest(bench)
     if change is not None and len(change) > MOST_CHANGES:

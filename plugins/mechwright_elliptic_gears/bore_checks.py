@@ -4,12 +4,14 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.spatial import KDTree
 
-from mechwright import Finding, Severity
+from mechwright import Finding, Severity, kept
 from mechwright.contracts.finding import errors
 from mechwright.geometry.keyway import KEYS, Opening, key_for_bore, key_of_width
 from mechwright.mechanics.openings import keyway_findings, too_small
 from mechwright.tolerances import falls_short
+from mechwright_elliptic_gears.ellipse import Ellipse
 from mechwright_elliptic_gears.gear import ellipse_of, opening_of, rack_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
@@ -119,9 +121,14 @@ def _without_relief(params: EllipticGearParams) -> float:
 def room(params: EllipticGearParams, points: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
     """Least distance, mm, of points (n, 2), part frame, from the root curve; negative beyond it."""
     ellipse = ellipse_of(params)
-    on_pitch = ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point
-    nearest = min(float(np.hypot(*(on_pitch - point).T).min()) for point in points)
+    nearest = float(_pitch_points(ellipse).query(points)[0].min())
     level = ((points[:, 0] - ellipse.focal_distance) / ellipse.semi_major) ** 2 + (
         points[:, 1] / ellipse.semi_minor
     ) ** 2
     return (nearest if level.max() < 1 else -nearest) - rack_of(params).dedendum
+
+
+@kept
+def _pitch_points(ellipse: Ellipse) -> KDTree:
+    """The pitch curve in points; the openings of many designs are held against the same one."""
+    return KDTree(ellipse.frame(np.linspace(0, 2 * np.pi, _PITCH_SAMPLES, endpoint=False)).point)

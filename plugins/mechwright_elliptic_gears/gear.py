@@ -17,10 +17,16 @@ OFFSET_SLACK = 1e-6
 def ellipse_of(params: EllipticGearParams) -> Ellipse:
     """The pitch ellipse: its perimeter 4 a E is z pitches, so a = π m z / (4 E)."""
     if params.semi_major is not None:
-        return Ellipse(params.semi_major, params.eccentricity)
+        return _ellipse(params.semi_major, params.eccentricity)
     assert params.module is not None  # noqa: S101 - the table has exactly one of both
-    quarter = Ellipse(1.0, params.eccentricity).complete_integral
-    return Ellipse(math.pi * params.module * params.teeth / (4 * quarter), params.eccentricity)
+    quarter = _ellipse(1.0, params.eccentricity).complete_integral
+    return _ellipse(math.pi * params.module * params.teeth / (4 * quarter), params.eccentricity)
+
+
+@kept
+def _ellipse(semi_major: float, eccentricity: float) -> Ellipse:
+    """One for all designs that share it: what is known of it need not be found again."""
+    return Ellipse(semi_major, eccentricity)
 
 
 def pair_of(params: EllipticGearParams) -> EllipticPair:
@@ -81,7 +87,17 @@ def teeth_of(params: EllipticGearParams) -> Teeth:
     offset = params.tooth_offset
     if offset is None:
         offset = offsets_that_mesh(params.teeth)[0]
-    return Teeth(ellipse_of(params), rack_of(params), params.teeth, offset)
+    return _teeth(ellipse_of(params), rack_of(params), params.teeth, offset)
+
+
+@kept
+def _teeth(ellipse: Ellipse, rack: Rack, teeth: int, offset: float) -> Teeth:
+    """Those of all designs that differ in bores and plates only."""
+    return Teeth(ellipse, rack, teeth, offset)
+
+
+toothed = kept(gear_loop)
+"""The toothed loop of teeth and its deviation, as :func:`gear_loop`."""
 
 
 def opening_of(params: EllipticGearParams) -> Opening | None:
@@ -119,6 +135,6 @@ def outline_of(params: EllipticGearParams) -> Outline:
         The curves do not close; :func:`mechwright_elliptic_gears.checks.findings` says which parameter is to
         blame, and is to be asked first.
     """
-    outer, deviation = gear_loop(teeth_of(params))
+    outer, deviation = toothed(teeth_of(params))
     opening = opening_of(params)
     return Outline(outer, () if opening is None else (opening.loop(),), deviation)

@@ -1,8 +1,9 @@
 """The mesh proof of a design: as drawn, and as the cutters leave it."""
 
 from mechwright import TOLERANCES, Array, kept
-from mechwright.mechanics.gearing import MeshProof, prove_mesh
-from mechwright_elliptic_gears.gear import outline_of, pair_of, rack_of
+from mechwright.mechanics.gearing import MeshProof, Teeth, prove_mesh
+from mechwright_elliptic_gears.ellipse import EllipticPair
+from mechwright_elliptic_gears.gear import pair_of, rack_of, teeth_of, toothed
 from mechwright_elliptic_gears.params import EllipticGearParams
 
 FLATTEN = 2.5e-6
@@ -10,12 +11,17 @@ FLATTEN = 2.5e-6
 or take the ratio of the axes. For 40 teeth it puts 64 points on a flank."""
 
 
-@kept
 def prove(params: EllipticGearParams) -> MeshProof:
     """Run the finished outline against its copy."""
-    outline = outline_of(params)
-    tolerance = min(FLATTEN * pair_of(params).distance / 2, TOLERANCES.flatten)
-    return prove_outlines(params, outline.outer.flatten(tolerance), 2 * (outline.deviation + tolerance))
+    return _prove(teeth_of(params), pair_of(params))
+
+
+@kept
+def _prove(teeth: Teeth, pair: EllipticPair) -> MeshProof:
+    outer, deviation = toothed(teeth)
+    tolerance = min(FLATTEN * pair.distance / 2, TOLERANCES.flatten)
+    points = outer.flatten(tolerance)
+    return prove_mesh(pair, teeth.rack, teeth.count, (points, points), 2 * (deviation + tolerance))
 
 
 def prove_outlines(

@@ -6,7 +6,6 @@ sound, so the first group with an error ends the list.
 
 import math
 from collections.abc import Iterator
-from itertools import combinations
 
 from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, until_error
 from mechwright.contracts.finding import Change
@@ -14,11 +13,9 @@ from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
-from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
-from mechwright_four_bar.phases import in_one_place
-from mechwright_four_bar.plates import bosses_of, hidden_point, layout_of, layout_or_none, sides_of
+from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none, sides_of
 from mechwright_four_bar.reach import (
     TURN_BACK,
     bar_of,
@@ -29,6 +26,7 @@ from mechwright_four_bar.reach import (
     transmission_of,
     within,
 )
+from mechwright_four_bar.room import above, room_findings
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -56,7 +54,7 @@ def findings(params: FourBarParams) -> tuple[Finding, ...]:
         _accelerates,
         _turning,
         _transmission,
-        _room,
+        room_findings,
         _layers,
         _figures,
         _bearings,
@@ -179,19 +177,15 @@ def _nearest_turning(bar: FourBar, room: float) -> tuple[str, float, float, str]
     if not options:
         # Equal and long enough, coupler and follower let any crank turn.
         wanted = (a + f) / 2 + room
-        return "coupler", c, wanted, f"make coupler and follower alike, and longer than {_above(wanted)}"
+        return "coupler", c, wanted, f"make coupler and follower alike, and longer than {above(wanted)}"
     _, name, value, near = min(options)
-    side = f"at most {_below(near)}" if near < value else f"at least {_above(near)}"
+    side = f"at most {_below(near)}" if near < value else f"at least {above(near)}"
     return name, value, near, f"make {name} {side}"
 
 
 def _below(value: float) -> str:
     """A length rounded down, as a remedy says it."""
     return f"{math.floor(value * 1e4) / 1e4:g}" if value < 1e3 else f"{math.floor(value * 100) / 100:.2f}"
-
-
-def _above(value: float) -> str:
-    return f"{math.ceil(value * 1e4) / 1e4:g}" if value < 1e3 else f"{math.ceil(value * 100) / 100:.2f}"
 
 
 def _transmission(params: FourBarParams) -> Iterator[Finding]:
@@ -225,44 +219,6 @@ def _shorter_swing(params: FourBarParams) -> tuple[Change, ...]:
         (math.degrees(low + bar.ground_angle), math.degrees(high + bar.ground_angle)) for low, high in ways
     ]
     return swing.shortened(turned, start, end)
-
-
-@of_stage(Stage.PARTS)
-def _room(params: FourBarParams) -> Iterator[Finding]:
-    """Whether the bores of each plate leave material between them."""
-    for name, bosses in bosses_of(params).items():
-        for one, two in combinations(bosses, 2):
-            distance = abs(one.centre - two.centre)
-            needed = (one.bore + two.bore) / 2 + params.rim
-            if not falls_short(distance, needed):
-                continue
-            if one.tag.endswith("-spare") or two.tag.endswith("-spare"):
-                yield in_one_place(params, one, two, distance, needed)
-                continue
-            point = "coupler-point" in (one.tag, two.tag)
-            yield Finding.error(
-                "four-bar.bores",
-                "coupler_point_x" if point else name,
-                f"the bores of the {name} are {distance:.4g} mm apart and leave less than the rim of "
-                f"{params.rim:g} mm",
-                distance,
-                needed,
-                "mm",
-                f"move the point at least {_above(needed)} mm from A and B, or take smaller pins"
-                if point
-                else f"make {name} at least {_above(needed)}, or take smaller pins, bushings or rims",
-            )
-    try:
-        link_outline(params, "coupler", bosses_of(params)["coupler"])
-    except GeometryError as error:
-        yield Finding.error(
-            "four-bar.bend",
-            "coupler_bend",
-            str(error),
-            params.coupler_bend,
-            unit="mm",
-            remedy="make coupler_bend or web_width smaller, or rim larger",
-        )
 
 
 @of_stage(Stage.PARTS)

@@ -27,7 +27,7 @@ BOLT = 1.5
 STACK_SAMPLES = 361
 """Positions of the crank, both ends of the turn included, at which plates are kept apart."""
 
-_TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
+TRIED = {"auto": (1, 2), "one": (1,), "two": (2,)}
 """On how many sides of the links ground plates are tried; fewer need fewer parts."""
 
 COLOURS: Mapping[str, Colour] = {
@@ -44,7 +44,6 @@ def pivot_of(params: FourBarParams) -> complex:
     return complex(params.pivot_x, params.pivot_y)
 
 
-@kept
 def layout_of(params: FourBarParams) -> Layout:
     """Plates and layers, on one ground plate where that goes or is asked for, else between two.
 
@@ -53,13 +52,26 @@ def layout_of(params: FourBarParams) -> Layout:
     GeometryError
         The bend of the coupler does not fit, or no order of layers keeps all plates apart.
     """
-    poses, faults = _turn(params), []
-    for sides in _TRIED[params.frame]:
-        try:
-            return laid_out(params, poses, sides)
-        except GeometryError as error:
-            faults.append(error)
-    raise faults[0]
+    found = _layout(params)
+    if isinstance(found, str):
+        raise GeometryError(found)
+    return found
+
+
+@kept
+def _layout(params: FourBarParams) -> Layout | str:
+    """The layout, or why there is none, which is asked for as often."""
+    faults = []
+    try:
+        poses = _turn(params)
+        for sides in TRIED[params.frame]:
+            try:
+                return laid_out(params, poses, sides)
+            except GeometryError as error:
+                faults.append(str(error))
+    except GeometryError as error:
+        return str(error)
+    return faults[0]
 
 
 def _turn(params: FourBarParams) -> dict[str, Poses]:
@@ -80,19 +92,16 @@ def hidden_point(params: FourBarParams) -> tuple[str, str] | None:
     return hidden(params, layout, _turn(params), point) if layout.posts and point is not None else None
 
 
-@kept
 def layout_or_none(params: FourBarParams) -> Layout | None:
     """As :func:`layout_of`; None where there is no layout."""
-    try:
-        return layout_of(params)
-    except GeometryError:
-        return None
+    found = _layout(params)
+    return None if isinstance(found, str) else found
 
 
 def sides_of(params: FourBarParams) -> int:
     """On how many sides of the links ground plates stand; without a layout, on those first asked for."""
     layout = layout_or_none(params)
-    return _TRIED[params.frame][0] if layout is None else layout.sides
+    return TRIED[params.frame][0] if layout is None else layout.sides
 
 
 def joints_of(params: FourBarParams) -> dict[str, Joint]:

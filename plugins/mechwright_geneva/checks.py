@@ -3,8 +3,11 @@
 from dataclasses import replace
 
 from mechwright import Finding, Severity, kept
+from mechwright_geneva.cures import slot_cure
+from mechwright_geneva.mechanism import mechanism_of
 from mechwright_geneva.params import GenevaParams
 from mechwright_geneva.released import released
+from mechwright_geneva.slot_checks import CURED
 from mechwright_geneva.unmended import unmended
 
 _LAST = "choose another law, or the sizes that stand in the way smaller"
@@ -24,8 +27,10 @@ def _mended(params: GenevaParams, finding: Finding) -> Finding:
     if finding.severity is not Severity.ERROR:
         return finding
     given = [key for key in GenevaParams.model_fields if key in params.model_fields_set]
-    named = next((key for key in given if key in (finding.parameter, *finding.remedy.split())), "")
     remedy = finding.remedy
+    if not remedy and finding.code in CURED and not mechanism_of(params).straight:
+        remedy = slot_cure(mechanism_of(params))
+    named = next((key for key in given if key in (finding.parameter, *remedy.split())), "")
     if not (remedy and named):
         other, key = released(params)
         remedy, named = (other, key) if other else (remedy or _LAST, finding.parameter)

@@ -55,6 +55,17 @@ def greatest_roller(mechanism: Mechanism) -> float | None:
     return _nearest(grid, m.roller, good, float)
 
 
+def slot_cure(mechanism: Mechanism) -> str:
+    """The least offset angle and the greatest roller that make a curved slot sound; empty if neither does."""
+    offset, roller = least_offset(mechanism), greatest_roller(mechanism)
+    cures = []
+    if offset is not None:
+        cures.append(f"use offset_angle = {offset:.2f}")
+    if roller is not None:
+        cures.append(f"make roller_radius at most {roller:.2f}")
+    return ", or ".join(cures)
+
+
 def _nearest(
     grid: Array,
     now: float,

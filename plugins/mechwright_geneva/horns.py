@@ -17,6 +17,9 @@ from mechwright_geneva.kinematics import Frame, stroke
 _RADII = 201
 """Discs tried between the least and the greatest."""
 
+_BLOCK = 20
+"""Discs tried at a time, from the greatest on: mostly it is one of the first."""
+
 _SAMPLES = 801
 """Of the stroke."""
 
@@ -43,6 +46,8 @@ def clear(frame: Frame, law: Law, discs: Array, clearance: float) -> NDArray[np.
     for phi, theta in ((run.phi, run.theta), (-run.phi[::-1], 2 * frame.wheel_half - run.theta[::-1])):
         tip = (axes - rim * np.exp(1j * (theta - horn))) * np.exp(-1j * phi)
         inside = (theta > horn) & (np.abs(tip) < SPARE * discs[:, None])
+        if not inside.any():
+            continue
         # The locking arc begins at -θd0 and runs on from there with the angle falling.
         turned = np.unwrap(np.angle(tip), axis=-1)
         cut = inside & (turned < -half)
@@ -54,8 +59,12 @@ def greatest_disc(frame: Frame, law: Law, least: float, most: float, clearance: 
     """The largest disc between two radii whose locking arc the horns miss; ``most`` if none is, mm."""
     if not least < most:
         return most
-    discs = np.linspace(least, most, _RADII)
-    able = discs[clear(frame, law, discs, clearance)]
-    if not able.size or able[-1] == most:
+    if clear(frame, law, np.array([most]), clearance).all():
         return most
-    return math.floor(100 * float(able[-1])) / 100
+    discs = np.linspace(least, most, _RADII)[-2::-1]
+    for block in range(0, discs.size, _BLOCK):
+        tried = discs[block : block + _BLOCK]
+        able = tried[clear(frame, law, tried, clearance)]
+        if able.size:
+            return math.floor(100 * float(able[0])) / 100
+    return most

@@ -102,23 +102,24 @@ def arcs_apart(one: Link, two: Link) -> Array:
     Arcs that do not cross are nearest at an end of one of them, or along the way where both run side by side
     on opposite sides of the sphere's poles; points in between find that.
     """
-    found = []
-    for link, other in ((one, two), (two, one)):
-        start, end = link
-        for share in np.linspace(0, 1, POINTS):
-            found.append(point_to_arc(_between(start, end, share), other))
-    apart = np.min(found, axis=0)
+    shares = np.linspace(0, 1, POINTS)[:, None]
+    found = [point_to_arc(_between(*link, shares), other) for link, other in ((one, two), (two, one))]
+    apart = np.min(found, axis=(0, 1))
     return np.where(_cross_each_other(one, two), 0.0, apart)
 
 
 def point_to_arc(point: Array, link: Link) -> Array:
-    """Angle (n,) from points (3, n) to arcs: to their great circle, or to an end."""
+    """Angle (..., n) from points (3, ..., n) to arcs: to their great circle, or to an end."""
     start, end = link
     normal = cross(start, end)
     normal = normal / norm(normal)
+    ahead, behind = cross(normal, start), cross(end, normal)
+    # Of several points each, the arcs have an axis between their own two.
+    wide = (slice(None), *(None,) * (point.ndim - start.ndim))
+    start, end, normal, ahead, behind = (one[wide] for one in (start, end, normal, ahead, behind))
     beside = np.arcsin(np.clip(np.abs(dot(normal, point)), 0.0, 1.0))
     # The foot lies on the arc where it is ahead of the start and behind the end.
-    on = (dot(cross(normal, start), point) > 0) & (dot(cross(end, normal), point) > 0)
+    on = (dot(ahead, point) > 0) & (dot(behind, point) > 0)
     ends = np.minimum(_angle(point, start), _angle(point, end))
     return np.asarray(np.where(on, beside, ends))
 
@@ -138,10 +139,11 @@ def _on_arc(point: Array, link: Link, normal: Array) -> NDArray[np.bool_]:
     return np.asarray((dot(cross(normal, start), point) > 0) & (dot(cross(end, normal), point) > 0))
 
 
-def _between(start: Array, end: Array, share: float) -> Array:
+def _between(start: Array, end: Array, shares: Array) -> Array:
+    """Points (3, m, n) at shares (m, 1) of arcs."""
     angle = _angle(start, end)
-    sine = np.sin(angle)
-    return np.asarray((np.sin((1 - share) * angle) * start + np.sin(share * angle) * end) / sine)
+    one, two = np.sin((1 - shares) * angle), np.sin(shares * angle)
+    return np.asarray((one * start[:, None] + two * end[:, None]) / np.sin(angle))
 
 
 def _angle(a: Array, b: Array) -> Array:

@@ -2,103 +2,24 @@
 
 import io
 import math
-import tomllib
+from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
 import pytest
+from beam_family import Beam, bench, design, error, told
 from disc_family import Disc
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import Field, model_validator
 from rich.console import Console
 
 from mechwright.cli.telling import block
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, Severity, errors, until_error
-from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.finding import Finding, Severity, errors
 from mechwright.designs.design import Design
 from mechwright.plugins.host import host
-from mechwright.remedies import MOST_CHANGES, Bench, Limits, nearest, remedied, tried
+from mechwright.remedies import MOST_CHANGES, Bench, nearest, remedied
 from mechwright.remedies.keys import Key, keys_of
 from mechwright.remedies.values import closest, distance, ladder
 from mechwright.testing.fixes import fix_faults
-from mechwright.units import Degrees, Millimetres
-
-
-class Pins(Parameters):
-    first: Millimetres = Field(5.0, ge=1, le=100, description="First pin.")
-    second: Millimetres = Field(5.0, ge=1, le=100, description="Second pin.")
-
-
-class BeamParams(Parameters):
-    length: Millimetres = Field(100.0, ge=1, le=5000, description="Length.")
-    width: Millimetres = Field(20.0, gt=0, le=500, description="Width.")
-    holes: int = Field(2, ge=0, le=40, description="Number of holes.")
-    tilt: Degrees = Field(0.0, ge=-90, le=90, description="Angle of the end.")
-    kind: Literal["plain", "bent", "forked"] = Field("plain", description="Shape.")
-    collar: Millimetres | None = Field(None, ge=1, le=50, description="Collar; left out, none.")
-    collar_width: Millimetres | None = Field(None, ge=1, le=50, description="Its width.")
-    pins: Pins = Field(Pins(), description="Its pins.")
-
-    @model_validator(mode="after")
-    def _together(self):
-        if (self.collar is None) != (self.collar_width is None):
-            raise ValueError("give both collar and collar_width")
-        return self
-
-
-def _error(code, parameter, remedy, *numbers, proposed=()):
-    return Finding.error(
-        code, parameter, "it is wrong", *numbers, unit="mm", remedy=remedy, proposed=proposed
-    )
-
-
-class Beam(Family[BeamParams]):
-    name = "beam"
-    title = "Beam"
-    summary = "A beam."
-    Params = BeamParams
-
-    def check(self, params):
-        return until_error(params, self._first, self._second)
-
-    def _first(self, params):
-        if params.width < params.length / 10:
-            yield _error("beam.slender", "width", "make width larger", params.width, params.length / 10)
-        if params.kind == "forked":
-            yield _error("beam.kind", "kind", "take another")
-        if params.tilt > 30.5:
-            yield _error("beam.tilt", "tilt", "less", params.tilt, 30.5)
-
-    def _second(self, params):
-        if params.holes * params.pins.first > params.length / 2:
-            yield _error("beam.holes", "holes", "fewer holes, or a smaller pins.first")
-        if params.collar is not None and params.collar < 2 * params.width:
-            yield _error("beam.collar", "collar", "a larger collar")
-        if params.holes > 30:
-            yield Finding.warning("beam.many", "holes", "so many", remedy="fewer")
-        yield Finding.note("beam.kind", "a figure")
-
-    solve = parts = None
-
-
-Beam.__abstractmethods__ = frozenset()
-
-
-def design(family=Beam, **table):
-    lines = tomllib.loads("\n".join(f"{key} = {value}" for key, value in table.items()))
-    params = family.Params.model_validate(lines)
-    return Design("tried", family(), params, Path("tried.toml"), "", content={"parameters": lines})
-
-
-def told(of, **limits):
-    found = list(of.family.check(of.params))
-    return tried(of, found, Limits(**limits)) if limits else tried(of, found)
-
-
-def bench(of, **limits):
-    return Bench(of, lambda one: one.family.check(one.params), limits=Limits(**limits))
 
 
 def test_a_value_past_its_limit_is_set_to_the_limit():
@@ -156,7 +77,7 @@ def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
             return [
                 one
                 if one.severity is Severity.NOTE
-                else _error(one.code, one.parameter, "x", proposed=proposed)
+                else error(one.code, one.parameter, "x", proposed=proposed)
                 for one in found
             ]
 
@@ -167,7 +88,7 @@ def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
 def test_where_nothing_helps_it_says_what_was_tried():
     class Hopeless(Beam):
         def check(self, params):
-            return [_error("beam.never", "width", "try holes or pins.first")]
+            return [error("beam.never", "width", "try holes or pins.first")]
 
     (never,) = told(design(Hopeless))
     assert never.fix is None
@@ -181,8 +102,8 @@ def test_a_remedy_that_spoils_something_else_is_none():
         """Width is too small below 40, and too large above: nothing but length helps."""
 
         def check(self, params):
-            found = [_error("beam.slender", "width", "make width larger")] if params.width < 40 else []
-            return [*found, *([_error("beam.wide", "width", "smaller")] if params.width > 30 else [])]
+            found = [error("beam.slender", "width", "make width larger")] if params.width < 40 else []
+            return [*found, *([error("beam.wide", "width", "smaller")] if params.width > 30 else [])]
 
     assert [one.fix for one in told(design(Squeezed))] == [None]
 
@@ -192,7 +113,7 @@ def test_what_raises_is_no_remedy():
         def check(self, params):
             if params.width > 20:
                 raise ZeroDivisionError
-            return [_error("beam.never", "width", "no")]
+            return [error("beam.never", "width", "no")]
 
     assert [one.fix for one in told(design(Fragile))] == [None]
 
@@ -243,7 +164,6 @@ def test_remedies_of_the_disc_hold(diameter, bore, holes):
 
 
 def test_a_remedy_that_does_not_hold_is_named(monkeypatch):
-    from dataclasses import replace
 
     from mechwright.testing import fixes
 

@@ -19,15 +19,15 @@ QUICK = 121
 
 def motion(design: Design) -> Answer:
     """The motion without parts: joints and links as points and lines."""
-    return {"scene": scene((), design.family.solve(design.params, QUICK), solids=False)}
+    return {"scene": scene((), design.solve(QUICK), solids=False)}
 
 
 def parts(design: Design) -> Answer:
     """What the family finds, and the plates in motion where there are any; a fraction of a second."""
-    found = list(design.family.check(design.params))
+    found = list(design.check())
     answer: Answer = {"findings": told(found), "scene": None}
     if not errors(found, Stage.MOTION):
-        solved = design.family.solve(design.params, PAGE_SAMPLES)
+        solved = design.solve(PAGE_SAMPLES)
         try:
             made = design.parts()
             seen = any(part.outline is not None and part.instances for part in made)
@@ -45,7 +45,7 @@ def parts(design: Design) -> Answer:
 def remedies(path: Path, change: Change) -> list[dict[str, Any]]:
     """The findings with remedies that were tried; it may take seconds, so a second process is asked."""
     design = load(path, host()).changed(change)
-    return told(tried(design, design.family.check(design.params)))
+    return told(tried(design, design.check()))
 
 
 def told(findings: Sequence[Finding]) -> list[dict[str, Any]]:

@@ -58,6 +58,15 @@ class Family(Plugin, Generic[P]):
     def check(self, params: P) -> Sequence[Finding]:
         """Everything that an engineer would object to, and the figures worth knowing."""
 
+    def judge(self, params: P) -> Sequence[Finding]:
+        """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
+
+        What it finds has codes and messages of ``check``. Remedies that take long to find may be missing,
+        and notes, and errors whose search takes far longer than that of the others: ``check`` is asked
+        about every remedy before it is told.
+        """
+        return self.check(params)
+
     @abstractmethod
     def solve(self, params: P, samples: int) -> "Motion":
         """The motion over one period of the input, ``samples`` of them, both ends included.

@@ -87,8 +87,10 @@ class Design:
     @cached_property
     def surroundings(self) -> "tuple[Surroundings, ...]":
         """What the tables put around the mechanism; nothing where the family's own check finds an error."""
-        if errors(self._own_findings, Stage.PARTS):
-            return ()
+        return () if errors(self._own_findings, Stage.PARTS) else self._around
+
+    @cached_property
+    def _around(self) -> "tuple[Surroundings, ...]":
         found = (
             reader.surroundings(self.tables[reader.name], self.family, self.params) for reader in self.readers
         )
@@ -101,6 +103,13 @@ class Design:
     def check(self) -> tuple[Finding, ...]:
         """What the family finds, and what there is to say of what stands around the mechanism."""
         return (*self._own_findings, *(one for around in self.surroundings for one in around.findings))
+
+    def judge(self) -> tuple[Finding, ...]:
+        """What :meth:`check` finds, as far as it is found fast; see :meth:`Family.judge`."""
+        found = tuple(self.family.judge(self.params))
+        if errors(found, Stage.PARTS):
+            return found
+        return (*found, *(one for around in self._around for one in around.findings))
 
     def solve(self, samples: int) -> "Motion":
         """The motion as the family gives it, with the bodies of what stands around the mechanism."""

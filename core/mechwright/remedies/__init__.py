@@ -18,7 +18,7 @@ from the present one outwards; the nearest design that builds. A search ends aft
 (:class:`Limits`).
 """
 
-from mechwright.remedies.bench import Bench, Limits
+from mechwright.remedies.bench import Bench, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.remedied import proposed_tried, remedied, tried
 from mechwright.remedies.repair import Repair, repaired
@@ -29,6 +29,7 @@ __all__ = [
     "Limits",
     "Repair",
     "nearest",
+    "of_family",
     "proposed_tried",
     "remedied",
     "repaired",

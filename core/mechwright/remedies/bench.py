@@ -1,8 +1,9 @@
 """Trying changes of one design, and remembering what came of each."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Stage, errors
@@ -30,8 +31,8 @@ class Limits:
     tries
         Designs that are judged; the same number of tries gives the same remedy.
     seconds
-        Processor time after which no further one is judged, for designs whose check takes long: what else the
-        machine does changes no remedy.
+        Processor time of judging after which no further one is judged, for designs whose check takes long:
+        what else the machine does changes no remedy.
     """
 
     tries: int = 400
@@ -48,6 +49,8 @@ class Bench:
         As the file says it.
     judge
         What is found of it, or of a changed one.
+    tell
+        All that is found of it, with all that is said of remedies, which takes longer; by default the judge.
     stage
         Errors of this stage and of earlier ones count.
     limits
@@ -58,18 +61,19 @@ class Bench:
     judge: Judge
     stage: Stage = Stage.MACHINING
     limits: Limits = Limits()
+    tell: Judge | None = None
     tries: int = 0
     keys: dict[str, Key] = field(init=False)
 
     def __post_init__(self) -> None:
         self.keys = keys_of(self.design)
         self._found: dict[str, tuple[Finding, ...] | None] = {}
-        self._end = time.process_time() + self.limits.seconds
+        self._used = 0.0
 
     @property
     def spent(self) -> bool:
         """Whether the search has to end."""
-        return self.tries >= self.limits.tries or time.process_time() > self._end
+        return self.tries >= self.limits.tries or self._used >= self.limits.seconds
 
     def now(self, key: Key, change: Change | None = None) -> Any:
         """The value of a key, with a change that has been decided on."""
@@ -92,6 +96,15 @@ class Bench:
         found = self.found(change)
         return None if found is None else errors(found, self.stage)
 
+    @cached_property
+    def sure(self) -> "Bench":
+        """A bench whose judge is what tells all, with limits of its own; this one without one that does."""
+        return self if self.tell is None else Bench(self.design, self.tell, self.stage, self.limits)
+
+    def told(self, finding: Finding, change: Change) -> Finding:
+        """A finding of the design with a change, with all that is said of its remedies."""
+        return finding if self.tell is None else same(finding, self.sure.found(change)) or finding
+
     def builds(self, change: Change) -> bool:
         """Whether no error is left with a change."""
         return self.errors(change) == []
@@ -113,14 +126,34 @@ class Bench:
         return ASKED if key.first else SAID
 
     def _judged(self, change: Change) -> tuple[Finding, ...] | None:
+        start = time.process_time()
         try:
             design = self.design.changed(change)
             self.tries += 1
             return tuple(self.judge(design))
         except Exception:  # noqa: BLE001,RUF100 - whatever a design nobody asked for leads to, it is no remedy
             return None
+        finally:
+            self._used += time.process_time() - start
+
+
+def same(finding: Finding, findings: Iterable[Finding] | None) -> Finding | None:
+    """Which of some findings says the same; None where none does."""
+    known = (one for one in findings or () if (one.code, one.message) == (finding.code, finding.message))
+    return next(known, None)
 
 
 def identity(finding: Finding) -> tuple[str, str]:
     """What makes a finding the same one after a change."""
     return finding.code, finding.parameter
+
+
+def of_family(design: Design, limits: Limits, stage: Stage = Stage.MACHINING) -> Bench:
+    """A bench whose judge is the design's family, with what stands around the mechanism."""
+    return Bench(
+        design,
+        Design.judge,
+        stage,
+        limits,
+        Design.check,
+    )

@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from pydantic import BaseModel
@@ -81,7 +82,8 @@ class Key:
 
 def keys_of(design: Design) -> dict[str, Key]:
     """Every key of the tables of a design, by its path, in the order of the tables' fields."""
-    found = list(_keys(design.family.Params, "parameters"))
+    params: type[BaseModel] = design.family.Params
+    found = list(_keys(params, "parameters"))
     for reader in design.readers:
         if reader.settings is not None:
             found += _keys(reader.settings, reader.name)
@@ -102,9 +104,11 @@ def meant(words: str, keys: Mapping[str, Key]) -> list[Key]:
     return [key for path, key in keys.items() if path.rpartition(".")[2] in said]
 
 
-def _keys(model: type[BaseModel], table: str) -> Iterator[Key]:
+@cache
+def _keys(model: type[BaseModel], table: str) -> tuple[Key, ...]:
+    """Keys of a table; a schema takes a tenth of a second, and every bench asks for the same ones."""
     schema = model.model_json_schema()
-    yield from _of(schema, schema.get("$defs", {}), table)
+    return tuple(_of(schema, schema.get("$defs", {}), table))
 
 
 def _of(schema: Mapping[str, Any], definitions: Mapping[str, Any], where: str) -> Iterator[Key]:

@@ -29,7 +29,10 @@ def nearest(bench: Bench) -> Change | None:
     It may have more than :data:`MOST_CHANGES` keys: whoever asks decides what to do with another design.
     """
     found = candidates(bench, enough=_ENOUGH)
-    return found[0] if found else None
+    builds = next((change for change in found if bench.sure.builds(change)), None)
+    if builds is None and found and bench.sure is not bench:
+        return nearest(bench.sure)
+    return builds
 
 
 def candidates(bench: Bench, enough: int = 0) -> list[Change]:

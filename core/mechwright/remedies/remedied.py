@@ -7,7 +7,7 @@ from mechwright.build import Build, Inspection
 from mechwright.contracts.finding import Change, Finding, Severity, errors
 from mechwright.designs.design import Design
 from mechwright.remedies.advice import advised
-from mechwright.remedies.bench import Bench, Limits
+from mechwright.remedies.bench import Bench, Limits, of_family, same
 from mechwright.remedies.nearest import MOST_CHANGES, nearest
 from mechwright.remedies.repair import INSPECTED, judge_of
 from mechwright.remedies.search import Worth, best_step, path_of, refined, related, worth, written
@@ -16,7 +16,13 @@ from mechwright.remedies.words import said
 NOT_ENOUGH = "that was tried, and is not enough by itself"
 
 CHECKED = Limits()
-"""For ``check`` and for what is refused."""
+"""For what is refused."""
+
+WARNED = Limits(tries=200, seconds=2.0)
+"""For a design that has warnings alone: they stop nothing, and are told by every command."""
+
+REMARKED = Limits(tries=6, seconds=4.0)
+"""For the warnings of an inspection."""
 
 
 def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
@@ -26,6 +32,19 @@ def remedied(bench: Bench, findings: Iterable[Finding]) -> list[Finding]:
     ``remedy`` then says the change, or what was tried where nothing helped.
     """
     findings = list(findings)
+    if any(same(one, bench.found({})) is None for one in findings if one.severity is not Severity.NOTE):
+        return _remedied(bench.sure, findings)
+    told = _remedied(bench, findings)
+    lost = any(one.fix is not None and not holds(bench.sure, one, one.fix) for one in told)
+    return _remedied(bench.sure, findings) if lost else told
+
+
+def holds(bench: Bench, finding: Finding, change: Change) -> bool:
+    """Whether a change removes a finding of the design and spoils nothing."""
+    return worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS
+
+
+def _remedied(bench: Bench, findings: list[Finding]) -> list[Finding]:
     grave = [finding for finding in findings if _grave(finding)]
     # What removes several errors at once is sought first, before the tries are spent on each by itself.
     whole = nearest(bench) if len(grave) > 1 else None
@@ -47,8 +66,8 @@ def tried(design: Design, findings: Iterable[Finding], limits: Limits | None = N
 
     Inspections are not asked: a try of theirs takes a second or so, which is for ``mechwright fix``.
     """
-    bench = Bench(design, Design.check, limits=limits or CHECKED)
-    return remedied(bench, findings)
+    findings = list(findings)
+    return remedied(of_family(design, limits or (CHECKED if errors(findings) else WARNED)), findings)
 
 
 def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Finding]) -> list[Finding]:
@@ -65,11 +84,13 @@ def proposed_tried(build: Build, inspection: Inspection, findings: Iterable[Find
         return () if errors(one.findings) else inspection.findings(one)
 
     judge = judge_of(build.host, [lambda one: one.findings, ask], inspection.stage)
-    bench = Bench(build.design, judge, inspection.stage, INSPECTED)
-    return [_with_proposed(bench, finding) for finding in findings]
+    limits = INSPECTED if errors(findings) else REMARKED
+    bench = Bench(build.design, judge, inspection.stage, limits)
+    return [with_proposed(bench, finding) for finding in findings]
 
 
-def _with_proposed(bench: Bench, finding: Finding) -> Finding:
+def with_proposed(bench: Bench, finding: Finding) -> Finding:
+    """A finding with the first change that it proposes and that removes it; else its own words."""
     if finding.severity is Severity.NOTE:
         return finding
     # An error that was raised has its advice behind its last semicolon.
@@ -82,7 +103,7 @@ def _with_proposed(bench: Bench, finding: Finding) -> Finding:
     if change is not None:
         fixed = replace(finding, fix=change, remedy=said(bench, change))
         return replace(fixed, message=message) if message else fixed
-    if said_so:
+    if said_so and not bench.spent:
         return replace(finding, remedy="; ".join(filter(None, (finding.remedy, NOT_ENOUGH))))
     return finding
 
@@ -95,19 +116,19 @@ def _alone(bench: Bench, finding: Finding) -> Change | None:
     """The smallest change of one key, or the first proposed, that removes a finding and spoils nothing."""
     if finding.severity is Severity.NOTE:
         return None
-    before = bench.errors({}) or []
-    best = best_step(bench, finding, {}, before)
+    before, judged = bench.errors({}) or [], same(finding, bench.found({})) or finding
+    best = best_step(bench, judged, {}, before)
     if best is None or best.worth > Worth.HELPS:
         return None
     if best.change in [written(bench, one, {}) for one in finding.proposed]:
         return best.change
-    return refined(bench, finding, before, best.change)
+    return refined(bench, judged, before, best.change)
 
 
 def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
     if finding.severity is Severity.NOTE:
         return finding
-    if change is not None and worth(bench, finding, bench.errors({}) or [], change) <= Worth.HELPS:
+    if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
     tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
     ended = f" in {bench.tries} tries" if bench.spent else ""

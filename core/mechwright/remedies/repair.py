@@ -8,7 +8,7 @@ from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
 from mechwright.plugins.host import Host
-from mechwright.remedies.bench import Bench, Judge, Limits
+from mechwright.remedies.bench import Bench, Judge, Limits, of_family
 from mechwright.remedies.nearest import MOST_CHANGES, candidates, nearest
 
 FAMILY = Limits(tries=1500, seconds=60.0)
@@ -53,7 +53,7 @@ class Repair:
 def repaired(design: Design, host: Host, stage: Stage) -> Repair:
     """The smallest change found with which a design passes all that ``build`` asks up to a stage."""
     asks = _asks(host, stage)
-    first = Bench(design, judge_of(host, asks[:1], stage), stage, FAMILY)
+    first = of_family(design, FAMILY, stage)
     found = first.errors({}) or []
     whole = judge_of(host, asks, stage)
     start: Change = {}

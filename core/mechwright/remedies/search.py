@@ -73,15 +73,16 @@ def best_step(bench: Bench, finding: Finding, decided: Change, before: list[Find
 
     ``decided`` holds besides. What was proposed comes first, and the first proposal that helps is taken.
     """
+    told = bench.told(finding, decided)
     proposed = [
         step
-        for proposal in finding.proposed
+        for proposal in told.proposed
         if (step := _step(bench, finding, decided, before, written(bench, proposal, decided))) is not None
     ]
     best = min(proposed, key=lambda step: step.worth, default=None)
     if best is not None and best.worth <= Worth.HELPS:
         return best
-    for key in related(bench, finding):
+    for key in related(bench, told):
         for step in _along(bench, finding, decided, before, key):
             if best is None or (step.worth, step.size) < (best.worth, best.size):
                 best = step

@@ -41,6 +41,18 @@ class FixTests:
         faults = [fault for table, _ in self.refused for fault in fix_faults(self.family(), table)]
         assert not faults, "; ".join(faults)
 
+    def test_judge_says_what_check_says(self) -> None:
+        """What is found fast is part of what is found, in the same words."""
+        family = self.family()
+        for table, _ in self.refused:
+            try:
+                params = family.Params.model_validate(dict(table))
+            except ValidationError:
+                continue
+            said = {(one.severity, one.stage, one.code, one.message) for one in family.check(params)}
+            for one in filter(_counts, family.judge(params)):
+                assert (one.severity, one.stage, one.code, one.message) in said, f"{one} is not in check"
+
     def test_fixes_of_random_designs(self) -> None:
         """The same of any design."""
 
