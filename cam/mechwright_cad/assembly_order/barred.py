@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.standards.circlips import bore_circlips, shaft_circlips
 from mechwright_cad.assembly_order.heights import Heights
-from mechwright_cad.assembly_order.layers import LEVEL, ROUND, Layer, layers_of, mesh_points
+from mechwright_cad.assembly_order.layers import LEVEL, ROUND, Layer, frame_of, layers_of, mesh_points
 from mechwright_cad.bodies import Body
 
 SKIN = 0.03
@@ -45,12 +45,16 @@ class Ways:
             if one is not None and two is not None:
                 table[i, j] = _bars(two, goes[i])
         unlike = [k for k in range(count) if layers[k] is None]
-        heights = [Heights.of(*mesh_points(body, self.sample, way)) for body in self.bodies] if unlike else []
+        heights = [self._heights(body, way) for body in self.bodies] if unlike else []
         slim = [one.slim() for one in heights]
         for i, j in permutations(range(count), 2):
             if i in unlike or j in unlike:
                 table[i, j] = heights[j].bars(slim[i])
         return table
+
+    def _heights(self, body: Body, way: Array) -> Heights:
+        points, triangles = mesh_points(body, self.sample)
+        return Heights.of(points @ frame_of(way).T, triangles)
 
     @staticmethod
     def _passing(body: Body, layers: Sequence[Layer] | None) -> list[Layer]:

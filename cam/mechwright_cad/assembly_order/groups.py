@@ -67,7 +67,7 @@ class Standing:
 
 def _box(body: Body, sample: int) -> Layer:
     """A body of any form: all that its box holds."""
-    points, _ = mesh_points(body, sample, UP)
+    points, _ = mesh_points(body, sample)
     (x0, y0, low), (x1, y1, high) = points.min(axis=0), points.max(axis=0)
     return Layer(shapely.box(x0, y0, x1, y1), float(low), float(high))
 

@@ -137,13 +137,12 @@ def _moved(shape: shapely.Geometry, turn: Array, place: Array) -> shapely.Geomet
     return shapely.transform(shape, lambda points: points @ turn.T + place)
 
 
-def mesh_points(body: Body, sample: int, way: Array) -> tuple[Array, NDArray[np.int64]]:
-    """Corners (n, 3), mm, and triangles (k, 3) of a body where it stands; the third coordinate is along the way."""
+def mesh_points(body: Body, sample: int) -> tuple[Array, NDArray[np.int64]]:
+    """Corners (n, 3), mm, and triangles (k, 3) of a body where it stands."""
     mesh = _coarse(body.part)
-    turn, place = body.poses.rotation[sample], body.poses.position[sample]
-    frame = frame_of(way)
     points = mesh.points + (0.0, 0.0, body.instance.z)
-    return (points @ turn.T + place) @ frame.T, mesh.triangles
+    turn, place = body.poses.rotation[sample], body.poses.position[sample]
+    return points @ turn.T + place, mesh.triangles
 
 
 @lru_cache(maxsize=64)
