@@ -25,7 +25,7 @@ class Boxes:
         self.gap = max(GAP, SHARE * float(np.ptp(whole, axis=0).max()))
 
     def across(self, number: int, way: Array, shift: Array) -> Array:
-        """Least and greatest corner (2, 3) of a shifted body in the frame of a way, whose third row is the way."""
+        """Least and greatest corner (2, 3) of a shifted body in the frame of a way; the third is along it."""
         frame = frame_of(way)
         seen = self._points[number] @ frame.T + frame @ shift
         return np.array((seen.min(axis=0), seen.max(axis=0)))
@@ -42,7 +42,9 @@ class Boxes:
         far = 0.0
         for k in moved:
             mine = self.across(k, way, shifts[k])
-            beside = (theirs[:, 0, :2] < mine[1, :2]).all(axis=1) & (mine[0, :2] < theirs[:, 1, :2]).all(axis=1)
+            beside = (theirs[:, 0, :2] < mine[1, :2]).all(axis=1) & (mine[0, :2] < theirs[:, 1, :2]).all(
+                axis=1
+            )
             far = max(far, float((theirs[beside, 1, 2] - mine[0, 2] + self.gap).max(initial=0.0)))
         return far
 
@@ -72,5 +74,5 @@ def lifted(step: Step, boxes: Boxes) -> Shifts:
     if step.way is not None and step.onto:
         out = -np.array(step.way)
         far = boxes.room(step.moved, step.onto, out, shifts)
-        shifts |= {k: far * out for k in step.moved}
+        shifts |= dict.fromkeys(step.moved, far * out)
     return shifts

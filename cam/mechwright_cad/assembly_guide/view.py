@@ -19,13 +19,13 @@ from mechwright_cad.assembly_order.layers import UP, mesh_points
 from mechwright_cad.bodies import Body
 
 EYE = np.array((1.0, -1.6, 1.1))
-"""Whence the pictures are seen: from the front, the right and above, so that no upright edge hides another."""
+"""Whence the pictures are seen: from the front, the right and above."""
 
 SHARP = np.cos(np.radians(30.0))
 """Cosine of the angle between two triangles from which on their edge is drawn; facets of pins have less."""
 
 BEFORE = 1.0
-"""By how much nearer to the eye another face has to be to hide a line, mm: a cell of a steep face spans as much."""
+"""How much nearer to the eye a face that hides a line is, mm: a cell of a steep face spans as much."""
 
 SHORTEST = 3
 """Cells of a line that is drawn, and of a gap in one, at least."""
@@ -77,7 +77,7 @@ class View:
             (x, y), high = corner - first, maps[k].high
             window = nearest[x : x + high.shape[0], y : y + high.shape[1]]
             np.maximum(window, high + shifts[k][1], out=window)
-        # Beside the line where a pin turns away from the eye its face is far nearer, so neighbours are asked too.
+        # Beside the line where a pin turns away from the eye its face is far nearer: ask neighbours too.
         nearest = minimum_filter(nearest, 3, mode="constant", cval=-np.inf)
         return {k: self._visible(k, shifts[k], nearest, first) for k in scene}
 

@@ -1,7 +1,7 @@
 """Bodies of any form across a way: how far along it each place of them lies, on a grid.
 
-A body that goes along a way meets another if somewhere on the grid the other reaches further along it than the
-first begins. So each body needs two heights at each place, its least and its greatest.
+A body that goes along a way meets another if somewhere on the grid the other reaches further along it than
+the first begins. So each body needs two heights at each place, its least and its greatest.
 """
 
 from collections.abc import Iterator
@@ -65,9 +65,7 @@ class Heights:
     def bars(self, other: "Heights") -> bool:
         """Whether ``other``, going along the way, would meet this body."""
         start = np.maximum(self.corner, other.corner)
-        end = np.minimum(
-            np.add(self.corner, self.high.shape), np.add(other.corner, other.low.shape)
-        )
+        end = np.minimum(np.add(self.corner, self.high.shape), np.add(other.corner, other.low.shape))
         if (end <= start).any():
             return False
         mine = self._window(self.high, self.corner, start, end)
@@ -84,8 +82,8 @@ class Heights:
 def _covered(corners: Array) -> Iterator[Array]:
     """Points (n, 3) on triangles (k, 3, 3), at least one in every place that a triangle covers well.
 
-    Rows parallel to the longest edge run up to the corner opposite; both counts are powers of two, so that many
-    triangles are looked at in one go.
+    Rows parallel to the longest edge run up to the corner opposite; both counts are powers of two, so that
+    many triangles are looked at in one go.
     """
     edges = np.linalg.norm((np.roll(corners, -1, axis=1) - corners)[:, :, :2], axis=2)
     longest = edges.argmax(axis=1)
@@ -96,7 +94,9 @@ def _covered(corners: Array) -> Iterator[Array]:
     tall = np.abs(along[:, 0] * up[:, 1] - along[:, 1] * up[:, 0]) / long
     counts = 2 ** np.ceil(np.log2(np.column_stack((long, tall)) / CELL + 1)).astype(int)
     for columns, rows in np.unique(counts, axis=0).tolist():
-        s, t = (part.ravel() for part in np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1)))
+        s, t = (
+            part.ravel() for part in np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
+        )
         weights = np.stack(((1 - s) * (1 - t), s * (1 - t), t))
         some = corners[(counts == (columns, rows)).all(axis=1)]
         for part in np.array_split(some, max(1, len(some) * weights.shape[1] // _BATCH)):

@@ -128,7 +128,9 @@ def _between(piece: Revolve | Prism, low: float, high: float) -> shapely.Geometr
         if part.area > 0:
             inner, _, outer, _ = part.bounds
             disc = shapely.Point(piece.axis).buffer(outer, quad_segs=ROUND)
-            hole = shapely.Point(piece.axis).buffer(inner, quad_segs=ROUND) if inner > 0 else shapely.Polygon()
+            hole = (
+                shapely.Point(piece.axis).buffer(inner, quad_segs=ROUND) if inner > 0 else shapely.Polygon()
+            )
             rings.append(shapely.difference(disc, hole))
     return shapely.union_all(rings) if rings else shapely.Polygon()
 
@@ -140,7 +142,7 @@ def _moved(shape: shapely.Geometry, turn: Array, place: Array) -> shapely.Geomet
 def mesh_points(body: Body, sample: int) -> tuple[Array, NDArray[np.int64]]:
     """Corners (n, 3), mm, and triangles (k, 3) of a body where it stands."""
     mesh = _coarse(body.part)
-    points = mesh.points + (0.0, 0.0, body.instance.z)
+    points = mesh.points + np.array((0.0, 0.0, body.instance.z))
     turn, place = body.poses.rotation[sample], body.poses.position[sample]
     return points @ turn.T + place, mesh.triangles
 
@@ -150,7 +152,9 @@ def _coarse(part: Part) -> Surface:
     """A mesh of a part in its own coordinates, a few hundredths off its solid."""
     own = own_layers(part)
     if own is not None:
-        return Surface(*triangles_of([Slab(p, one.low, one.high) for one in own for p in _pieces(one.shape)], CHORD))
+        return Surface(
+            *triangles_of([Slab(p, one.low, one.high) for one in own for p in _pieces(one.shape)], CHORD)
+        )
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 

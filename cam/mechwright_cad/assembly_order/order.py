@@ -1,9 +1,9 @@
 """The order of assembly: the mechanism is taken apart in thought, and put together the other way round.
 
-Sought is always the least set of bodies that can leave, as one and in a straight line, what else is there. In
-the graph of who bars whom along a way, those are the strongly connected sets that no other set bars (Wilson and
-Latombe, Geometric reasoning about mechanical assembly, 1994). Groups that move as one are tried first, then
-single bodies; a group that has left is taken apart by itself. What no straight line parts is told as such.
+Sought is always the least set of bodies that can leave, as one and in a straight line, what else is there.
+In the graph of who bars whom along a way, those are the strongly connected sets that no other set bars
+(Wilson and Latombe, Geometric reasoning about mechanical assembly, 1994). Groups that move as one are tried
+first, then single bodies; a group that has left is taken apart by itself.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -105,18 +105,34 @@ class Order:
     @cached_property
     def _sizes(self) -> Array:
         """Volume of a box round each body, mm³."""
-        return np.array([float(np.prod(np.ptp(self.standing.box(k), axis=0))) for k in range(len(self.bodies))])
+        return np.array(
+            [float(np.prod(np.ptp(self.standing.box(k), axis=0))) for k in range(len(self.bodies))]
+        )
+
+    def size(self, number: int) -> float:
+        """Volume of the box round a body, mm³."""
+        return float(self._sizes[number])
+
+    def ahead(self, number: int, way: Array, *, low: bool) -> float:
+        """How far along a way a body begins, or ends, mm; by the box round it."""
+        corners = np.array(np.meshgrid(*self.standing.box(number).T)).reshape(3, -1)
+        along = way @ corners
+        return float(along.min() if low else along.max())
 
     def _root(self, members: tuple[int, ...]) -> int:
-        """What the others are put on: the largest body that stands still; or, of the group that stands lowest,
-        the one that touches most."""
+        """What the others are put on: the largest that stands still, or the best of the lowest group.
+
+        The best is the one that touches most.
+        """
         still = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] == GROUND]
         base = max(still, key=lambda k: (self._sizes[k], -k), default=-1)
         if base in members:
             return base
         groups = connected(members, self._bonds)
         boxes = [np.array([self.standing.box(k)[:, 2] for k in group]) for group in groups]
-        lowest = min(zip(groups, boxes, strict=True), key=lambda one: (one[1].min() + one[1].max(), one[0]))[0]
+        lowest = min(zip(groups, boxes, strict=True), key=lambda one: (one[1].min() + one[1].max(), one[0]))[
+            0
+        ]
         touched = {k: sum(k in bond and set(bond) <= set(lowest) for bond in self._bonds) for k in lowest}
         return max(lowest, key=lambda k: (touched[k], self._sizes[k], -k))
 
@@ -135,14 +151,14 @@ class Order:
         ]
 
     def _leaving(self, members: tuple[int, ...]) -> _Leaving | None:
-        """What leaves first. A shaft goes as one with the rings that it holds, a link by itself, if it can."""
+        """What leaves first: a shaft as one with the rings that it holds, a link by itself, if it can."""
         groups, singles = connected(members, self._bonds), [(k,) for k in members]
         root = self._root(members)
         found = (
             self._first(groups, root, self._shaft)
             or self._first(singles, root, lambda units: len(units) == 1)
-            or self._first(groups, root, lambda units: True)
-            or self._first(singles, root, lambda units: True)
+            or self._first(groups, root, lambda _: True)
+            or self._first(singles, root, lambda _: True)
             or self._sideways(members, root)
         )
         return found and (self._holder(members, found) or found)

@@ -1,4 +1,4 @@
-"""The plan of a build: its bodies, the steps in which they go together, and where the input stands meanwhile."""
+"""The plan of a build: its bodies, the steps in which they go together, and where the input stands."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from mechwright_cad.assembly_order.order import Order, Step
 from mechwright_cad.bodies import Body, bodies_of
 
 LOOKS = 13
-"""Positions of the input at which it is tried to put the mechanism together, both ends of its way included."""
+"""Positions of the input that are tried, both ends of its way included."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Plan:
 
 
 def plan_of(build: Build) -> Plan:
-    """The plan at the start of the motion; where that holds bodies fast, at the first position that does not."""
+    """The plan at the start of the motion; where that holds bodies fast, at the first place that does not."""
     family, params = build.design.family, build.design.params
     first = _at(build, family.solve(params, 2), 0)
     if all(step.way is not None for step in first.steps):
