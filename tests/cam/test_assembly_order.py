@@ -52,11 +52,10 @@ def ordered(parts, **fixed_to):
     )
     bodies = bodies_of(parts, motion)
     order = Order(bodies, motion, 0)
-    told = [
+    return [
         ([bodies[k].part.name for k in step.moved], [bodies[k].part.name for k in step.onto], step.way)
         for step in order.steps
     ]
-    return told
 
 
 DOWN, UP = (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)

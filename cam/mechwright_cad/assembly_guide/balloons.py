@@ -8,10 +8,10 @@ import shapely
 from mechwright.geometry.segments import Point
 from mechwright_cad.assembly_guide.view import Lines
 
-RADIUS = 0.55
+RADIUS = 0.42
 """Of a ring, as a share of the distance of two rings in a column."""
 
-APART = 2.6
+APART = 3.0
 """Distance of two rings in a column, in heights of letters, at least."""
 
 

@@ -100,6 +100,5 @@ def assembly_html(
             drawing=f"{STEM}.pdf",
             turned=plan.turned,
             input=plan.motion.input_name,
-            first=words.names((plan.sequence[0],)),
         )
     )

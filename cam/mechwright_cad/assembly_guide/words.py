@@ -73,13 +73,18 @@ class Words:
         group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1
         what = f"Put the group of {self.name(self.main(step))}" if group else f"Put {self.names(step.moved)}"
         near = dict.fromkeys(k for match in found for k in (match.pin, match.hole) if k in step.onto)
+        if not near and self._leans(step):
+            touch = self.plan.order.standing.touch
+            near = {k: None for k in step.onto if any(touch(k, m) for m in step.moved)}
         touched = near or self._below(step)
-        where = self.names(tuple(touched))
-        into = "into" if found and all(match.pin in step.moved for match in found) and not group else "onto"
-        return f"{what} {into} {where}, {self.way(step)}."
+        where = self.names(tuple(touched or (max(step.onto, key=self.plan.order.size),)))
+        pins = bool(found) and all(match.pin in step.moved for match in found) and not group
+        turned = len(touched) > 0 and all(self.plan.bodies[k].part.turned for k in step.moved)
+        how = "into" if pins or (turned and self._leans(step)) else "onto" if touched else "beside"
+        return f"{what} {how} {where}, {self.way(step)}."
 
     def _below(self, step: Step) -> dict[int, None]:
-        """What a step would meet first if it went on; the largest that is there, if it meets nothing."""
+        """What a step would meet first if it went on."""
         assert step.way is not None  # noqa: S101 - asked of steps with a way only
         order, way = self.plan.order, np.array(step.way)
         barred = order.table.barred(way)
@@ -89,7 +94,7 @@ class Words:
             if barred[list(step.moved), k].any()
         }
         if not ahead:
-            return {max(step.onto, key=order.size): None}
+            return {}
         return {k: None for k, far in ahead.items() if far < min(ahead.values()) + NEXT}
 
     def way(self, step: Step) -> str:

@@ -5,12 +5,14 @@ from itertools import combinations
 
 import numpy as np
 import shapely
+from manifold3d import Manifold
 
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright_cad.assembly_order.layers import UP, Layer, layers_of, mesh_points
 from mechwright_cad.bodies import Body
+from mechwright_cad.interference.surface import Surface
 
 TOUCHING = 0.1
 """Bodies nearer to each other than this, mm, touch: less than any clearance that is meant to be one."""
@@ -36,7 +38,10 @@ class Standing:
     """The layers of all bodies where they stand at a sample, seen from above; and which of them touch."""
 
     def __init__(self, bodies: Sequence[Body], sample: int) -> None:
-        self._layers = [layers_of(body, sample, UP) or (_box(body, sample),) for body in bodies]
+        found = [layers_of(body, sample, UP) for body in bodies]
+        self._layers = [layers or (_box(body, sample),) for body, layers in zip(bodies, found, strict=True)]
+        self._bodies, self._sample = bodies, sample
+        self._meshes: dict[int, Manifold | None] = {k: None for k, one in enumerate(found) if one is None}
         self._known: dict[tuple[int, int], bool] = {}
 
     def box(self, number: int) -> Array:
@@ -52,10 +57,21 @@ class Standing:
             self._known[pair] = self._look(*pair)
         return self._known[pair]
 
+    def _mesh(self, number: int) -> Manifold:
+        known = self._meshes.get(number)
+        if known is None:
+            known = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
+            if number in self._meshes:
+                self._meshes[number] = known
+        return known
+
     def _look(self, one: int, two: int) -> bool:
         a, b = self.box(one), self.box(two)
         if (a[0] > b[1] + TOUCHING).any() or (b[0] > a[1] + TOUCHING).any():
             return False
+        if one in self._meshes or two in self._meshes:
+            first, second = self._mesh(one), self._mesh(two)
+            return bool(first.min_gap(second, 2 * TOUCHING) < TOUCHING)
         return any(
             first.low <= second.high + TOUCHING
             and second.low <= first.high + TOUCHING

@@ -71,6 +71,11 @@ class Order:
         """All steps; those of a group stand before the step in which it goes to its place."""
         return tuple(self._together(tuple(range(len(self.bodies)))))
 
+    @property
+    def root(self) -> int | None:
+        """What all goes onto; None without bodies."""
+        return self._root(tuple(range(len(self.bodies)))) if self.bodies else None
+
     @cached_property
     def ways(self) -> tuple[Array, ...]:
         """Ways that are tried, the best first: up and down, along axes of joints and of what is round."""

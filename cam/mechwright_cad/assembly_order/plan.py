@@ -30,7 +30,7 @@ class Plan:
     @property
     def sequence(self) -> tuple[int, ...]:
         """Numbers of the bodies in the order in which they come to hand."""
-        return sequence(self.steps, len(self.bodies))
+        return sequence(self.steps, len(self.bodies), self.order.root)
 
 
 def plan_of(build: Build) -> Plan:
@@ -72,9 +72,9 @@ def alike(steps: Sequence[Step], bodies: Sequence[Body]) -> list[Step]:
     return found
 
 
-def sequence(steps: Sequence[Step], count: int) -> tuple[int, ...]:
-    """Bodies as they come to hand: what a group begins with, then what goes onto it."""
-    found: dict[int, None] = {}
+def sequence(steps: Sequence[Step], count: int, root: int | None = None) -> tuple[int, ...]:
+    """Bodies as they come to hand: what all goes onto, then what each group begins with and goes onto it."""
+    found: dict[int, None] = {} if root is None else {root: None}
     for step in steps:
         found |= dict.fromkeys((*step.onto, *step.moved))
     return tuple(found | dict.fromkeys(range(count)))
