@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import minimum_filter
 
 from mechwright.arrays import Array
+from mechwright.contracts.fitting_marks import rings
 from mechwright_cad.assembly_order.heights import CELL, Heights
 from mechwright_cad.assembly_order.layers import UP, mesh_points
 from mechwright_cad.bodies import Body
@@ -91,8 +92,21 @@ class View:
             body = self._bodies[number]
             points, triangles = mesh_points(body, self._sample)
             seen = points @ self.frame.T
-            self._seen[number] = _Seen(Heights.of(seen, triangles), _edges(seen, triangles))
+            drawn = np.concatenate((_edges(seen, triangles), self._dots(body)))
+            self._seen[number] = _Seen(Heights.of(seen, triangles), drawn)
         return self._seen[number]
+
+    def _dots(self, body: Body) -> Array:
+        """The fitting marks on the top face of a plate, as edges (n, 2, 3)."""
+        lines = [line for mark in body.part.marks for line in rings(mark)]
+        if not lines:
+            return np.empty((0, 2, 3))
+        top = body.instance.z + body.part.thickness
+        flat = np.concatenate([np.stack((line[:-1], line[1:]), axis=1) for line in map(np.array, lines)])
+        points = np.concatenate((flat, np.full((*flat.shape[:2], 1), top)), axis=2)
+        turn, place = body.poses.rotation[self._sample], body.poses.position[self._sample]
+        dots: Array = (points @ turn.T + place) @ self.frame.T
+        return dots
 
     def _visible(
         self, number: int, shift: tuple[NDArray[np.int64], float], nearest: Array, first: Array

@@ -66,6 +66,7 @@ class Words:
         said += dict.fromkeys(self._tight(match) for match in found if self._fast(match))
         said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in step.moved)))
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in step.moved)))
+        said += dict.fromkeys(mark.note for k in step.moved for mark in plan.bodies[k].part.marks)
         said += self._tries(step, found)
         return said
 
