@@ -53,8 +53,8 @@ def parts_of(params: GenevaParams) -> tuple[Part, ...]:
 
 
 ARMS = (
-    "Each roller's hole stands over the middle of a hollow of the locking disc; when the driver goes on, a slot "
-    "of the wheel faces the roller. Which slot is no matter: they are alike."
+    "Each roller's hole stands over the middle of a hollow of the locking disc; when the driver goes on, a "
+    "slot of the wheel faces the roller. Which slot is no matter: they are alike."
 )
 """How the crank stands to the locking disc and to the wheel."""
 

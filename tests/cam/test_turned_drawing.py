@@ -18,11 +18,11 @@ from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.turned import Groove, KeySeat, Step, Turned, tube
 from mechwright.errors import GeometryError
-from mechwright_cad.turned_drawing.drawing import SCALES, turned_sheet
 from mechwright_cad.sheet.frame import MARGIN, SHEETS
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
 from mechwright_cad.sheet.to_dxf import dxf
 from mechwright_cad.sheet.to_pdf import pdf
+from mechwright_cad.turned_drawing.drawing import SCALES, turned_sheet
 
 SHAFT = Turned(
     (
