@@ -2,6 +2,7 @@
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
+from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import (
     DxfExporter,
@@ -29,5 +30,6 @@ def mechwright_register() -> list[type[Plugin]]:
         MotionPage,
         BillOfMaterials,
         TurnedDrawings,
+        AssemblyGuide,
         Interference,
     ]

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         refuse,
         until_error,
     )
+    from mechwright.contracts.fitting_marks import FittingMark
     from mechwright.contracts.joint import GROUND, Joint
     from mechwright.contracts.load import Load
     from mechwright.contracts.made_part import MadeHole, MadePart, MadeRing, MadeSection
@@ -65,6 +66,7 @@ _HOMES = {
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.bought": "Bought",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
+    "mechwright.contracts.fitting_marks": "FittingMark",
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.finding": "Finding Severity Stage at_stage of_stage refuse until_error",
@@ -116,8 +118,7 @@ __all__ += [
 __all__ += ["Arc", "BSpline", "Line", "Loop", "Outline", "Point", "Segment", "circle"]
 __all__ += ["Bore", "Colour", "Feature", "Instance", "OpenProfile", "Part", "Pocket", "Profile"]
 __all__ += ["Chamfer", "Detail", "Engraving", "Thread"]
-__all__ += ["Hub", "Mounting", "Spindle"]
-__all__ += ["Hub", "Mounting", "Spindle"]
+__all__ += ["FittingMark", "Hub", "Mounting", "Spindle"]
 __all__ += ["Bought", "Groove", "KeySeat", "Step", "Turned"]
 __all__ += ["Finding", "Severity", "Stage", "at_stage", "kept", "of_stage", "refuse", "until_error"]
 __all__ += ["Candidate", "Progress", "Reason", "Rejected", "Synthesis"]

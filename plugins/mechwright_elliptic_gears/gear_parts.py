@@ -17,6 +17,7 @@ from mechwright_elliptic_gears.clamp_parts import (
     threads,
 )
 from mechwright_elliptic_gears.dividing import START
+from mechwright_elliptic_gears.fitting import gear_marks
 from mechwright_elliptic_gears.gear import opening_of, outline_of
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import DOWELS, Layout, dividing_of
@@ -180,6 +181,7 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         instances=tuple(Instance(body, z, COLOURS[body]) for body, z in gear.bodies),
         machined=tuple(features),
         details=gear.details,
+        marks=gear_marks(params, gear.name, gear.key),
     )
 
 

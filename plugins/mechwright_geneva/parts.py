@@ -6,11 +6,13 @@ the rollers hang into the slots.
 """
 
 import math
+from dataclasses import replace
 
 from mechwright import (
     Bore,
     Colour,
     Feature,
+    FittingMark,
     Instance,
     Loop,
     Outline,
@@ -48,6 +50,13 @@ def parts_of(params: GenevaParams) -> tuple[Part, ...]:
     """All parts of a design without error findings."""
     m = mechanism_of(params)
     return (*_wheel(m), *_driver(m), _roller(m))
+
+
+ARMS = (
+    "Each roller's hole stands over the middle of a hollow of the locking disc; when the driver goes on, a "
+    "slot of the wheel faces the roller. Which slot is no matter: they are alike."
+)
+"""How the crank stands to the locking disc and to the wheel."""
 
 
 def _wheel(m: Mechanism) -> list[Part]:
@@ -136,7 +145,7 @@ def _driver(m: Mechanism) -> list[Part]:
     crank = _plate(
         m, "crank", crank_loop(m), 0.0, opening, dowels, params.crank_thickness, DRIVER, top, BLUE, pins
     )
-    return [disc, crank]
+    return [disc, replace(crank, marks=(FittingMark(ARMS),))]
 
 
 def _pin_fit(params: Sizes) -> Fit | None:

@@ -20,6 +20,7 @@ from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearing
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.screws import screw
+from mechwright_cad.bill.items import numbers_of
 from mechwright_cad.bill.lines import ABSENT, COLUMNS, lines_of
 from mechwright_cad.bill.page import BillOfMaterials, bill_csv, bill_html
 from mechwright_cad.exporters import StepExporter
@@ -45,9 +46,12 @@ PARTS = (
 )
 
 
+ORDER = ("spacer", "plate", "bearing", "dowel", "screw")
+
+
 @pytest.fixture(scope="module")
 def lines():
-    return lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")})
+    return lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")}, ORDER)
 
 
 def test_made_bought_stock_and_supplies_have_numbers_of_their_own(lines):
@@ -64,6 +68,31 @@ def test_made_bought_stock_and_supplies_have_numbers_of_their_own(lines):
         (301, 1, "grease for plain bearings"),
     ]
     assert {line.kind for line in lines} == {"made", "bought", "stock", "supply"}
+
+
+def test_equal_parts_share_an_item_and_mirror_images_do_not():
+    odd = Outline(Loop.polygon([(0, 0), (40, 0), (40, 20)]))
+    mirrored = Outline(Loop.polygon([(0, 0), (-40, 20), (-40, 0)]))
+    at = (Instance("base"),)
+    ring = tube(8, 11.9, 6)
+    parts = (
+        Part("left", odd, 8.0, "aluminium", at),
+        Part("right", mirrored, 8.0, "aluminium", at),
+        Part("left-again", odd, 8.0, "aluminium", at),
+        Part("thicker", odd, 9.0, "aluminium", at),
+        Part("ring-a", None, 0.0, "brass", at, turned=ring),
+        Part("ring-b", None, 0.0, "brass", at, turned=replace(ring)),
+        Part("ring-c", None, 0.0, "steel", at, turned=ring),
+    )
+    assert numbers_of(parts, ["ring-b", "right"]) == {
+        "ring-a": 1,
+        "ring-b": 1,
+        "right": 2,
+        "left": 3,
+        "left-again": 3,
+        "thicker": 4,
+        "ring-c": 5,
+    }
 
 
 def test_a_line_says_how_a_part_is_ordered_or_what_it_is_cut_from(lines):
@@ -89,7 +118,7 @@ def test_catalogue_masses_and_volumes_add_up(lines):
 
 def test_plates_that_a_process_speaks_for_are_as_it_says():
     blank = Blank(("plate", "other"), 1, "aluminium", (120.0, 60.0, 8.0))
-    stock = [line for line in lines_of(PARTS, masses(PARTS), (blank,), {}) if line.kind == "stock"]
+    stock = [line for line in lines_of(PARTS, masses(PARTS), (blank,), {}, ORDER) if line.kind == "stock"]
     assert [(line.designation, line.name) for line in stock] == [
         ("plate 120.0 x 60.0 x 8", "stock for plate, other"),
         ("round bar 14 x 12", "stock for spacer"),
@@ -105,7 +134,7 @@ def test_the_table_is_read_back_as_it_was(lines):
     assert [row["designation"] for row in rows] == [line.designation for line in lines]
     assert [float(row["mass_g"]) for row in rows] == pytest.approx([line.mass_g for line in lines], abs=0.005)
     assert bill_csv(lines) == bill_csv(
-        lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")})
+        lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")}, ORDER)
     )
 
 

@@ -18,10 +18,11 @@ from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.turned import Groove, KeySeat, Step, Turned, tube
 from mechwright.errors import GeometryError
-from mechwright_cad.turned_drawing.drawing import MARGIN, SCALES, SHEETS, turned_sheet
-from mechwright_cad.turned_drawing.sheet import Dimension, Fill, Stroke, Text, width_of
-from mechwright_cad.turned_drawing.to_dxf import dxf
-from mechwright_cad.turned_drawing.to_pdf import pdf
+from mechwright_cad.sheet.frame import MARGIN, SHEETS
+from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
+from mechwright_cad.sheet.to_dxf import dxf
+from mechwright_cad.sheet.to_pdf import pdf
+from mechwright_cad.turned_drawing.drawing import SCALES, turned_sheet
 
 SHAFT = Turned(
     (
@@ -204,8 +205,8 @@ import sys
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import tube
 from mechwright_cad.turned_drawing.drawing import turned_sheet
-from mechwright_cad.turned_drawing.to_dxf import dxf
-from mechwright_cad.turned_drawing.to_pdf import pdf
+from mechwright_cad.sheet.to_dxf import dxf
+from mechwright_cad.sheet.to_pdf import pdf
 sheet = turned_sheet(Part("spacer", None, 0.0, "brass", turned=tube(8, 12, 2)), "design")
 sys.stdout.buffer.write(dxf(sheet) + pdf(sheet))
 """

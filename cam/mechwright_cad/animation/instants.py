@@ -97,7 +97,7 @@ def arrows(motion: Motion) -> dict[str, dict[str, Any]]:
     over, comes_back = course(motion)
     if len(over) < 5 or not (np.diff(over) > 0).all():
         return {}
-    found = {}
+    found: dict[str, dict[str, Any]] = {}
     for name in motion.traces:
         path = motion.path(name)[:, :2]
         found[name] = {}

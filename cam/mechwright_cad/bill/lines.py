@@ -15,10 +15,8 @@ from dataclasses import dataclass, fields
 
 from mechwright.build import Blank
 from mechwright.contracts.part import Part
+from mechwright_cad.bill.items import FIRST, items
 from mechwright_cad.bill.stock import count, finished, pieces
-
-FIRST = {"made": 1, "bought": 101, "stock": 201, "supply": 301}
-"""Kind of a line to the number of its first item."""
 
 ABSENT = "not in the assembly that is shown"
 """Note of a part that is made and stands in no place: the other size of a link, a flat pattern."""
@@ -54,6 +52,7 @@ def lines_of(
     masses: Mapping[str, float],
     blanks: Sequence[Blank],
     drawings: Mapping[str, Sequence[str]],
+    order: Sequence[str] = (),
 ) -> list[Line]:
     """The whole bill.
 
@@ -67,64 +66,48 @@ def lines_of(
         Plates as the process that cuts them has them; for the rest there is an allowance.
     drawings
         Names of files by name of part.
+    order
+        Names of parts in the order of assembly, in which items are counted.
     """
-    order = sorted(parts, key=lambda part: min((i.z for i in part.instances), default=float("inf")))
-    made = [
-        Line(
-            number,
-            count(part),
-            "pcs",
-            part.name,
-            "made",
-            material=part.material,
-            stock=finished(part),
-            mass_each_g=masses[part.name],
-            mass_g=masses[part.name] * count(part),
-            file=f"{part.name}.step",
-            drawing=" ".join(drawings.get(part.name, ())),
-            note="" if part.instances else ABSENT,
-        )
-        for number, part in enumerate((p for p in order if p.bought is None), FIRST["made"])
-    ]
-    numbers = {line.name: line.item for line in made}
+    numbered = items(parts, order)
+    numbers = {part.name: number for number, those in numbered.items() for part in those}
+    made = [part for those in numbered.values() for part in those if part.bought is None]
     return [
-        *made,
-        *_bought([part for part in order if part.bought is not None], masses),
-        *_stock([part for part in order if part.bought is None], blanks, numbers),
+        *(_body(number, those, masses, drawings) for number, those in numbered.items()),
+        *_stock(made, blanks, numbers),
         *_supply(parts),
     ]
 
 
-def _bought(parts: Sequence[Part], masses: Mapping[str, float]) -> list[Line]:
-    """One line for each designation, however many parts have it."""
-    same: dict[str, list[Part]] = {}
-    for part in parts:
-        assert part.bought is not None  # noqa: S101 - asked of bought parts only
-        same.setdefault(part.bought.designation, []).append(part)
-    found = []
-    for number, (designation, those) in enumerate(same.items(), FIRST["bought"]):
-        first = those[0]
-        bought = first.bought
-        assert bought is not None  # noqa: S101 - as above
-        qty = sum(count(part) for part in those)
-        absent = [] if all(part.instances for part in those) else [ABSENT]
-        found.append(
-            Line(
-                number,
-                qty,
-                "pcs",
-                ", ".join(part.name for part in those),
-                "bought",
-                designation,
-                bought.standard,
-                first.material,
-                mass_each_g=masses[first.name],
-                mass_g=masses[first.name] * qty,
-                file=f"{first.name}.step",
-                note="; ".join([note for note in (bought.note,) if note] + absent),
-            )
-        )
-    return found
+def _body(
+    number: int,
+    those: Sequence[Part],
+    masses: Mapping[str, float],
+    drawings: Mapping[str, Sequence[str]],
+) -> Line:
+    """One line for equal parts, whatever they are called."""
+    first = those[0]
+    qty = sum(count(part) for part in those)
+    bought = first.bought
+    notes = [bought.note] if bought is not None and bought.note else []
+    if not all(part.instances for part in those):
+        notes.append(ABSENT)
+    return Line(
+        number,
+        qty,
+        "pcs",
+        ", ".join(part.name for part in those),
+        "made" if bought is None else "bought",
+        "" if bought is None else bought.designation,
+        "" if bought is None else bought.standard,
+        first.material,
+        finished(first) if bought is None else "",
+        masses[first.name],
+        masses[first.name] * qty,
+        f"{first.name}.step",
+        " ".join(name for part in those for name in drawings.get(part.name, ())) if bought is None else "",
+        "; ".join(notes),
+    )
 
 
 def _stock(parts: Sequence[Part], blanks: Sequence[Blank], numbers: Mapping[str, int]) -> list[Line]:
@@ -139,10 +122,14 @@ def _stock(parts: Sequence[Part], blanks: Sequence[Blank], numbers: Mapping[str,
             material=piece.material,
             mass_each_g=piece.mass,
             mass_g=piece.mass * piece.count,
-            note=f"for item {', '.join(str(numbers[name]) for name in piece.parts)}; {piece.note}",
+            note=f"for item {_listed(numbers, piece.parts)}; {piece.note}",
         )
         for number, piece in enumerate(pieces(parts, blanks), FIRST["stock"])
     ]
+
+
+def _listed(numbers: Mapping[str, int], names: Sequence[str]) -> str:
+    return ", ".join(str(number) for number in dict.fromkeys(numbers[name] for name in names))
 
 
 def _supply(parts: Sequence[Part]) -> list[Line]:

@@ -45,8 +45,17 @@ class BillOfMaterials(Page):
             if command in one.commands
             for blank in one.blanks(build)
         ]
-        lines = lines_of(build.parts, build.made(Solids).masses(), blanks, drawings_of(build))
+        masses = build.made(Solids).masses()
+        lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build))
         return {f"{STEM}.csv": bill_csv(lines), HTML: bill_html(build.design.name, lines)}
+
+
+def order_of(build: Build) -> list[str]:
+    """Names of the parts as they come to hand when the mechanism is put together."""
+    from mechwright_cad.assembly_order.plan import plan_of
+
+    plan = build.made(plan_of)
+    return list(dict.fromkeys(plan.bodies[k].part.name for k in plan.sequence))
 
 
 def drawings_of(build: Build) -> dict[str, list[str]]:

@@ -2,8 +2,6 @@
 
 Glossary
 --------
-sheet
-    The paper: mm from its lower left corner. A view stands on it in the sheet's scale.
 label
     The diameter of a step with its fit, on a line that goes up from the step.
 base line

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.geometry.segments import Point
-from mechwright_cad.turned_drawing.sheet import ARROW, HEIGHT, Dimension, Sheet, Stroke, Text, arrow, width_of
+from mechwright_cad.sheet.sheet import ARROW, HEIGHT, Dimension, Sheet, Stroke, Text, arrow, width_of
 
 ROW = 8.0
 """From one row of lengths to the next, mm."""

@@ -6,6 +6,8 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.turned import KeySeat, Turned
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
+from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
+from mechwright_cad.sheet.sheet import Sheet, Text, width_of
 from mechwright_cad.turned_drawing import words
 from mechwright_cad.turned_drawing.dimensions import (
     FREE,
@@ -17,26 +19,13 @@ from mechwright_cad.turned_drawing.dimensions import (
     rows_height,
     upright,
 )
-from mechwright_cad.turned_drawing.sheet import HEIGHT, Sheet, Text, width_of
 from mechwright_cad.turned_drawing.view import OVERHANG, across, ring, side
-
-SHEETS = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
-"""A4 to A1, lying; mm."""
 
 SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
 """ISO 5455."""
 
 LEAST = 0.5
 """A smaller scale than this is taken only where the largest sheet wants it."""
-
-MARGIN, EDGE = 10.0, 8.0
-"""From the paper's edge to the frame, and from the frame to what is drawn, mm."""
-
-TITLE = (125.0, 34.0)
-"""Width and height of the title block, mm."""
-
-LINE = 5.5
-"""From one line of notes to the next, mm."""
 
 
 @dataclass(frozen=True)
@@ -183,31 +172,14 @@ def _cut(sheet: Sheet, turned: Turned, seat: KeySeat, centre: Point) -> None:
 
 
 def _frame(sheet: Sheet, part: Part, turned: Turned, design: str) -> None:
-    """Frame, title block (ISO 7200), the sign of first-angle projection, and the notes beside it."""
-    x1, y1 = sheet.width - MARGIN, sheet.height - MARGIN
-    sheet.lines([(MARGIN, MARGIN), (x1, MARGIN), (x1, y1), (MARGIN, y1), (MARGIN, MARGIN)], "FRAME")
-    x0, top = x1 - TITLE[0], MARGIN + TITLE[1]
-    sheet.lines([(x0, MARGIN), (x0, top), (x1, top)], "FRAME")
-    ratio = f"{sheet.scale:g} : 1" if sheet.scale >= 1 else f"1 : {1 / sheet.scale:g}"
-    count = max(1, len(part.instances))
+    """Frame, title block, the sign of first-angle projection, and the notes beside them."""
     rows = (
-        (("Part", part.name), ("Scale", ratio)),
+        (("Part", part.name), ("Scale", ratio(sheet.scale))),
         (("Design", design or "-"), ("Sheet", "1 / 1")),
-        (("Material", part.material), ("Make", f"{count}")),
+        (("Material", part.material), ("Make", f"{max(1, len(part.instances))}")),
     )
-    step = TITLE[1] / len(rows)
-    split = x0 + 0.6 * TITLE[0]
-    sheet.lines([(split, MARGIN), (split, top)], "DIM")
-    for k, row in enumerate(rows):
-        y = top - step * (k + 1)
-        if k < len(rows) - 1:
-            sheet.lines([(x0, y), (x1, y)], "DIM")
-        for x, (name, value) in zip((x0, split), row, strict=True):
-            sheet.add(Text((x + 2, y + step - 3.5), name, height=2.0))
-            sheet.add(Text((x + 2, y + 2), value, height=HEIGHT))
-    _first_angle(sheet, (x1 - 22.0, MARGIN + 2 * step + step / 2))
-    for k, line in enumerate(words.notes(turned)):
-        sheet.add(Text((MARGIN + EDGE, top - LINE * (k + 1)), line, height=2.5))
+    frame(sheet, rows, words.notes(turned))
+    _first_angle(sheet, (sheet.width - MARGIN - 22.0, MARGIN + 5 * TITLE[1] / 6))
 
 
 def _first_angle(sheet: Sheet, at: Point) -> None:

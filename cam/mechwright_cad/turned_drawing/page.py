@@ -18,9 +18,9 @@ class TurnedDrawings(Page):
         parts = [part for part in build.parts if part.kind == "turned"]
         if not parts:
             return {}
+        from mechwright_cad.sheet.to_dxf import dxf
+        from mechwright_cad.sheet.to_pdf import pdf
         from mechwright_cad.turned_drawing.drawing import turned_sheet
-        from mechwright_cad.turned_drawing.to_dxf import dxf
-        from mechwright_cad.turned_drawing.to_pdf import pdf
 
         made = {}
         for part in parts:

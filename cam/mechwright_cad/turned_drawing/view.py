@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from mechwright.contracts.turned import KeySeat, Turned
 from mechwright.geometry.segments import Point
-from mechwright_cad.turned_drawing.sheet import Sheet
+from mechwright_cad.sheet.sheet import Sheet
 
 OVERHANG = 3.0
 """How far a centre line goes beyond its view, mm."""

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, cast, get_args
 
 from mechwright.build import Build, Page
 from mechwright.errors import DesignError
+from mechwright_cad.assembly_guide.page import HTML as GUIDE
+from mechwright_cad.assembly_guide.page import AssemblyGuide
 from mechwright_cad.bill.page import HTML as BILL
 from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.exporters import Curves, DxfExporter
@@ -121,6 +123,7 @@ class SetupSheets(Page):
             design=design,
             files=files,
             bill=BILL if written else "",
+            guide=GUIDE if AssemblyGuide().shown(build) else "",
         )
         return made
 

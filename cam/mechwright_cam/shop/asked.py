@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from mechwright.contracts.edges import deburred
+from mechwright.contracts.fitting_marks import engraved
 from mechwright.contracts.holes import fitted, threaded
 from mechwright.contracts.marking import marked
 from mechwright.contracts.part import Part
@@ -46,10 +47,13 @@ def _made(part: Part, table: CamSettings, path: Path) -> Part:
         part = _told(f"{path}: {where}.holes.{name}", _hole, part, name, hole)
     if table.deburr > 0:
         part = _told(f"{path}: {where}.deburr", deburred, part, table.deburr)
+    if table.fitting_marks:
+        depth, line = table.mark_depth, table.mark_line
+        part = _told(f"{path}: {where}.fitting_marks", engraved, part, depth, line)
     if table.mark:
         text = table.mark.replace(NAME, part.name)
-        line = (table.mark_height, table.mark_depth, table.mark_line)
-        part = _told(f"{path}: {where}.mark", marked, part, text, *line)
+        letters = (table.mark_height, table.mark_depth, table.mark_line)
+        part = _told(f"{path}: {where}.mark", marked, part, text, *letters)
     return part
 
 

@@ -9,7 +9,7 @@ from mechwright.errors import DesignError
 WHOLE_JOB = ("control", "tool_library", "post", "nest")
 """Keys of ``[cam]`` that hold for the whole job: one control reads its programs, from one set of tools."""
 
-ASKED = frozenset({"deburr", "mark", "mark_height", "mark_depth", "mark_line", "holes"})
+ASKED = frozenset({"deburr", "mark", "mark_height", "mark_depth", "mark_line", "fitting_marks", "holes"})
 """Keys that change the part itself, and say nothing of how it is cut."""
 
 _EXCLUSIVE = ({"margin"}, {"length", "width"})

@@ -164,6 +164,9 @@ class CamSettings(Parameters):
     mark_line: Millimetres = Field(
         0.6, ge=0.1, le=5, description="Greatest width of its lines; at least half of it is cut."
     )
+    fitting_marks: bool = Field(
+        False, description="Whether dots that show how parts stand to each other are engraved."
+    )
     ramp_angle: Degrees = Field(3.0, gt=0, le=45, description="Steepest ramp or helix entry.")
 
 

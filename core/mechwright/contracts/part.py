@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal, TypeGuard
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
+from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Arc, Loop, Outline
@@ -202,6 +203,9 @@ class Part:
         What a turned part looks like: it gets a drawing of it.
     bought
         What a part is ordered as that is not made.
+    marks
+        Signs that show how the part stands to its neighbours; the page of the assembly tells of them, and
+        they are engraved on request.
 
     Raises
     ------
@@ -220,6 +224,7 @@ class Part:
     details: tuple[Detail, ...] = ()
     turned: Turned | None = None
     bought: Bought | None = None
+    marks: tuple[FittingMark, ...] = ()
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")

@@ -29,12 +29,14 @@ def summary_html(
     design: str = "",
     files: Mapping[str, Sequence[str]] = MappingProxyType({}),
     bill: str = "",
+    guide: str = "",
 ) -> str:
     """The page of a whole job; it leads to the sheet of each program.
 
     For each program there are its job, itself and its proof, as for
     :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``files`` has the names of its files by its own name.
-    ``bill`` is the name of the bill of materials, where one is written.
+    ``bill`` is the name of the bill of materials, ``guide`` that of the page of the assembly, where they are
+    written.
     """
     rows = [
         _row(job, program, proof or {}, file_names(program, control.suffix, files.get(program.name, ())))
@@ -49,6 +51,7 @@ def summary_html(
             name=name,
             design=design,
             bill=bill,
+            guide=guide,
             table_words=control.table_words(tool_table) if tool_table else "",
             rows=rows,
             tools=_tools(programs, control),

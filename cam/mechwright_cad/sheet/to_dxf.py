@@ -14,7 +14,7 @@ from ezdxf.layouts.base import BaseLayout
 
 from mechwright.geometry.segments import Point
 from mechwright_cad.exporters.dxf import fixed_metadata, order_classes
-from mechwright_cad.turned_drawing.sheet import (
+from mechwright_cad.sheet.sheet import (
     ARROW,
     DASHES,
     HEIGHT,

@@ -4,7 +4,7 @@ Nothing in it depends on the day, the machine or its fonts: the same sheet gives
 can be selected.
 """
 
-from mechwright_cad.turned_drawing.sheet import (
+from mechwright_cad.sheet.sheet import (
     DASHES,
     SIZE,
     WIDTH,

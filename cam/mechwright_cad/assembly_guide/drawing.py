@@ -1,0 +1,97 @@
+"""The exploded view as a sheet: lines, balloons, and the list of items beside it (ISO 7573)."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import shapely
+
+from mechwright.arrays import Array
+from mechwright.contracts.part import Part
+from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
+from mechwright_cad.assembly_guide.pictures import Pictures
+from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
+from mechwright_cad.sheet.sheet import HEIGHT, Fill, Sheet, Stroke, Text
+
+SCALES = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+"""ISO 5455."""
+
+ROW = 6.0
+"""Height of a line of the list, mm."""
+
+COLUMNS = (10.0, 10.0, 45.0, 60.0)
+"""Widths of item, quantity, name, material or designation, mm."""
+
+_CORNERS = 24
+"""Of a ring."""
+
+
+def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], design: str) -> Sheet:
+    """The smallest sheet that holds the view, not smaller than half its size; A1 if none does."""
+    lines = pictures.view.lines(pictures.shifts)
+    x0, y0, x1, y1 = shapely.union_all(list(lines.values())).bounds
+    column = 4 * APART * HEIGHT
+    listed = {number: those for number, those in items.items() if any(part.instances for part in those)}
+    for paper in SHEETS:
+        wide = paper[0] - 2 * (MARGIN + EDGE) - sum(COLUMNS) - column
+        high = paper[1] - 2 * (MARGIN + EDGE)
+        fitting = [one for one in SCALES if one * (x1 - x0) <= wide and one * (y1 - y0) <= high]
+        holds = ROW * (len(listed) + 2) + TITLE[1] + 2 * MARGIN <= paper[1]
+        if holds and fitting and (fitting[0] >= SCALES[3] or paper is SHEETS[-1]):
+            break
+    scale = fitting[0] if fitting else SCALES[-1]
+    sheet = Sheet(*paper, scale)
+    middle = np.array((MARGIN + EDGE + (wide + column) / 2, MARGIN + EDGE + high / 2))
+    at = middle - scale * np.array(((x0 + x1) / 2, (y0 + y1) / 2))
+
+    def on(points: Array) -> list[tuple[float, float]]:
+        return [(float(x), float(y)) for x, y in scale * np.asarray(points) + at]
+
+    for some in lines.values():
+        for one in shapely.get_parts(some):
+            sheet.add(Stroke(tuple(on(shapely.get_coordinates(one)))))
+    for trace in pictures.traces():
+        sheet.add(Stroke(tuple(on(trace)), "CENTRE"))
+    numbers = {k: pictures.numbers[k] for k in pictures.plan.sequence}
+    ring = RADIUS * APART * HEIGHT
+    turn = np.linspace(0.0, 2 * np.pi, _CORNERS + 1)
+    circle = np.column_stack((np.cos(turn), np.sin(turn)))
+    for balloon in balloons(lines, numbers, HEIGHT / scale):
+        (place,), (tip,) = on(np.array([balloon.at])), on(np.array([balloon.tip]))
+        away = np.subtract(tip, place)
+        start = np.array(place) + ring * away / np.linalg.norm(away)
+        sheet.add(Stroke(((float(start[0]), float(start[1])), tip), "DIM"))
+        sheet.add(Fill(tuple((float(x), float(y)) for x, y in np.array(tip) + 0.6 * circle[:-1:6])))
+        sheet.add(Stroke(tuple((float(x), float(y)) for x, y in np.array(place) + ring * circle), "DIM"))
+        sheet.add(Text((place[0], place[1] - HEIGHT / 2), str(balloon.number), align="middle"))
+    _list(sheet, listed)
+    bodies = sum(len(part.instances) for those in listed.values() for part in those)
+    rows = (
+        (("Drawing", "assembly, exploded"), ("Scale", f"{ratio(scale)}, axonometric")),
+        (("Design", design), ("Sheet", "1 / 1")),
+        (("Items", f"{len(listed)}"), ("Bodies", f"{bodies}")),
+    )
+    frame(sheet, rows, ())
+    return sheet
+
+
+def _list(sheet: Sheet, items: Mapping[int, Sequence[Part]]) -> None:
+    """The list of items, from the title block upwards."""
+    x0, low = sheet.width - MARGIN - sum(COLUMNS), MARGIN + TITLE[1]
+    rows = [("Item", "Qty", "Name", "Material, or order as")]
+    for number, those in sorted(items.items()):
+        first = those[0]
+        rows.append(
+            (
+                str(number),
+                str(sum(len(part.instances) for part in those)),
+                ", ".join(part.name for part in those),
+                first.bought.designation if first.bought else first.material,
+            )
+        )
+    for k, row in enumerate(rows):
+        y, x = low + ROW * k, x0
+        for width, words in zip(COLUMNS, row, strict=True):
+            sheet.add(Text((x + 1.5, y + 1.8), words, height=2.5))
+            x += width
+        sheet.lines([(x0, y + ROW), (x, y + ROW)], "DIM")
+    sheet.lines([(x0, low), (x0, low + ROW * len(rows))], "DIM")

@@ -1,0 +1,104 @@
+"""How the mechanism is put together: page and drawing. Imports what reckons when they are made."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mechwright.build import Build, Page
+from mechwright.output.templates import templates
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
+    from mechwright_cad.assembly_guide.pictures import Pictures
+    from mechwright_cad.assembly_order.plan import Plan
+
+STEM = "assembly-drawing"
+"""Of the sheet's files."""
+
+HTML = "assembly.html"
+
+
+class AssemblyGuide(Page):
+    """The exploded view, the parts by their numbers, and the steps with pictures."""
+
+    name = "assembly-guide"
+    commands = frozenset({"model", "build"})
+    doing = "order of assembly"
+
+    def late(self, build: Build) -> bool:
+        """Whether a second process makes solids meanwhile."""
+        from mechwright_cad.making import Solids
+
+        return build.made(Solids).beside
+
+    def shown(self, build: Build) -> bool:
+        """Whether a build has this page."""
+        bodies = sum(len(part.instances) for part in build.parts)
+        return build.wanted.command in self.commands and bodies > 1
+
+    def files(self, build: Build) -> dict[str, str | bytes]:
+        """The page and the drawing; none for a mechanism of fewer than two bodies."""
+        if not self.shown(build):
+            return {}
+        from mechwright_cad.assembly_guide.drawing import assembly_sheet
+        from mechwright_cad.assembly_guide.pictures import Pictures
+        from mechwright_cad.assembly_order.plan import plan_of
+        from mechwright_cad.bill.items import items
+        from mechwright_cad.bill.page import order_of
+        from mechwright_cad.sheet.to_dxf import dxf
+        from mechwright_cad.sheet.to_pdf import pdf
+
+        plan, name = build.made(plan_of), build.design.name
+        numbered = items(build.parts, order_of(build))
+        pictures = Pictures(plan, {part.name: number for number, those in numbered.items() for part in those})
+        sheet = assembly_sheet(pictures, numbered, name)
+        return {
+            HTML: assembly_html(name, plan, numbered, pictures),
+            f"{STEM}.dxf": dxf(sheet),
+            f"{STEM}.pdf": pdf(sheet, f"{name}: assembly"),
+        }
+
+
+def assembly_html(
+    design: str, plan: "Plan", numbered: "Mapping[int, Sequence[Part]]", pictures: "Pictures"
+) -> str:
+    """The whole page."""
+    from mechwright_cad.assembly_guide.words import Words
+    from mechwright_cad.bill.page import HTML as BILL
+
+    words = Words(plan, {part.name: number for number, those in numbered.items() for part in those})
+    steps: list[dict[str, Any]] = []
+    for place, step in enumerate(plan.steps, start=1):
+        title = words.title(step)
+        steps.append(
+            {
+                "title": title,
+                "start": words.names(step.onto) if len(step.onto) == 1 else "",
+                "sentences": words.sentences(step),
+                "picture": pictures.step(step, f"Step {place}: {title}"),
+            }
+        )
+    parts = [
+        {
+            "number": number,
+            "qty": sum(len(part.instances) for part in those),
+            "name": ", ".join(part.name for part in those),
+            "what": those[0].bought.designation if those[0].bought else those[0].material,
+        }
+        for number, those in numbered.items()
+        if any(part.instances for part in those)
+    ]
+    return (
+        templates(Path(__file__).parent)
+        .get_template("page.html")
+        .render(
+            design=design,
+            steps=steps,
+            parts=parts,
+            exploded=pictures.exploded(),
+            bill=BILL,
+            drawing=f"{STEM}.pdf",
+            turned=plan.turned,
+            input=plan.motion.input_name,
+        )
+    )

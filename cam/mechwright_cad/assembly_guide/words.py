@@ -1,0 +1,186 @@
+"""What a step says: what goes where, with which tool, how tightly, and what to try at its end."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mechwright.contracts.joint import GROUND
+from mechwright_cad.assembly_guide.fits import Match, matches, rounds_of
+from mechwright_cad.assembly_guide.tools import fitted, screwed
+from mechwright_cad.assembly_order.groups import rigid
+from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.plan import Plan
+
+PRESS = "Press it in a vice or arbor press, with support right under the hole."
+"""How a press fit is made."""
+
+NEXT = 0.6
+"""How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
+
+LEVEL = 0.999
+"""Product of a way and the upright from which on it counts as upright, and as level below the rest of 1."""
+
+
+class Words:
+    """The sentences of a plan, with the numbers of its items."""
+
+    def __init__(self, plan: Plan, numbers: dict[str, int]) -> None:
+        self.plan, self.numbers = plan, numbers
+        self._heads = rigid(plan.motion)
+        self._said: set[frozenset[str]] = set()
+
+    def name(self, k: int) -> str:
+        """A body: its part and the number of its item."""
+        part = self.plan.bodies[k].part
+        return f"{part.name} ({self.numbers[part.name]})"
+
+    def names(self, those: Sequence[int]) -> str:
+        """Bodies, copies of one part counted."""
+        counted: dict[str, int] = {}
+        for k in those:
+            counted[self.name(k)] = counted.get(self.name(k), 0) + 1
+        words = [name if count == 1 else f"{count} x {name}" for name, count in counted.items()]
+        return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+    def main(self, step: Step) -> int:
+        """The body that a group is called by: the largest of it."""
+        return max(step.moved, key=lambda k: (self.plan.order.size(k), -k))
+
+    def title(self, step: Step) -> str:
+        """A heading."""
+        if step.way is None:
+            return f"{self.names(step.moved)}, brought together"
+        group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1
+        return f"The group of {self.name(self.main(step))}" if group else self.names(step.moved)
+
+    def sentences(self, step: Step) -> list[str]:
+        """What to do, in order; what to try stands last."""
+        if step.way is None:
+            return [
+                f"No straight way brings {self.names(step.moved)} together one after the other: tilt them "
+                "into each other, or take a joint apart."
+            ]
+        plan = self.plan
+        found = matches(plan.bodies, plan.sample, step.moved, step.onto)
+        said = [self._moves(step, found)]
+        said += dict.fromkeys(self._tight(match) for match in found if self._fast(match))
+        said += dict.fromkeys(filter(None, (screwed(plan.bodies[k].part) for k in step.moved)))
+        said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in step.moved)))
+        said += dict.fromkeys(mark.note for k in step.moved for mark in plan.bodies[k].part.marks)
+        said += self._tries(step, found)
+        return said
+
+    def _moves(self, step: Step, found: Sequence[Match]) -> str:
+        group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1
+        what = f"Put the group of {self.name(self.main(step))}" if group else f"Put {self.names(step.moved)}"
+        near = dict.fromkeys(k for match in found for k in (match.pin, match.hole) if k in step.onto)
+        if not near and self._leans(step):
+            touch = self.plan.order.standing.touch
+            near = {k: None for k in step.onto if any(touch(k, m) for m in step.moved)}
+        touched = near or self._below(step)
+        where = self.names(tuple(touched or (max(step.onto, key=self.plan.order.size),)))
+        pins = bool(found) and all(match.pin in step.moved for match in found) and not group
+        turned = len(touched) > 0 and all(self.plan.bodies[k].part.turned for k in step.moved)
+        how = "into" if pins or (turned and self._leans(step)) else "onto" if touched else "beside"
+        return f"{what} {how} {where}, {self.way(step)}."
+
+    def _below(self, step: Step) -> dict[int, None]:
+        """What a step would meet first if it went on."""
+        assert step.way is not None  # noqa: S101 - asked of steps with a way only
+        order, way = self.plan.order, np.array(step.way)
+        barred = order.table.barred(way)
+        ahead = {
+            k: min(order.ahead(k, way, low=True) - order.ahead(m, way, low=False) for m in step.moved)
+            for k in step.onto
+            if barred[list(step.moved), k].any()
+        }
+        if not ahead:
+            return {}
+        return {k: None for k, far in ahead.items() if far < min(ahead.values()) + NEXT}
+
+    def way(self, step: Step) -> str:
+        """In words whence it comes."""
+        assert step.way is not None  # noqa: S101 - asked of steps with a way only
+        x, y, z = step.way
+        if abs(z) > LEVEL:
+            return "from above" if z < 0 else "from below: turn the whole over, or hold it up"
+        if abs(z) < 1 - LEVEL:
+            side = {(-1, 0): "the right", (1, 0): "the left", (0, -1): "the back", (0, 1): "the front"}
+            return f"from {side[(round(x), round(y))]}" if max(abs(x), abs(y)) > LEVEL else "from the side"
+        return "along the axis that the picture shows"
+
+    def _fast(self, match: Match) -> bool:
+        one, two = (self._heads[self.plan.bodies[k].instance.body] for k in (match.pin, match.hole))
+        return one == two
+
+    def _tight(self, match: Match) -> str:
+        pin, hole = self.name(match.pin), self.name(match.hole)
+        least, most = (round(value, 4) + 0.0 for value in match.play)
+        if match.inside.threaded:
+            return f"{pin} screws into {hole}."
+        if not match.said:
+            return f"{pin} in {hole}: {match.text}, no fit is said; it has to sit fast, or is bonded."
+        if most <= 0:
+            return (
+                f"{pin} in {hole} is a press fit, {match.text}, {-most:.3f} to {-least:.3f} mm tight. {PRESS}"
+            )
+        if least < 0:
+            loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose"
+            return f"{pin} in {hole} is a push fit, {match.text}, {loose}: light blows, or warm {hole}."
+        play = f"with a play of {least:.3f} to {most:.3f} mm"
+        return f"{pin} slides in {hole}, {match.text}, {play}.{self._held(match)}"
+
+    def _held(self, match: Match) -> str:
+        """What keeps a pin from turning in a hole that it slides in."""
+        pin, hole = (self.plan.bodies[k].part for k in (match.pin, match.hole))
+        ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
+        keyed = pin.turned is not None and pin.turned.seats
+        if ring or keyed or pin.bought is not None or hole.bought is not None:
+            return ""
+        return " Nothing else holds it: secure it, with retaining compound if it stays for good."
+
+    def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
+        """What has to move by hand now, as it first can."""
+        there = {self._heads[self.plan.bodies[k].instance.body] for k in (*step.onto, *step.moved)}
+        for match in found:
+            if not self._fast(match):
+                pair = frozenset(
+                    self._heads[self.plan.bodies[k].instance.body] for k in (match.pin, match.hole)
+                )
+                if pair in self._said:
+                    continue
+                self._said.add(pair)
+                least, most = match.play
+                loose = f" with {least:.3f} to {most:.3f} mm of play, {match.text}" if match.said else ""
+                yield (
+                    f"Grease. Try: {self.name(match.pin)} and {self.name(match.hole)} turn freely on each "
+                    f"other by hand{loose}."
+                )
+        for joint in self.plan.motion.joints.values():
+            pair = frozenset((self._heads[joint.one], self._heads[joint.two]))
+            if joint.kind not in {"prismatic", "revolute", "gear"} or pair in self._said or len(pair) < 2:
+                continue
+            if pair <= there | {GROUND} and pair & {
+                self._heads[self.plan.bodies[k].instance.body] for k in step.moved
+            }:
+                if joint.kind == "revolute" and not (self._leans(step) and self._touch(step)):
+                    continue  # a pin that is put into its hole has been told of
+                self._said.add(pair)
+                said = {
+                    "prismatic": "slides freely on",
+                    "revolute": "turns freely on",
+                    "gear": "meshes freely with",
+                }
+                yield f"Try: {joint.two} {said[joint.kind]} {joint.one or 'the frame'}, by hand."
+
+    def _leans(self, step: Step) -> bool:
+        """Whether what comes has no round faces that are known: it stands askew in the assembly."""
+        return not any(rounds_of(self.plan.bodies[k], self.plan.sample) for k in step.moved)
+
+    def _touch(self, step: Step) -> bool:
+        heads = [self._heads[self.plan.bodies[k].instance.body] for k in range(len(self.plan.bodies))]
+        return any(
+            heads[one] != heads[two] and self.plan.order.standing.touch(one, two)
+            for one in step.moved
+            for two in step.onto
+        )

@@ -1,0 +1,116 @@
+"""Bodies that belong together: those that move as one and touch."""
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+import numpy as np
+import shapely
+from manifold3d import Manifold
+
+from mechwright.arrays import Array
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.motion import Motion
+from mechwright_cad.assembly_order.layers import UP, Layer, layers_of, mesh_points
+from mechwright_cad.bodies import Body
+from mechwright_cad.interference.surface import Surface
+
+TOUCHING = 0.1
+"""Bodies nearer to each other than this, mm, touch: less than any clearance that is meant to be one."""
+
+
+def rigid(motion: Motion) -> dict[str, str]:
+    """Every body of a motion to the name of the one that all that are fixed to it share."""
+    head = {name: name for name in (GROUND, *motion.poses)}
+
+    def find(name: str) -> str:
+        while head[name] != name:
+            name = head[name]
+        return name
+
+    for joint in motion.joints.values():
+        if joint.kind == "fixed":
+            one, two = find(joint.one), find(joint.two)
+            head[max(one, two)] = min(one, two)  # the ground's name is the least of all
+    return {name: find(name) for name in head}
+
+
+class Standing:
+    """The layers of all bodies where they stand at a sample, seen from above; and which of them touch."""
+
+    def __init__(self, bodies: Sequence[Body], sample: int) -> None:
+        found = [layers_of(body, sample, UP) for body in bodies]
+        self._layers = [layers or (_box(body, sample),) for body, layers in zip(bodies, found, strict=True)]
+        self._bodies, self._sample = bodies, sample
+        self._meshes: dict[int, Manifold | None] = {k: None for k, one in enumerate(found) if one is None}
+        self._known: dict[tuple[int, int], bool] = {}
+
+    def box(self, number: int) -> Array:
+        """The least and the greatest corner (2, 3) of the box round a body, mm."""
+        layers = self._layers[number]
+        x0, y0, x1, y1 = shapely.total_bounds([layer.shape for layer in layers])
+        return np.array(((x0, y0, layers[0].low), (x1, y1, max(layer.high for layer in layers))))
+
+    def touch(self, one: int, two: int) -> bool:
+        """Whether two bodies, by number, are nearer than ``TOUCHING``; each pair is looked at once."""
+        pair = (min(one, two), max(one, two))
+        if pair not in self._known:
+            self._known[pair] = self._look(*pair)
+        return self._known[pair]
+
+    def _mesh(self, number: int) -> Manifold:
+        known = self._meshes.get(number)
+        if known is None:
+            known = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
+            if number in self._meshes:
+                self._meshes[number] = known
+        return known
+
+    def _look(self, one: int, two: int) -> bool:
+        a, b = self.box(one), self.box(two)
+        if (a[0] > b[1] + TOUCHING).any() or (b[0] > a[1] + TOUCHING).any():
+            return False
+        if one in self._meshes or two in self._meshes:
+            first, second = self._mesh(one), self._mesh(two)
+            return bool(first.min_gap(second, 2 * TOUCHING) < TOUCHING)
+        return any(
+            first.low <= second.high + TOUCHING
+            and second.low <= first.high + TOUCHING
+            and shapely.dwithin(first.shape, second.shape, TOUCHING)
+            for first in self._layers[one]
+            for second in self._layers[two]
+        )
+
+
+def _box(body: Body, sample: int) -> Layer:
+    """A body of any form: all that its box holds."""
+    points, _ = mesh_points(body, sample)
+    (x0, y0, low), (x1, y1, high) = points.min(axis=0), points.max(axis=0)
+    return Layer(shapely.box(x0, y0, x1, y1), float(low), float(high))
+
+
+def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list[tuple[int, ...]]:
+    """The members in sets that bonds hold together, each in order.
+
+    >>> connected((1, 2, 3), [(1, 3)])
+    [(1, 3), (2,)]
+    """
+    head = {member: member for member in members}
+    for one, two in bond:
+        if one in head and two in head:
+            first, second = head[one], head[two]
+            low, high = min(first, second), max(first, second)
+            head = {member: low if of == high else of for member, of in head.items()}
+    found: dict[int, list[int]] = {}
+    for member, of in head.items():
+        found.setdefault(of, []).append(member)
+    return [tuple(sorted(those)) for those in found.values()]
+
+
+def bonds(bodies: Sequence[Body], motion: Motion, standing: Standing) -> list[tuple[int, int]]:
+    """Pairs of bodies that move as one and touch."""
+    heads = rigid(motion)
+    return [
+        (one, two)
+        for one, two in combinations(range(len(bodies)), 2)
+        if heads[bodies[one].instance.body] == heads[bodies[two].instance.body] and standing.touch(one, two)
+    ]

@@ -1,0 +1,227 @@
+"""The order of assembly: the mechanism is taken apart in thought, and put together the other way round.
+
+Sought is always the least set of bodies that can leave, as one and in a straight line, what else is there.
+In the graph of who bars whom along a way, those are the strongly connected sets that no other set bars
+(Wilson and Latombe, Geometric reasoning about mechanical assembly, 1994). Groups that move as one are tried
+first, then single bodies; a group that has left is taken apart by itself.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components
+
+from mechwright.arrays import Array
+from mechwright.contracts.joint import GROUND
+from mechwright.contracts.motion import Motion
+from mechwright_cad.assembly_order.barred import Ways
+from mechwright_cad.assembly_order.groups import Standing, bonds, connected, rigid
+from mechwright_cad.assembly_order.layers import PARALLEL, UP, axis_of, own_layers
+from mechwright_cad.bodies import Body
+
+HOLDERS = frozenset({"ISO 4762", "ISO 10642", "ISO 4026", "ISO 7089", "DIN 471", "DIN 472"})
+"""Standards of what holds others: it comes off before them, and is put on right after."""
+
+Units = Sequence[tuple[int, ...]]
+"""Sets of bodies, by number."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """What is done at once.
+
+    Parameters
+    ----------
+    moved
+        Numbers of the bodies that go to their seats; with no ``way``, all that have to be brought together
+        otherwise.
+    onto
+        Numbers of those that stand there already, in the same group.
+    way
+        Unit vector along which they go, from outside to the seat.
+    """
+
+    moved: tuple[int, ...]
+    onto: tuple[int, ...]
+    way: tuple[float, float, float] | None
+
+
+@dataclass(frozen=True)
+class _Leaving:
+    """A set that can leave, along which way, and the groups that it is made of."""
+
+    bodies: tuple[int, ...]
+    way: Array
+    units: Units
+
+
+class Order:
+    """The order for bodies at a sample of a motion."""
+
+    def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int) -> None:
+        self.bodies, self.motion, self.sample = tuple(bodies), motion, sample
+        self.standing = Standing(bodies, sample)
+        self.table = Ways(bodies, sample)
+        self.heads = rigid(motion)
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """All steps; those of a group stand before the step in which it goes to its place."""
+        return tuple(self._together(tuple(range(len(self.bodies)))))
+
+    @property
+    def root(self) -> int | None:
+        """What all goes onto; None without bodies."""
+        return self._root(tuple(range(len(self.bodies)))) if self.bodies else None
+
+    @cached_property
+    def ways(self) -> tuple[Array, ...]:
+        """Ways that are tried, the best first: up and down, along axes of joints and of what is round."""
+        found: list[Array] = []
+        for axis in self._axes():
+            for way in (axis, -axis):
+                if not any(way @ other > 1 - PARALLEL for other in found):
+                    found.append(way)
+        return tuple(found)
+
+    def _axes(self) -> Iterator[Array]:
+        plates = [body for body in self.bodies if body.is_plate]
+        upright = [b for b in plates if abs(b.poses.rotation[self.sample][2, 2]) > 1 - PARALLEL]
+        if upright or not plates:
+            yield UP
+        for joint in self.motion.joints.values():
+            if joint.kind in {"revolute", "prismatic"}:
+                axis = np.array(joint.axis)
+                if joint.one != GROUND:
+                    axis = self.motion.poses[joint.one].rotation[self.sample] @ axis
+                yield axis if axis @ UP >= -PARALLEL else -axis
+        for body in self.bodies:
+            if body.is_plate or own_layers(body.part) is not None:
+                yield body.poses.rotation[self.sample][:, 2]
+            elif body.part.turned is not None:
+                yield body.poses.rotation[self.sample] @ axis_of(body.part)
+
+    @cached_property
+    def _bonds(self) -> list[tuple[int, int]]:
+        return bonds(self.bodies, self.motion, self.standing)
+
+    @cached_property
+    def _sizes(self) -> Array:
+        """Volume of a box round each body, mm³."""
+        return np.array(
+            [float(np.prod(np.ptp(self.standing.box(k), axis=0))) for k in range(len(self.bodies))]
+        )
+
+    def size(self, number: int) -> float:
+        """Volume of the box round a body, mm³."""
+        return float(self._sizes[number])
+
+    def ahead(self, number: int, way: Array, *, low: bool) -> float:
+        """How far along a way a body begins, or ends, mm; by the box round it."""
+        corners = np.array(np.meshgrid(*self.standing.box(number).T)).reshape(3, -1)
+        along = way @ corners
+        return float(along.min() if low else along.max())
+
+    def _root(self, members: tuple[int, ...]) -> int:
+        """What the others are put on: the largest that stands still, or the best of the lowest group.
+
+        The best is the one that touches most.
+        """
+        still = [k for k, body in enumerate(self.bodies) if self.heads[body.instance.body] == GROUND]
+        base = max(still, key=lambda k: (self._sizes[k], -k), default=-1)
+        if base in members:
+            return base
+        groups = connected(members, self._bonds)
+        boxes = [np.array([self.standing.box(k)[:, 2] for k in group]) for group in groups]
+        lowest = min(zip(groups, boxes, strict=True), key=lambda one: (one[1].min() + one[1].max(), one[0]))[
+            0
+        ]
+        touched = {k: sum(k in bond and set(bond) <= set(lowest) for bond in self._bonds) for k in lowest}
+        return max(lowest, key=lambda k: (touched[k], self._sizes[k], -k))
+
+    def _together(self, members: tuple[int, ...]) -> list[Step]:
+        if len(members) < 2:
+            return []
+        leaving = self._leaving(members)
+        if leaving is None:
+            return [Step(members, (), None)]
+        rest = tuple(k for k in members if k not in leaving.bodies)
+        way = tuple((-leaving.way + 0.0).round(9).tolist())
+        return [
+            *self._together(rest),
+            *self._together(leaving.bodies),
+            Step(leaving.bodies, rest, (way[0], way[1], way[2])),
+        ]
+
+    def _leaving(self, members: tuple[int, ...]) -> _Leaving | None:
+        """What leaves first: a shaft as one with the rings that it holds, a link by itself, if it can."""
+        groups, singles = connected(members, self._bonds), [(k,) for k in members]
+        root = self._root(members)
+        found = (
+            self._first(groups, root, self._shaft)
+            or self._first(singles, root, lambda units: len(units) == 1)
+            or self._first(groups, root, lambda _: True)
+            or self._first(singles, root, lambda _: True)
+            or self._sideways(members, root)
+        )
+        return found and (self._holder(members, found) or found)
+
+    def _first(
+        self, units: Sequence[tuple[int, ...]], root: int, fit: Callable[[Units], bool]
+    ) -> _Leaving | None:
+        """The best set along the best way along which one that fits can leave."""
+        for way in self.ways:
+            sets = [one for one in self._free(units, way) if fit(one.units) and root not in one.bodies]
+            if sets:
+                return min(sets, key=self._worth)
+        return None
+
+    def _holder(self, members: tuple[int, ...], leaving: _Leaving) -> _Leaving | None:
+        """A screw or a circlip that holds what is to leave, and can leave before it."""
+        for k in members:
+            bought = self.bodies[k].part.bought
+            if k in leaving.bodies or bought is None or bought.standard not in HOLDERS:
+                continue
+            if any(self.standing.touch(k, other) for other in leaving.bodies):
+                others = [other for other in members if other != k]
+                for way in self.ways:
+                    if not self.table.barred(way)[k, others].any():
+                        return _Leaving((k,), way, ((k,),))
+        return None
+
+    def _shaft(self, units: Units) -> bool:
+        """Whether a set is one group, or one with rings that it holds."""
+        *rings, _ = sorted(units, key=len)
+        return all(len(ring) == 1 and not self.bodies[ring[0]].is_plate for ring in rings)
+
+    def _worth(self, one: _Leaving) -> tuple[object, ...]:
+        """Few bodies first, then what stands highest, then the last."""
+        top = max(self.standing.box(k)[1, 2] for k in one.bodies)
+        return len(one.bodies), -round(top, 3), [-k for k in one.bodies]
+
+    def _free(self, units: Units, way: Array) -> Iterator[_Leaving]:
+        """The least sets that can leave the others along a way."""
+        if len(units) < 2:
+            return
+        barred = self.table.barred(way)
+        graph = np.array([[a is not b and barred[np.ix_(a, b)].any() for b in units] for a in units])
+        count, of = connected_components(graph, directed=True, connection="strong")
+        for which in range(count if count > 1 else 0):
+            inside = of == which
+            if not graph[np.ix_(inside, ~inside)].any():
+                those = tuple(unit for unit, is_in in zip(units, inside, strict=True) if is_in)
+                yield _Leaving(tuple(sorted(k for unit in those for k in unit)), way, those)
+
+    def _sideways(self, members: tuple[int, ...], root: int) -> _Leaving | None:
+        """A single body that can leave along an axis of its own: a key out of its seat."""
+        for k in members:
+            if k == root:
+                continue
+            turn = self.bodies[k].poses.rotation[self.sample]
+            others = [other for other in members if other != k]
+            for way in (turn[:, 0], -turn[:, 0], turn[:, 1], -turn[:, 1]):
+                if not self.table.barred(way)[k, others].any():
+                    return _Leaving((k,), way, ((k,),))
+        return None

@@ -1,0 +1,80 @@
+"""The plan of a build: its bodies, the steps in which they go together, and where the input stands."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from mechwright.build import Build
+from mechwright.contracts.motion import Motion
+from mechwright_cad.assembly_order.order import Order, Step
+from mechwright_cad.bodies import Body, bodies_of
+
+LOOKS = 13
+"""Positions of the input that are tried, both ends of its way included."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Bodies in the order of the parts, and steps; ``sample`` is where the input of ``motion`` stands."""
+
+    bodies: tuple[Body, ...]
+    steps: tuple[Step, ...]
+    motion: Motion
+    sample: int
+    order: Order
+
+    @property
+    def turned(self) -> bool:
+        """Whether the input has to be turned from its start before the mechanism goes together."""
+        return self.sample > 0
+
+    @property
+    def sequence(self) -> tuple[int, ...]:
+        """Numbers of the bodies in the order in which they come to hand."""
+        return sequence(self.steps, len(self.bodies), self.order.root)
+
+
+def plan_of(build: Build) -> Plan:
+    """The plan at the start of the motion; where that holds bodies fast, at the first place that does not."""
+    family, params = build.design.family, build.design.params
+    first = _at(build, family.solve(params, 2), 0)
+    if all(step.way is not None for step in first.steps):
+        return first
+    motion = family.solve(params, LOOKS)
+    for sample in range(1, LOOKS):
+        found = _at(build, motion, sample)
+        if all(step.way is not None for step in found.steps):
+            return found
+    return first
+
+
+def _at(build: Build, motion: Motion, sample: int) -> Plan:
+    bodies = tuple(bodies_of(build.parts, motion, sample))
+    order = Order(bodies, motion, sample)
+    return Plan(bodies, tuple(alike(order.steps, bodies)), motion, sample, order)
+
+
+def alike(steps: Sequence[Step], bodies: Sequence[Body]) -> list[Step]:
+    """Steps that follow each other and do the same with copies of one part as one step."""
+    found: list[Step] = []
+    for step in steps:
+        last = found[-1] if found else None
+        if (
+            last is not None
+            and last.onto
+            and last.way == step.way is not None
+            and set(step.onto) == {*last.onto, *last.moved}
+            and len(step.moved) == 1
+            and {bodies[k].part.name for k in last.moved} == {bodies[step.moved[0]].part.name}
+        ):
+            found[-1] = replace(last, moved=(*last.moved, *step.moved))
+        else:
+            found.append(step)
+    return found
+
+
+def sequence(steps: Sequence[Step], count: int, root: int | None = None) -> tuple[int, ...]:
+    """Bodies as they come to hand: what all goes onto, then what each group begins with and goes onto it."""
+    found: dict[int, None] = {} if root is None else {root: None}
+    for step in steps:
+        found |= dict.fromkeys((*step.onto, *step.moved))
+    return tuple(found | dict.fromkeys(range(count)))

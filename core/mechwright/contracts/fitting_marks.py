@@ -1,0 +1,67 @@
+"""Signs that show how parts stand to each other when they are put together."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from mechwright.contracts.details import Engraving
+from mechwright.errors import GeometryError
+from mechwright.geometry.segments import Point
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
+
+DOT = 0.5
+"""Radius of the ring that a dot is engraved as, mm."""
+
+_CORNERS = 12
+"""Of that ring."""
+
+
+@dataclass(frozen=True)
+class FittingMark:
+    """A sign on the top face of a part, and what it tells.
+
+    Parameters
+    ----------
+    note
+        A sentence for whoever puts the part in: which tooth goes into which space, at which position.
+    dots
+        Places on the top face, mm, in the part's coordinates. Without any the note alone is told.
+
+    Raises
+    ------
+    GeometryError
+        There is no note.
+    """
+
+    note: str
+    dots: tuple[Point, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.note.strip():
+            raise GeometryError("a fitting mark needs a note that says what it shows")
+
+
+def rings(mark: FittingMark) -> tuple[tuple[Point, ...], ...]:
+    """The dots as closed lines, mm."""
+    angles = [math.tau * k / _CORNERS for k in range(_CORNERS + 1)]
+    return tuple(
+        tuple((round(x + DOT * math.cos(a), 6), round(y + DOT * math.sin(a), 6)) for a in angles)
+        for x, y in mark.dots
+    )
+
+
+def engraved(part: "Part", depth: float = 0.2, line: float = 0.6) -> "Part":
+    """The plate with its dots engraved, ``depth`` mm deep in lines at most ``line`` mm wide.
+
+    Raises GeometryError for a depth that goes through the part.
+    """
+    strokes = tuple(ring for mark in part.marks for ring in rings(mark))
+    if not strokes:
+        return part
+    if depth >= part.thickness:
+        raise GeometryError(
+            f"dots {depth:g} mm deep go through part {part.name}, {part.thickness:g} mm thick"
+        )
+    return replace(part, details=(*part.details, Engraving("fitting-marks", strokes, depth, line)))

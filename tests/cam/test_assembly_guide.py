@@ -1,0 +1,195 @@
+"""The page of the assembly and its drawing: what is seen, what is said, and that it is the same every time."""
+
+import io
+import re
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from by_night import by_night
+
+from mechwright import Instance, Part
+from mechwright.build import Build, Wanted
+from mechwright.contracts.fits import hole_fit, shaft_fit
+from mechwright.contracts.motion import Channel, Motion, Poses
+from mechwright.contracts.turned import Step as Length
+from mechwright.contracts.turned import Turned, tube
+from mechwright.plugins.host import host
+from mechwright.standards.circlips import shaft_circlip
+from mechwright.standards.screws import screw
+from mechwright_cad.assembly_guide.balloons import APART, balloons
+from mechwright_cad.assembly_guide.exploded import Boxes, exploded, lifted
+from mechwright_cad.assembly_guide.fits import matches
+from mechwright_cad.assembly_guide.page import AssemblyGuide
+from mechwright_cad.assembly_guide.tools import fitted, screwed
+from mechwright_cad.assembly_guide.view import View
+from mechwright_cad.assembly_order.layers import frame_of
+from mechwright_cad.assembly_order.plan import plan_of
+from mechwright_cad.bill.page import order_of
+from mechwright_cad.bodies import bodies_of
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def turned(name, form, z=0.0, body="a"):
+    return Part(name, None, 0.0, "steel", (Instance(body, z),), turned=form)
+
+
+def standing(*parts):
+    names = {instance.body for part in parts for instance in part.instances}
+    still = Poses.planar(0.0, 0.0, np.zeros(2))
+    motion = Motion("t", {"t": Channel(np.zeros(2), "rad")}, dict.fromkeys(sorted(names), still))
+    return bodies_of(parts, motion)
+
+
+@pytest.fixture(scope="module")
+def crank_rocker():
+    with Build(EXAMPLES / "crank-rocker-finished.toml", host(), Wanted("model")) as build:
+        return AssemblyGuide().files(build), plan_of(build), order_of(build)
+
+
+def test_a_pin_hides_what_is_behind_it_and_a_ring_shows_its_hole():
+    bodies = standing(turned("near", tube(4.0, 20.0, 10.0)), turned("far", tube(6.0, 16.0, 7.0), 1.5, "b"))
+    view = View(bodies, 0)
+    alone = view.lines({0: np.zeros(3)})[0]
+    behind = view.lines({0: np.zeros(3), 1: -40.0 * view.frame[2]})
+    assert behind[0].length == pytest.approx(alone.length, rel=0.01)
+    assert behind[1].length == 0, "it is narrower all round"
+    before = view.lines({0: np.zeros(3), 1: 40.0 * view.frame[2]})
+    beside = view.lines({0: np.zeros(3), 1: 40.0 * view.frame[0]})
+    assert before[1].length == pytest.approx(beside[1].length, rel=0.02) != 0
+    assert before[0].length < 0.8 * alone.length
+    _, up, towards = view.frame
+    x0, y0, x1, y1 = alone.bounds
+    assert x1 - x0 == pytest.approx(20.0, abs=0.3), "a circle keeps its width"
+    assert y1 - y0 == pytest.approx(20 * towards[2] + 10 * up[2], abs=0.4), "and loses height by the slant"
+
+
+def test_boxes_of_the_exploded_view_do_not_overlap_along_any_axis(crank_rocker):
+    _, plan, _ = crank_rocker
+    boxes = Boxes(plan.bodies, plan.sample)
+    shifts = exploded(plan.steps, boxes, len(plan.bodies))
+    for step in plan.steps:
+        way = np.array(step.way)
+        for one in step.moved:
+            for two in step.onto:
+                a, b = boxes.across(one, way, shifts[one]), boxes.across(two, way, shifts[two])
+                beside = (a[1, :2] <= b[0, :2]).any() or (b[1, :2] <= a[0, :2]).any()
+                assert beside or a[1, 2] < b[0, 2], (plan.bodies[one].name, plan.bodies[two].name)
+        small = lifted(step, boxes)
+        assert all(np.allclose(small[k], 0.0) for k in step.onto)
+        assert frame_of(way) @ small[step.moved[0]] == pytest.approx(
+            (0.0, 0.0, -np.linalg.norm(small[step.moved[0]])), abs=1e-9
+        )
+
+
+def test_balloons_of_a_column_stand_apart_and_each_item_has_one():
+    lines = {k: shapely.MultiLineString([[(3.0 * k, 0.1 * k), (3.0 * k + 2, 0.1 * k)]]) for k in range(9)}
+    found = balloons(lines, {k: 1 + k // 2 for k in range(9)}, 2.0)
+    assert sorted(one.number for one in found) == [1, 2, 3, 4, 5]
+    x0, _, x1, _ = shapely.union_all(list(lines.values())).bounds
+    for side in (-1, 1):
+        column = sorted(one.at[1] for one in found if (one.at[0] > x1 if side > 0 else one.at[0] < x0))
+        assert column
+        assert all(np.diff(column) >= APART * 2.0 - 1e-9)
+
+
+def test_fits_say_whether_a_pin_is_pressed_pushed_or_runs():
+    def play(shaft, bore):
+        pin = turned("pin", Turned((Length(6.0, 10.0, shaft),)))
+        hole = turned("bush", tube(6.0, 12.0, 5.0, bore), 2.0, "b")
+        (match,) = matches(standing(pin, hole), 0, (0,), (1,))
+        return match
+
+    press = play(shaft_fit(6, "m6"), hole_fit(6, "P7"))
+    assert press.play[1] < 0
+    push = play(shaft_fit(6, "m6"), hole_fit(6, "H7"))
+    assert push.play == pytest.approx((-0.012, 0.008))
+    runs = play(shaft_fit(6, "f7"), hole_fit(6, "H7"))
+    assert runs.play == pytest.approx((0.010, 0.034))
+    assert runs.text == "⌀6 H7 / 6 f7"
+    assert not play(None, None).said
+    apart = standing(turned("pin", Turned((Length(6.0, 2.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))
+    assert matches(apart, 0, (0,), (1,)) == [], "it ends where the bush begins"
+    room = standing(turned("pin", Turned((Length(5.0, 9.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))
+    assert matches(room, 0, (0,), (1,)) == []
+
+
+def test_screws_have_their_key_and_torque_and_circlips_their_pliers():
+    bolt = Part("bolt", None, 0.0, "steel", bought=screw(4, 12).bought)
+    assert "hexagon key 3 mm" in screwed(bolt)
+    assert "2.8 N m" in screwed(bolt)
+    grub = Part("grub", None, 0.0, "steel", bought=screw(4, 6, "set").bought)
+    assert "hexagon key 2 mm" in screwed(grub)
+    assert "N m" not in screwed(grub)
+    clip = Part("clip", None, 0.0, "steel", bought=shaft_circlip(10).bought)
+    assert screwed(clip) == ""
+    assert "outer circlips" in fitted(clip)
+
+
+def test_the_page_has_every_step_and_item_and_asks_nobody(crank_rocker):
+    files, plan, order = crank_rocker
+    page = files["assembly.html"]
+    assert page.count('<li id="step-') == len(plan.steps)
+    assert page.count('type="checkbox"') == len(plan.steps)
+    assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+    listed = {int(n) for n in re.findall(r'<td class="n">(\d+)</td><td class="n">', page)}
+    assert {int(n) for n in re.findall(r'text-anchor="middle">(\d+)<', page)} == listed
+    assert len(listed) == len(order) - 1, "two pins are alike"
+    assert "press fit, ⌀6 N7" in page
+    assert page.index("bushing-ground") < page.index("The group of coupler")
+
+
+def test_colours_are_told_apart_by_everybody():
+    text = (Path(__file__).parents[2] / "cam/mechwright_cad/assembly_guide/page.html").read_text()
+    for block in re.findall(r":root \{([^}]*)\}", text):
+        colours = dict(re.findall(r"--(\w+): (#\w+)", block))
+        for ink in ("ink", "soft", "new"):
+            for ground in ("paper", "card"):
+                assert contrast(colours[ink], colours[ground]) >= 4.5, (ink, ground)
+
+
+def contrast(one, two):
+    """Of two colours (WCAG 2.2)."""
+
+    def light(text):
+        digits = text[1:] if len(text) == 7 else "".join(2 * c for c in text[1:])
+        parts = [int(digits[k : k + 2], 16) / 255 for k in (0, 2, 4)]
+        r, g, b = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+    low, high = sorted((light(one), light(two)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_the_drawing_has_the_items_and_is_sound(crank_rocker):
+    files, plan, _ = crank_rocker
+    document = ezdxf.read(io.StringIO(files["assembly-drawing.dxf"].decode()))
+    assert not document.audit().errors
+    words = [text.dxf.text for text in document.modelspace().query("TEXT")]
+    assert {"Item", "ground", "coupler", "pin-a, pin-b"} <= set(words)
+    assert str(len(plan.bodies)) in words, "the sum of the bodies"
+    assert files["assembly-drawing.pdf"].startswith(b"%PDF-1.4")
+
+
+def test_the_same_design_gives_the_same_bytes(crank_rocker):
+    with Build(EXAMPLES / "crank-rocker-finished.toml", host(), Wanted("model")) as build:
+        assert AssemblyGuide().files(build) == crank_rocker[0]
+
+
+def test_a_single_body_needs_no_order():
+    with Build(EXAMPLES / "elliptic-pair.toml", host(), Wanted("cam")) as build:
+        assert not AssemblyGuide().shown(build)
+    with Build(EXAMPLES / "elliptic-pair.toml", host(), Wanted("model")) as build:
+        assert AssemblyGuide().shown(build)
+        assert "between the two dots" in AssemblyGuide().files(build)["assembly.html"]
+
+
+@pytest.mark.parametrize("name", [pytest.param("figure-eight-variable", marks=by_night)])
+def test_every_item_of_a_train_is_seen_in_the_exploded_view(name):
+    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
+        page = AssemblyGuide().files(build)["assembly.html"]
+    listed = {int(n) for n in re.findall(r'<td class="n">(\d+)</td><td class="n">', page)}
+    assert {int(n) for n in re.findall(r'text-anchor="middle">(\d+)<', page)} == listed
