@@ -4,9 +4,8 @@ import math
 from collections.abc import Iterator
 
 from mechwright import Finding, KinematicsError, Severity, Stage, of_stage
-from mechwright.contracts.finding import Change
-from mechwright.mechanics.linkage.clamp import least_stud
-from mechwright.mechanics.strength.bolts import CLAMP_SAFETY
+from mechwright.mechanics.linkage.clamp_findings import clamped, no_clamp, too_near
+from mechwright.mechanics.linkage.slots import gaps, point_gaps
 from mechwright.tolerances import exceeds, falls_short
 from mechwright_five_bar.hardware import clamp_of_design, turning_bore
 from mechwright_five_bar.hub import hub_of
@@ -69,106 +68,37 @@ def _chord(radius: float, degrees: float) -> float:
 @of_stage(Stage.PARTS)
 def places_apart(params: FiveBarParams) -> Iterator[Finding]:
     """Whether holes, slots and the point leave material between them in the coupler."""
-    ways, clamp = set_joints(params), clamp_of_design(params)
-    point, bore = params.coupler_point, turning_bore(params)
-    code = "five-bar.phases" if params.phases else "five-bar.bores"
-    if clamp is None and any(one.slot is not None for one in ways.values()):
-        least = least_stud()
-        yield Finding.error(
-            code,
-            "pin_diameter",
-            f"the phases need pivots in one place, so they are set in slots, and no screw clamps a stud of "
-            f"{params.pin_diameter:g} mm in plates of {params.thickness:g} mm",
-            params.pin_diameter,
-            least,
-            "mm",
-            f"take pins of {least:g} mm or more and plates of 6 mm, or pins so thin that each phase has "
-            "its holes",
-            proposed=({"parameters.pin_diameter": least, "parameters.thickness": 6.0},),
-        )
+    ways, bore, pin = set_joints(params), turning_bore(params), params.pin_diameter
+    if clamp_of_design(params) is None and any(one.slot is not None for one in ways.values()):
+        yield no_clamp("five-bar.phases", pin, params.thickness)
         return
-    gaps: list[tuple[float, float, str]] = []
-    for name, one in ways.items():
-        if one.slot is not None:
-            gaps.append(
-                (one.slot.distance(point), (one.slot.width + params.pin_diameter) / 2, f"slot {name}")
-            )
-        else:
-            gaps += [(abs(at - point), (bore + params.pin_diameter) / 2, f"hole {name}") for at in one.places]
     a, c = ways["A"], ways["C"]
-    if a.slot is not None and c.slot is not None:
-        gaps.append((a.slot.apart(c.slot), (a.slot.width + c.slot.width) / 2, "slots A and C"))
-    for one, two in ((a, c), (c, a)):
-        if one.slot is not None and two.slot is None:
-            gaps += [
-                (one.slot.distance(at), (one.slot.width + bore) / 2, "a slot and a hole") for at in two.places
-            ]
-    if a.slot is None and c.slot is None:
-        gaps += [(abs(x - y), bore, "holes A and C") for x in a.places for y in c.places]
-    for distance, halves, what in gaps:
-        needed = halves + params.rim
-        if falls_short(distance, needed):
-            between = what.startswith(("slots", "holes", "a slot"))
-            yield Finding.error(
-                code,
-                "phases" if params.phases else "coupler" if between else "coupler_point_x",
-                (f"the phases need pivots in one place: {what} are" if between and params.phases else
-                 f"{what} are" if between else f"{what} is")
-                + f" {distance:.4g} mm {'apart in the coupler' if between else 'from its point'}, and "
-                f"openings and rim need {needed:.4g} mm",
-                distance,
-                needed,
-                "mm",
-                "set the machine in another pose, or take smaller pins, bushings or rims"
-                if params.phases
-                else "move the point, lengthen the coupler, or take smaller pins, bushings or rims",
-                proposed=_smaller(params),
-            )  # fmt: skip
-            return
-
-
-def _smaller(params: FiveBarParams) -> tuple[Change, ...]:
-    return tuple(
-        {"parameters.pin_diameter": size, "parameters.rim": min(params.rim, size / 2)}
-        for size in (8.0, 6.0, 5.0, 4.0, 3.0)
-        if size < params.pin_diameter
+    own = [gap for one in (a, c) for gap in point_gaps(one, params.coupler_point, bore, pin)]
+    gap = min([*gaps(a, c, bore), *own], key=lambda gap: gap.land)
+    if not falls_short(gap.land, params.rim):
+        return
+    if params.phases:
+        yield too_near("five-bar.phases", gap, params.rim, pin)
+        return
+    yield Finding.error(
+        "five-bar.bores",
+        "coupler_point_x" if gap in own else "coupler",
+        f"{gap.what} are {gap.distance:.4g} mm apart in the coupler and leave less than the rim of "
+        f"{params.rim:g} mm",
+        gap.distance,
+        gap.walls + params.rim,
+        "mm",
+        "move the point, lengthen the coupler, or take smaller pins, bushings or rims",
     )
 
 
 @of_stage(Stage.PARTS)
 def clamps_hold(params: FiveBarParams) -> Iterator[Finding]:
-    """Whether screws are long enough, and friction more than what pulls."""
-    clamp, hub = clamp_of_design(params), hub_of(params)
-    if clamp is None:
-        return
-    peaks = peaks_of(params)
+    """Whether friction holds more than what pulls."""
+    clamp, hub, peaks = clamp_of_design(params), hub_of(params), peaks_of(params)
     for name in "AC":
-        if not slotted(params, name):
-            continue
-        force = CLAMP_SAFETY * peaks[f"force_{name}"].value
-        if exceeds(force, clamp.holds):
-            least = least_stud(force)
-            yield Finding.warning(
-                "five-bar.clamp",
-                "pin_diameter",
-                f"the clamp of {name} holds {clamp.holds:.4g} N by friction, and {CLAMP_SAFETY:g} times "
-                "the load is "
-                f"{force:.4g} N",
-                force,
-                clamp.holds,
-                "N",
-                "take thicker pins, whose screws are larger, a smaller load or a lower speed",
-                proposed=({"parameters.pin_diameter": least},) if math.isfinite(least) else (),
-            )
-        yield Finding.note(
-            "five-bar.clamp",
-            f"{name} is set in a slot {clamp.width:g} mm wide and clamped by an M{clamp.size.size:g}, "
-            "tightened with "
-            f"{clamp.tightening:.3g} N m; it holds {clamp.holds:.4g} N, and carries up to "
-            f"{force / CLAMP_SAFETY:.4g} N",
-            clamp.holds,
-            "N",
-        )
+        if clamp is not None and slotted(params, name):
+            yield from clamped("five-bar.clamp", name, clamp, peaks[f"force_{name}"].value)
     if hub is not None:
         torque, held = peaks["arm_torque"].value, hub.torque(params.pin_diameter)
         if exceeds(torque, held):

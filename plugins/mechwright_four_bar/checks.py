@@ -17,7 +17,7 @@ from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
-from mechwright_four_bar.phases import in_one_place
+from mechwright_four_bar.phase_checks import clamps_hold, places_apart
 from mechwright_four_bar.plates import bosses_of, hidden_point, layout_of, layout_or_none, sides_of
 from mechwright_four_bar.reach import (
     TURN_BACK,
@@ -51,16 +51,9 @@ BEARING_PRESSURE = 10.0
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(
-        params,
-        _joined,
-        _accelerates,
-        _turning,
-        _transmission,
-        _room,
-        _layers,
-        _figures,
-        _bearings,
-    )
+        params, _joined, _accelerates, _turning, _transmission, _room, places_apart, _layers, _figures,
+        _bearings, clamps_hold,
+    )  # fmt: skip
 
 
 def _joined(params: FourBarParams) -> Iterator[Finding]:
@@ -231,13 +224,11 @@ def _shorter_swing(params: FourBarParams) -> tuple[Change, ...]:
 def _room(params: FourBarParams) -> Iterator[Finding]:
     """Whether the bores of each plate leave material between them."""
     for name, bosses in bosses_of(params).items():
-        for one, two in combinations(bosses, 2):
+        plain = [boss for boss in bosses if boss.bore and not boss.tag.endswith("-spare")]
+        for one, two in combinations(plain, 2):
             distance = abs(one.centre - two.centre)
             needed = (one.bore + two.bore) / 2 + params.rim
             if not falls_short(distance, needed):
-                continue
-            if one.tag.endswith("-spare") or two.tag.endswith("-spare"):
-                yield in_one_place(params, one, two, distance, needed)
                 continue
             point = "coupler-point" in (one.tag, two.tag)
             yield Finding.error(

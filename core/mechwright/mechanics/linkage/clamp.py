@@ -81,7 +81,7 @@ def clamps(
     The screw goes ``engaged`` diameters deep at least, and not through. Empty where there is none.
 
     >>> [one.screw.bought.designation for one in clamps(8.0, 6.0, 8.0)]
-    ['ISO 4762 - M4 x 12 - 8.8', 'ISO 4762 - M3 x 10 - 8.8']
+    ['ISO 4762 - M5 x 12 - 8.8', 'ISO 4762 - M4 x 12 - 8.8', 'ISO 4762 - M3 x 10 - 8.8']
     """
     found = []
     for size in sorted(_sizes(), key=lambda one: -one.size):

@@ -23,6 +23,9 @@ SAME_PLACE = 0.01
 STEP = math.radians(10)
 """Between the bosses that carry the rim of a slot: their hull stands off the arc by 0.4 % of its radius."""
 
+ROUND = 1e-6
+"""Part of a step that a slot may be longer than whole steps: rounding, the same in every phase."""
+
 
 @dataclass(frozen=True)
 class ArcSlot:
@@ -72,7 +75,7 @@ class ArcSlot:
 
     def bosses(self, radius: float) -> tuple[Boss, ...]:
         """Discs without bores along the slot, so that a hull around them leaves its land all along, mm."""
-        steps = max(1, math.ceil(self.sweep / STEP))
+        steps = max(1, math.ceil(self.sweep / STEP - ROUND))
         more = self.radius * (1 - math.cos(self.sweep / steps / 2))
         return tuple(Boss(self.at(self.sweep * k / steps), radius + more) for k in range(steps + 1))
 
@@ -142,6 +145,44 @@ def setting(
     return Setting(
         name, tuple(kept), ArcSlot(centre, abs(kept[0] - centre), start, math.tau - gaps[widest], width)
     )
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Two openings of a plate: how far their middles are apart, and what their walls take of that, mm."""
+
+    what: str
+    distance: float
+    walls: float
+
+    @property
+    def land(self) -> float:
+        """What is left between both, mm."""
+        return self.distance - self.walls
+
+
+def gaps(one: Setting, two: Setting, bore: float) -> list[Gap]:
+    """Between the openings of two joints; holes have a diameter of ``bore``, mm."""
+    if one.slot is not None and two.slot is not None:
+        walls = (one.slot.width + two.slot.width) / 2
+        return [Gap(f"the slots of {one.name} and {two.name}", one.slot.apart(two.slot), walls)]
+    if one.slot is None and two.slot is not None:
+        one, two = two, one
+    if one.slot is not None:
+        walls = (one.slot.width + bore) / 2
+        what = f"the slot of {one.name} and a hole of {two.name}"
+        return [Gap(what, one.slot.distance(at), walls) for at in two.places]
+    what = f"holes of {one.name} and {two.name}"
+    return [Gap(what, abs(x - y), bore) for x in one.places for y in two.places]
+
+
+def point_gaps(one: Setting, point: complex, bore: float, point_bore: float) -> list[Gap]:
+    """Between the openings of a joint and a bore at a point, mm."""
+    if one.slot is not None:
+        walls = (one.slot.width + point_bore) / 2
+        return [Gap(f"the slot of {one.name} and the point", one.slot.distance(point), walls)]
+    what = f"a hole of {one.name} and the point"
+    return [Gap(what, abs(at - point), (bore + point_bore) / 2) for at in one.places]
 
 
 def _point(z: complex) -> Point:
