@@ -1,24 +1,14 @@
 """Synthesis of adjustable four-bars: one set of links whose pivots are set to a path per phase."""
 
 import math
-from dataclasses import dataclass, replace
 
 import numpy as np
 from pydantic import ValidationError
 
-from mechwright import Candidate, Finding, Progress, Rejected, Scalar, Synthesis
+from mechwright import Candidate, Progress, Rejected, Scalar, Synthesis
 from mechwright.contracts.finding import errors
-from mechwright.mechanics.adjustable import (
-    Limits,
-    Path,
-    Pins,
-    PlaneSpace,
-    Task,
-    Unknowns,
-    exact_number,
-    search,
-    settings_of,
-)
+from mechwright.mechanics.adjustable import PlaneSpace, settings_of
+from mechwright.mechanics.adjustable.machine import SAME, Machine, count_note, machines, missed, refusal
 from mechwright.mechanics.multistart import distinct
 from mechwright_four_bar.checks import GOOD_TRANSMISSION, findings
 from mechwright_four_bar.dimensions import FourBar
@@ -27,69 +17,21 @@ from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import in_phase
 from mechwright_four_bar.requirements import AdjustablePathRequirement
 
-INSIDE = 0.002
-"""Share by which limits are tightened in the search, where they are held by penalties: what it gives keeps
-them strictly."""
-
-MARGIN = math.radians(0.5)
-"""The same of the transmission angle, which the search looks at in a few places."""
-
-SAME = 1e-3
-"""Linkages whose unknowns agree to this are one."""
-
-TINY = 1e-9
-"""Distance, in sizes of the path, below which points are met: a millionth of what can be made."""
+MISSED = 'allow a larger tolerance, leave points out, set moves = "both", or use more starts'
 
 
-@dataclass(frozen=True)
-class Machine:
-    """One linkage with all its phases, mm.
-
-    Parameters
-    ----------
-    pins
-        Of all phases (phases,), in the pose of setting.
-    theta
-        Crank angles (n,) of the points from that pose, one array per phase, the pose itself first, rad.
-    misses
-        Distances (n,) of the points, one array per phase, mm.
-    """
-
-    pins: Pins
-    theta: tuple[np.ndarray, ...]
-    misses: tuple[np.ndarray, ...]
-
-    @property
-    def rms(self) -> float:
-        """Root mean square over all points, mm."""
-        return float(np.sqrt(np.mean(np.concatenate(self.misses) ** 2)))
-
-    def bar(self, phase: int) -> FourBar:
-        """Dimensions of a phase, from 0."""
-        a0, a, b0, c = (complex(getattr(self.pins, name)[phase]) for name in ("a0", "a", "b0", "c"))
-        side = PlaneSpace(0j).side(np.array(a), np.array(b0), np.array(c))
-        return FourBar(
-            abs(a - a0), abs(c - a), abs(c - b0), abs(b0 - a0), float(np.angle(b0 - a0)), int(side)
-        )
+def bar_in(one: Machine, phase: int) -> FourBar:
+    """Dimensions of a machine's phase, from 0."""
+    a0, a, b0, c = (complex(getattr(one.pins, name)[phase]) for name in ("a0", "a", "b0", "c"))
+    side = PlaneSpace(0j).side(np.array(a), np.array(b0), np.array(c))
+    return FourBar(abs(a - a0), abs(c - a), abs(c - b0), abs(b0 - a0), float(np.angle(b0 - a0)), int(side))
 
 
 def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Synthesis[FourBarParams]:
     """Machines whose coupler point follows all paths, each as one design per phase; the best first."""
-    size, path, unknowns = _scaled(wanted)
-    limits = Limits(
-        math.radians(wanted.least_transmission_angle) + MARGIN,
-        wanted.shortest_link * (1 + INSIDE) / size,
-        wanted.longest_link * (1 - INSIDE) / size,
-        wanted.full_turn,
-        wanted.least_chord * (1 + INSIDE) / size,
-    )
-    found = search(
-        path, unknowns, limits, wanted.starts, wanted.seed, lambda part: progress(0.9 * part, "linkages")
-    )
-    task, rejected = path.task(unknowns, limits), Rejected()
-    machines = [_machine(task, size, x, theta) for x, theta in zip(found.x, found.theta, strict=True)]
-    kept = [one for one in machines if _keeps(one, wanted, rejected)]
-    kept = [replace(one, misses=_rounded(one.misses, size)) for one in kept]
+    size, found = machines(wanted, 4, wanted.moves, 0.0, lambda part: progress(0.9 * part, "linkages"))
+    rejected = Rejected()
+    kept = [one.rounded(size) for one in found if _keeps(one, wanted, rejected)]
     kept.sort(key=lambda one: _rank(one, wanted))
     candidates: list[Candidate[FourBarParams]] = []
     given: list[np.ndarray] = []
@@ -109,46 +51,21 @@ def through_phases(wanted: AdjustablePathRequirement, progress: Progress) -> Syn
         if len(given) == wanted.designs:
             break
     progress(1.0, "done")
-    notes = [_count(wanted)]
+    notes = [count_note(wanted, 4, wanted.moves)]
     if not candidates:
-        return Synthesis((), (*notes, _refusal(machines, reason)), rejected.reasons)
+        return Synthesis((), (*notes, refusal(found, reason)), rejected.reasons)
     if candidates[0].residual.value > wanted.tolerance:
-        notes.append(_missed(wanted, candidates[0].residual.value))
+        notes.append(missed(wanted, candidates[0].residual.value, MISSED))
     return Synthesis(tuple(candidates), tuple(notes), rejected.reasons)
 
 
-def _scaled(wanted: AdjustablePathRequirement) -> tuple[float, Path, Unknowns]:
-    """Size of the paths, mm; the paths in it; and the unknowns."""
-    points = [np.array([complex(x, y) for x, y in one]) for one in wanted.phases]
-    whole = np.concatenate(points)
-    size = float(np.abs(whole - whole.mean()).max())
-    path = Path(tuple(one / size for one in points), 1.0)
-    return size, path, Unknowns(PlaneSpace(complex(path.phases[0][0])), 4, wanted.moves, len(points))
-
-
-def _machine(task: Task, size: float, x: np.ndarray, theta: np.ndarray) -> Machine:
-    pins = task.unknowns.pins(x)
-    off = np.linalg.norm(task.misses(x, theta), axis=-1) * size
-    phases = range(task.unknowns.phases)
-    return Machine(
-        Pins(*(getattr(pins, name) * size for name in Pins.__slots__)),
-        tuple(np.concatenate([[0.0], theta[task.phase == k]]) for k in phases),
-        tuple(np.concatenate([[0.0], off[task.phase == k]]) for k in phases),
-    )
-
-
-def _rounded(misses: tuple[np.ndarray, ...], size: float) -> tuple[np.ndarray, ...]:
-    """Misses, with what is rounding set to nothing: exact designs are then ranked by their transmission."""
-    return tuple(np.where(one < TINY * size, 0.0, one) for one in misses)
-
-
 def _bars(one: Machine) -> list[FourBar]:
-    return [one.bar(k) for k in range(len(one.theta))]
+    return [bar_in(one, k) for k in range(len(one.theta))]
 
 
 def _transmission(one: Machine, k: int, full: bool) -> float:
     """Least transmission angle of a phase, rad: over a turn, or as far as its points go."""
-    bar = one.bar(k)
+    bar = bar_in(one, k)
     if full:
         return bar.least_transmission_angle()
     start = float(np.angle(one.pins.a[k] - one.pins.a0[k])) - bar.ground_angle
@@ -168,10 +85,10 @@ def _rank(one: Machine, wanted: AdjustablePathRequirement) -> tuple[float, float
 def _keeps(one: Machine, wanted: AdjustablePathRequirement, rejected: Rejected) -> bool:
     """Whether a machine keeps the limits; one that does not is counted under the first that it breaks."""
     bars = _bars(one)
-    if not all(np.isfinite(np.concatenate([*one.misses, np.abs(one.pins.c)]))):
+    if not one.finite:
         return False
     lengths = [length for bar in bars for length in bar.lengths]
-    chords = _chords(one, wanted)
+    chords = one.chords
     broken = {
         "path.longest-link": (max(lengths) > wanted.longest_link, f"a link is {max(lengths):.4g} mm long"),
         "path.shortest-link": (min(lengths) < wanted.shortest_link, f"a link is {min(lengths):.4g} mm long"),
@@ -180,7 +97,7 @@ def _keeps(one: Machine, wanted: AdjustablePathRequirement, rejected: Rejected) 
             "the crank does not turn fully in all phases",
         ),
         "path.order": (
-            any(abs(theta[-1]) >= math.tau or (np.abs(np.diff(theta)) <= 0).any() for theta in one.theta),
+            not one.in_order,
             "points are passed out of their order, or not within one turn",
         ),
         "path.branch": (
@@ -201,17 +118,6 @@ def _keeps(one: Machine, wanted: AdjustablePathRequirement, rejected: Rejected) 
         rejected.because("path.transmission", f"the transmission angle falls to {angle:.3g} degrees")
         return False
     return True
-
-
-def _chords(one: Machine, wanted: AdjustablePathRequirement) -> list[float]:
-    """Distances between the places of each pivot that is set, mm."""
-    names = {"moving": ("a", "c"), "fixed": ("a0", "b0"), "both": ("a", "c", "a0", "b0")}[wanted.moves]
-    upper = np.triu_indices(len(one.theta), 1)
-    return [
-        float(apart)
-        for name in names
-        for apart in np.abs(getattr(one.pins, name)[:, None] - getattr(one.pins, name)[None, :])[upper]
-    ]
 
 
 def _designs(
@@ -237,7 +143,7 @@ def _table(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[str,
     """The table ``[parameters]`` that shows a phase, from 0."""
     settable = wanted.moves == "moving"
     own = 0 if settable else k
-    bar = one.bar(own)
+    bar = bar_in(one, own)
     a0, a, c, p = (complex(getattr(one.pins, name)[own]) for name in ("a0", "a", "c", "p"))
     point = (p - a) * (c - a).conjugate() / abs(c - a)
     table: dict[str, object] = {
@@ -271,7 +177,7 @@ def _table(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[str,
 def _figures(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[str, Scalar]:
     """What is to be said of a phase: its errors point by point, and crank and follower at each."""
     settings = settings_of(PlaneSpace(0j), one.pins)
-    bar, misses, theta = one.bar(k), one.misses[k], one.theta[k]
+    bar, misses, theta = bar_in(one, k), one.misses[k], one.theta[k]
     start = float(np.angle(one.pins.a[k] - one.pins.a0[k]))
     loop = close(bar, start + theta)
     follower = np.angle(loop.follower.direction)
@@ -282,7 +188,7 @@ def _figures(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[st
         "transmission_min": Scalar(_transmission(one, k, wanted.full_turn), "rad"),
         "crank_turned": Scalar(float(settings.crank[k]), "rad"),
         "follower_turned": Scalar(float(settings.follower[k]), "rad"),
-        "chord_min": Scalar(min(_chords(one, wanted), default=0.0), "mm"),
+        "chord_min": Scalar(min(one.chords, default=0.0), "mm"),
         "longest_link": Scalar(max(max(each.lengths) for each in _bars(one)), "mm"),
     }
     for number in range(len(misses)):
@@ -290,43 +196,3 @@ def _figures(one: Machine, k: int, wanted: AdjustablePathRequirement) -> dict[st
         figures[f"crank_angle_{number + 1}"] = Scalar(start + float(theta[number]), "rad")
         figures[f"follower_angle_{number + 1}"] = Scalar(float(follower[number]), "rad")
     return figures
-
-
-def _count(wanted: AdjustablePathRequirement) -> Finding:
-    """How the number of points compares with what can be met exactly."""
-    given = sum(len(points) for points in wanted.phases)
-    most = exact_number(4, wanted.moves, len(wanted.phases))
-    free = most - given
-    said = (
-        f"{given} points in {len(wanted.phases)} phases, and {most} can be met exactly with these pivots set"
-    )
-    if free > 0:
-        said += f": there is a family of linkages with {free} free parameters, of which a few are given"
-    elif free < 0:
-        said += f": {-free} too many, so they are met as nearly as can be"
-    return Finding.note("path.count", said, float(given), "")
-
-
-def _missed(wanted: AdjustablePathRequirement, residual: float) -> Finding:
-    return Finding.warning(
-        "path.missed",
-        "phases",
-        f"the best machine found misses the points by {residual:.4g} mm in the mean, more than the tolerance "
-        f"of {wanted.tolerance:g} mm",
-        residual,
-        wanted.tolerance,
-        "mm",
-        'allow a larger tolerance, leave points out, set moves = "both", or use more starts',
-    )
-
-
-def _refusal(machines: list[Machine], reason: str) -> Finding:
-    best = min((one.rms for one in machines if math.isfinite(one.rms)), default=math.inf)
-    said = reason or f"the nearest linkage misses the points by {best:.3g} mm and does not keep them"
-    return Finding.error(
-        "path.limits",
-        "phases",
-        f"within the limits no machine was found that can be built: {said}",
-        remedy="ask for a smaller least_transmission_angle, least_chord or shortest_link, a larger "
-        "longest_link, or more starts",
-    )

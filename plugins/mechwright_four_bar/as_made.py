@@ -6,6 +6,7 @@ from mechwright import AsMade, MadePart
 from mechwright.mechanics.linkage.made import Hole, MadeLink, joint, link, offset, stuck
 from mechwright.mechanics.linkage.made_error import EXACT, made_errors, room_figure
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import slotted
 from mechwright_four_bar.plates import bosses_of, joints_of, posts_of
 from mechwright_four_bar.tolerances import FourBarTolerances, lined_up
 
@@ -15,8 +16,8 @@ RULE = "(Σ ρ) / |N| + |Σ (∂/∂l) Δl|, every pin standing off in the worst
 def as_made(params: FourBarParams, made: Mapping[str, Sequence[MadePart]]) -> AsMade:
     """Judge the linkage with plates as made."""
     bosses = bosses_of(params)
-    if not set(bosses) <= set(made):
-        return AsMade()
+    if not set(bosses) <= set(made) or slotted(params, "A") or slotted(params, "B"):
+        return AsMade()  # where A or B is clamped, how well it is set says more than how it is made
     holes = {
         name: [Hole(boss.centre, boss.bore) for boss in own if boss.tag in ("A0", "A", "B", "B0")]
         for name, own in bosses.items()

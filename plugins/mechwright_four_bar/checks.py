@@ -15,6 +15,7 @@ from mechwright.tolerances import exceeds, falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.peaks import peaks_of
+from mechwright_four_bar.phase_checks import clamps_hold, places_apart
 from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none, sides_of
 from mechwright_four_bar.reach import (
     TURN_BACK,
@@ -49,16 +50,9 @@ BEARING_PRESSURE = 10.0
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(
-        params,
-        _joined,
-        _accelerates,
-        _turning,
-        _transmission,
-        room_findings,
-        _layers,
-        _figures,
-        _bearings,
-    )
+        params, _joined, _accelerates, _turning, _transmission, room_findings, places_apart, _layers,
+        _figures, _bearings, clamps_hold,
+    )  # fmt: skip
 
 
 def _joined(params: FourBarParams) -> Iterator[Finding]:

@@ -28,7 +28,8 @@ class FourBars(Family[FourBarParams]):
     def check(self, params: FourBarParams) -> Sequence[Finding]:
         """Closure, rotation of the crank, transmission angle, room for bores and webs, layers."""
         from mechwright_four_bar.checks import findings
-        from mechwright_four_bar.phases import in_phase, setting_findings
+        from mechwright_four_bar.phase_checks import setting_findings
+        from mechwright_four_bar.phases import in_phase
 
         own = tuple(setting_findings(params))
         if errors(own):

@@ -8,7 +8,7 @@ stand outside everything that moves.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from mechwright import GeometryError, Outline, Poses
 from mechwright.mechanics.linkage import (
@@ -23,8 +23,10 @@ from mechwright.mechanics.linkage import (
     stack,
     web_link,
 )
-from mechwright_four_bar.joints import HEAD, bosses, joints
+from mechwright_four_bar.joints import bosses, joints, raised
 from mechwright_four_bar.params import FourBarParams
+from mechwright_four_bar.phases import clamp_of_design, set_joints
+from mechwright_four_bar.sizes import HEAD
 
 FILLET = 5.0
 """Radius between web and boss, mm: end mills up to 10 mm go round it. Links too short for it get none."""
@@ -47,11 +49,18 @@ class Layout:
         The layers.
     posts
         Axes of the posts between two ground plates, x + i y in the ground's frame, mm; none with one plate.
+    raised
+        By how much plates stand over their layers' undersides, mm.
     """
 
     outlines: Mapping[str, Outline]
     stack: Stack
     posts: tuple[complex, ...] = ()
+    raised: Mapping[str, float] = field(default_factory=dict)
+
+    def bottom(self, plate: str) -> float:
+        """Height of a plate's underside, mm: over its layer's by the heads of studs below it."""
+        return self.stack.bottom(plate) + self.raised.get(plate, 0.0)
 
     @property
     def sides(self) -> int:
@@ -59,30 +68,35 @@ class Layout:
         return 2 if self.posts else 1
 
 
-def laid_out(params: FourBarParams, poses: Mapping[str, Poses], sides: int) -> Layout:
+def laid_out(params: FourBarParams, phases: Sequence[Mapping[str, Poses]], sides: int) -> Layout:
     """Plates and their layers with ground plates on that many sides.
 
     Parameters
     ----------
-    poses
-        Of all bodies over the motion, the ground's at rest in the origin.
+    phases
+        Poses of all bodies over the motion of each phase, the ground's at rest in the origin.
 
     Raises
     ------
     GeometryError
-        The bend of the coupler does not fit, the bores of the ground plate run into each other, or no order
-        of layers keeps all plates apart.
+        The bend of the coupler does not fit, the bores of the ground plate run into each other, no order of
+        layers keeps all plates apart, or a second ground plate would lie over clamps.
     """
-    own = bosses(params, sides)
+    own, up = bosses(params, sides), raised(params)
+    if sides == 2 and any(up.values()):
+        raise GeometryError("clamps of the coupler are set from above, where a second ground plate would lie")
     if sides == 1:
         one, two = own["ground"]
         if abs(two.centre - one.centre) < (one.bore + two.bore) / 2 + params.rim:
             raise GeometryError("the bores of one ground plate leave less than a rim between them")
     outlines = {name: link_outline(params, name, own[name]) for name in MOVING}
-    plates = [Plate(name, name, outline, params.thickness) for name, outline in outlines.items()]
+    plates = [
+        Plate(name, name, outline, params.thickness + up.get(name, 0.0)) for name, outline in outlines.items()
+    ]
     low, high = _corners(params, own)
     if sides == 2:
-        _, y0, _, y1 = Closeness(plates, (), poses, params.clearance).swept(MOVING)
+        bounds = [Closeness(plates, (), one, params.clearance).swept(MOVING) for one in phases]
+        y0, y1 = min(one[1] for one in bounds), max(one[3] for one in bounds)
         # The posts stand on whole millimetres outside of it.
         corner = _corner(params)
         low = complex(low.real, math.floor(min(y0 - corner, low.imag + corner)) - corner)
@@ -95,8 +109,28 @@ def laid_out(params: FourBarParams, poses: Mapping[str, Poses], sides: int) -> L
         layers = (0,) if name == "ground" else ()
         plates.append(Plate(name, "ground", outlines[name], params.ground_thickness, layers))
     posts = screws if sides == 2 else ()
-    found = stack(plates, _spindles(params, posts), poses, params.clearance, params.washer)
-    return Layout(outlines, found, posts)
+    return Layout(outlines, _dealt(params, plates, posts, phases), posts, up)
+
+
+def _dealt(
+    params: FourBarParams,
+    plates: Sequence[Plate],
+    posts: Sequence[complex],
+    phases: Sequence[Mapping[str, Poses]],
+) -> Stack:
+    """Layers of plates; a coupler with clamps is on top."""
+    spindles = _spindles(params, posts)
+    if not any(raised(params).values()):
+        return stack(plates, spindles, phases, params.clearance, params.washer)
+    faults: list[GeometryError] = []
+    for top in range(2, len(MOVING) + 1):
+        layers = {"coupler": (top,), "crank": tuple(range(1, top)), "follower": tuple(range(1, top))}
+        dealt = [replace(plate, layers=layers.get(plate.name, plate.layers)) for plate in plates]
+        try:
+            return stack(dealt, spindles, phases, params.clearance, params.washer)
+        except GeometryError as error:
+            faults.append(error)
+    raise faults[-1]
 
 
 def hidden(
@@ -120,10 +154,12 @@ def hidden(
 
 def _spindles(params: FourBarParams, posts: Sequence[complex]) -> list[Spindle]:
     radius, head = params.pin_diameter / 2, HEAD * params.pin_diameter / 2
-    found = []
+    clamp, found = clamp_of_design(params), []
     for name, one in joints(params, 2 if posts else 1).items():
         # What goes on above its plates covers others there as a head does.
         above = head if one.head else radius if one.above else 0.0
+        if one.stud and clamp is not None:
+            above = clamp.reach
         found.append(Spindle(name, one.body, one.place, radius, one.plates, above))
     for number, at in enumerate(posts, start=1):
         found.append(Spindle(f"post-{number}", "ground", at, _corner(params), ("ground", "ground-2"), head))
@@ -132,13 +168,16 @@ def _spindles(params: FourBarParams, posts: Sequence[complex]) -> list[Spindle]:
 
 def link_outline(params: FourBarParams, name: str, bosses: tuple[Boss, ...]) -> Outline:
     """Crank and follower straight, the coupler straight, bent or about its point."""
-    if name != "coupler" or (params.coupler_bend == 0 and len(bosses) == 2):
+    tags = [boss.tag for boss in bosses]
+    if name != "coupler" or (params.coupler_bend == 0 and tags == ["A", "B"]):
         return _straight(bosses, params.web_width)
     if params.coupler_bend != 0:
         one, two = bosses
         elbow = complex(params.coupler / 2, params.coupler_bend)
         return bent_link(one, two, elbow, params.web_width, FILLET, BEND * params.web_width)
-    return hull_link(bosses)
+    hull = hull_link(bosses)
+    slots = (one.slot.loop(f"{key}-slot") for key, one in set_joints(params).items() if one.slot is not None)
+    return Outline(hull.outer, (*hull.inner, *slots))
 
 
 def _straight(bosses: tuple[Boss, ...], width: float) -> Outline:

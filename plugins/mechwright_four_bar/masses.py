@@ -16,11 +16,11 @@ from mechwright.mechanics.linkage import (
 from mechwright.mechanics.planar import BodyMotion
 from mechwright.mechanics.planar.dynamics import GROUND, Forces, Link, Load, Pin, forces
 from mechwright_four_bar.dimensions import FourBar
-from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, turning_bore
 from mechwright_four_bar.loop import Loop
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import spare_holes
-from mechwright_four_bar.plates import joints_of, outlines_of, pin_length, sides_of, stack_of
+from mechwright_four_bar.phases import clamp_of_design
+from mechwright_four_bar.plates import bushed, joints_of, outlines_of, pin_length
+from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, turning_bore
 
 MILLI = 1e-3
 """Forces are computed in mN, from kg, mm and s."""
@@ -31,8 +31,11 @@ MICRO = 1e-6
 
 @kept
 def masses_of(params: FourBarParams) -> dict[str, Mass]:
-    """Mass of crank, coupler and follower with what is pressed into them, in their own frames."""
-    outlines, layers = outlines_of(params), stack_of(params)
+    """Mass of crank, coupler and follower with what is pressed into them, in their own frames.
+
+    Studs are the coupler's; their screws and washers are left out.
+    """
+    outlines, clamp = outlines_of(params), clamp_of_design(params)
     found = {
         name: [plate_mass(outlines[name], params.thickness, params.material)]
         for name in ("crank", "coupler", "follower")
@@ -41,16 +44,16 @@ def masses_of(params: FourBarParams) -> dict[str, Mass]:
     for name, joint in joints_of(params).items():
         if joint.body == "ground":
             continue
-        pin = [cylinder_mass(diameter, pin_length(params, layers, name), PIN_MATERIAL, joint.place)]
-        if joint.head:
-            pin.append(cylinder_mass(HEAD * diameter, HEAD_HEIGHT * diameter, PIN_MATERIAL, joint.place))
-        found[joint.body] += pin
+        body, place, bore = joint.body, joint.place, 0.0
+        if joint.stud and clamp is not None:
+            body, place, bore = "coupler", complex(params.coupler) if name == "pin-b" else 0j, clamp.size.size
+        length = pin_length(params, name)
+        pin = [cylinder_mass(diameter, length, PIN_MATERIAL, place, bore)]
+        if joint.head or joint.stud:
+            pin.append(cylinder_mass(HEAD * diameter, HEAD_HEIGHT * diameter, PIN_MATERIAL, place, bore))
+        found[body] += pin
     if params.bushing_wall > 0:
-        turning = [("coupler", 0j), ("coupler", complex(params.coupler))]
-        turning += [("coupler", at) for _, at in spare_holes(params)]
-        if sides_of(params) == 1:
-            turning.append(("follower", 0j))
-        for body, place in turning:
+        for body, place, _ in bushed(params).values():
             found[body].append(
                 cylinder_mass(
                     turning_bore(params),

@@ -1,22 +1,21 @@
-"""A four-bar that is set to several phases: its coupler has a hole for each pivot of each phase.
+"""A four-bar that is set to several phases: its coupler has a place for each pivot of each phase.
 
-In the pose of setting the coupler is held, the crank turns about A0 and the follower about B0 to the holes of
-the next phase. Crank, follower and ground are the same in all phases, and so is the coupler as a plate: only
-which of its holes are A and B changes.
+In the pose of setting the coupler is held, the crank turns about A0 and the follower about B0 to the places
+of the next phase. Crank, follower and ground are the same in all phases, and so is the coupler as a plate:
+only which of its places are A and B changes. Places that are far enough apart have a hole each, others one
+slot.
 """
 
 import cmath
 import math
-from collections.abc import Iterator
 
-from mechwright import Finding, KinematicsError, Severity, Stage, kept
-from mechwright.mechanics.linkage import Boss
+from mechwright import KinematicsError, kept
+from mechwright.mechanics.linkage.clamp import Clamp, clamps
+from mechwright.mechanics.linkage.slots import Setting, setting
 from mechwright_four_bar.dimensions import FourBar
 from mechwright_four_bar.loop import close
 from mechwright_four_bar.params import FourBarParams, PhaseTable
-
-SAME_HOLE = 0.01
-"""mm. Pivots nearer to each other are one hole: no drill places them apart."""
+from mechwright_four_bar.sizes import HEAD_HEIGHT, turning_bore
 
 
 @kept
@@ -56,79 +55,70 @@ def in_phase(params: FourBarParams) -> FourBarParams:
 
 
 @kept
+def phases_of(params: FourBarParams) -> tuple[FourBarParams, ...]:
+    """All phases as designs, that of ``params`` first; ``params`` shows its first phase."""
+    numbers = range(1, 2 + len(params.phases))
+    return tuple(in_phase(params.model_copy(update={"phase": number})) for number in numbers)
+
+
+def settings_of(params: FourBarParams) -> tuple[tuple[Setting, tuple[complex, ...]], ...]:
+    """How A and B are set in the coupler, in its frame of phase 1, and their places in all phases, mm.
+
+    ``params`` shows its first phase. Raises KinematicsError where the links cannot be joined in the pose of
+    setting.
+    """
+    if not params.phases:
+        return tuple(
+            (Setting(name, (at,)), (at,)) for name, at in (("A", 0j), ("B", complex(params.coupler)))
+        )
+    start, clamp = _pose(params), clamp_of_design(params)
+    rows = [_pivots(params, row, start) for row in (PhaseTable(), *params.phases)]
+    origin, end = rows[0]
+    turn = (end - origin).conjugate() / abs(end - origin)
+    bore = turning_bore(params)
+    width = clamp.width if clamp is not None else bore
+    found = []
+    for number, (name, centre) in enumerate((("A", 0j), ("B", pivot_b0(params)))):
+        places = tuple((row[number] - origin) * turn for row in rows)
+        one = setting(name, places, (centre - origin) * turn, bore, params.rim, width)
+        found.append((one, places))
+    return tuple(found)
+
+
+@kept
+def set_joints(params: FourBarParams) -> dict[str, Setting]:
+    """The settings by name; with single holes where the pose of setting cannot be joined."""
+    try:
+        return {one.name: one for one, _ in settings_of(params)}
+    except KinematicsError:
+        return {one.name: one for one, _ in settings_of(params.model_copy(update={"phases": ()}))}
+
+
+def slotted(params: FourBarParams, name: str) -> bool:
+    """Whether joint A or B is clamped in a slot."""
+    return set_joints(params)[name].slot is not None
+
+
+def clamp_of_design(params: FourBarParams) -> Clamp | None:
+    """The largest clamp for studs that reach from their heads through a link to the coupler, or None."""
+    length = params.thickness + params.washer + HEAD_HEIGHT * params.pin_diameter
+    return next(iter(clamps(params.pin_diameter, params.thickness, length)), None)
+
+
 def spare_holes(params: FourBarParams) -> tuple[tuple[str, complex], ...]:
     """The other phases' holes in the coupler, A or B and its place in the coupler's frame, mm.
 
     ``params`` shows its first phase. None where the links cannot be joined in the pose of setting.
     """
-    if not params.phases:
-        return ()
-    try:
-        start = _pose(params)
-    except KinematicsError:
-        return ()
-    origin, end = _pivots(params, PhaseTable(), start)
-    turn = (end - origin).conjugate() / abs(end - origin)
-    found: list[tuple[str, complex]] = [("A", 0j), ("B", complex(params.coupler))]
-    for row in params.phases:
-        for name, pivot in zip("AB", _pivots(params, row, start), strict=True):
-            at = (pivot - origin) * turn
-            if all(name != other or abs(at - place) > SAME_HOLE for other, place in found):
-                found.append((name, at))
-    return tuple(found[2:])
-
-
-def setting_findings(params: FourBarParams) -> Iterator[Finding]:
-    """Whether the machine can be set, and how; ``params`` as the design has them."""
-    if not params.phases:
-        return
-    try:
-        _pose(params)
-    except KinematicsError as error:
-        said, _, remedy = str(error).partition("; ")
-        yield Finding.error(
-            "four-bar.setting", "setting_angle", said.partition(": ")[2], params.setting_angle, unit="deg",
-            remedy=remedy,
-        )  # fmt: skip
-        return
-    a, b = params.crank, params.follower
-    for number, row in enumerate(params.phases, start=2):
-        yield Finding(
-            "four-bar.setting",
-            Severity.NOTE,
-            "phases",
-            f"phase {number}: turn the crank to {params.setting_angle:.6g} degrees in phase 1 and pin the "
-            f"coupler to the ground; free A, turn the crank by {row.crank_turn:+.6g} degrees and fasten A; "
-            f"free B, turn the follower by {row.follower_turn:+.6g} degrees and fasten B; draw the pins. The "
-            f"holes are {_chord(a, row.crank_turn):.4g} mm (A) and {_chord(b, row.follower_turn):.4g} mm (B) "
-            "from those of phase 1",
-            stage=Stage.PARTS,
-        )
-
-
-def in_one_place(params: FourBarParams, one: Boss, two: Boss, distance: float, needed: float) -> Finding:
-    """Holes of two phases that run into each other."""
-    pins = params.pin_diameter - (needed - distance) - 1e-3
-    remedy = f"take pins of at most {math.floor(pins * 10) / 10:g} mm, or smaller bushings or rims"
-    if pins < 1:
-        remedy = "turn crank and follower farther between the phases, or set the machine in another pose"
-    return Finding.error(
-        "four-bar.phases",
-        "phases",
-        f"the phases need pivots in one place: {one.tag[0]} and {two.tag[0]} of two of them are "
-        f"{distance:.4g} mm apart in the coupler, and bores and rim need {needed:.4g} mm"
-        if "coupler-point" not in (one.tag, two.tag)
-        else f"a pivot of one of the phases is {distance:.4g} mm from the coupler point, and bores and rim "
-        f"need {needed:.4g} mm",
-        distance,
-        needed,
-        "mm",
-        remedy,
+    return tuple(
+        (name, at) for name, one in set_joints(params).items() if one.slot is None for at in one.places[1:]
     )
 
 
-def _chord(radius: float, degrees: float) -> float:
-    return 2 * radius * abs(math.sin(math.radians(degrees) / 2))
+def pose_angles(params: FourBarParams) -> tuple[float, float]:
+    """Of crank and follower from X in the pose of setting, degrees."""
+    b = _pose(params) - pivot_b0(params)
+    return params.setting_angle or 0.0, math.degrees(cmath.phase(b))
 
 
 def pivot_b0(params: FourBarParams) -> complex:

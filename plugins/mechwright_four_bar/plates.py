@@ -9,17 +9,26 @@ from dataclasses import replace
 
 import numpy as np
 
-from mechwright import GROUND, Colour, GeometryError, Instance, Outline, Part, Poses, kept
+from mechwright import GROUND, Colour, GeometryError, Instance, KinematicsError, Outline, Part, Poses, kept
 from mechwright import Joint as Held
 from mechwright.contracts.joint import fixed
 from mechwright.mechanics.linkage import Boss, Stack, bushing_part, pin_part
+from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.planar import BodyMotion, Turning
-from mechwright_four_bar.joints import HEAD, HEAD_HEIGHT, Joint, bosses, joints, turning_bore
+from mechwright_four_bar.joints import Joint, bosses, joints
 from mechwright_four_bar.layout import Layout, hidden, laid_out
 from mechwright_four_bar.loop import close
+from mechwright_four_bar.marks import scales
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import spare_holes
-from mechwright_four_bar.reach import bar_of, course_of
+from mechwright_four_bar.phases import (
+    clamp_of_design,
+    phases_of,
+    settings_of,
+    slotted,
+    spare_holes,
+)
+from mechwright_four_bar.reach import bar_of, course_of, is_lever, within
+from mechwright_four_bar.sizes import HEAD, HEAD_HEIGHT, turning_bore
 
 BOLT = 1.5
 """Length of a post's bolt under the lower plate, in pin diameters: for a nut, or the machine's bed."""
@@ -63,15 +72,39 @@ def _layout(params: FourBarParams) -> Layout | str:
     """The layout, or why there is none, which is asked for as often."""
     faults = []
     try:
-        poses = _turn(params)
+        phases = _turns(params)
         for sides in TRIED[params.frame]:
             try:
-                return laid_out(params, poses, sides)
+                return laid_out(params, phases, sides)
             except GeometryError as error:
                 faults.append(str(error))
     except GeometryError as error:
         return str(error)
     return faults[0]
+
+
+def _turns(params: FourBarParams) -> list[dict[str, Poses]]:
+    """Poses of all plates in each phase, that of the design first; phases that do not move are left out."""
+    found = [_turn(params)]
+    if not params.phases:
+        return found
+    try:
+        shown, (a, b) = phases_of(params), (places for _, places in settings_of(params))
+    except KinematicsError:
+        return found
+    for number, other in enumerate(shown[1:], start=1):
+        bar = bar_of(other)
+        if not bar.closes or (within(other) is None if is_lever(other) else bar.lines_up):
+            continue
+        poses = _turn(other)
+        turned = poses["coupler"].rotation[:, 0, 0] + 1j * poses["coupler"].rotation[:, 1, 0]
+        # The plate's frame is that of the first phase.
+        direction = turned * abs(b[number] - a[number]) / (b[number] - a[number])
+        x, y = poses["coupler"].position[:, 0], poses["coupler"].position[:, 1]
+        place = np.asarray(x + 1j * y - a[number] * direction, dtype=np.complex128)
+        poses["coupler"] = Poses.planar(place.real, place.imag, np.asarray(np.angle(direction), dtype=float))
+        found.append(poses)
+    return found
 
 
 def _turn(params: FourBarParams) -> dict[str, Poses]:
@@ -181,62 +214,99 @@ def parts_of(params: FourBarParams) -> tuple[Part, ...]:
     GeometryError
         As :func:`layout_of`.
     """
-    layout = layout_of(params)
+    layout, marks = layout_of(params), scales(params)
     parts = [
         Part(
             name,
             layout.outlines[name],
             params.ground_thickness if name.startswith("ground") else params.thickness,
             params.material,
-            (Instance("ground" if name == "ground-2" else name, layout.stack.bottom(name)),),
+            (Instance("ground" if name == "ground-2" else name, layout.bottom(name)),),
             colour,
+            details=marks.get(name, ()),
         )
         for name, colour in COLOURS.items()
         if name in layout.outlines
     ]
     return (
         *parts,
-        *_pins(params, layout.stack),
-        *_bushings(params, layout.stack),
+        *_pins(params, layout),
+        *_bushings(params, layout),
+        *_clamps(params, layout),
         *_posts(params, layout.stack),
     )
 
 
-def pin_length(params: FourBarParams, layers: Stack, name: str) -> float:
-    """Length of a pin under its head, or of a shaft, mm."""
-    low, high = layers.spans[name]
+def pin_length(params: FourBarParams, name: str) -> float:
+    """Length of a pin under its head, of a stud over it, or of a shaft, mm."""
+    low, high = span_of(params, layout_of(params), name)
     one = joints_of(params)[name]
     return high - low + (one.below + one.above) * params.pin_diameter
 
 
-def _pins(params: FourBarParams, layers: Stack) -> list[Part]:
-    diameter = params.pin_diameter
+def span_of(params: FourBarParams, layout: Layout, name: str) -> tuple[float, float]:
+    """Heights of a pin's lower and upper end at its plates, mm: a stud ends under the coupler."""
+    low, high = layout.stack.spans[name]
+    if joints_of(params)[name].stud:
+        return low + HEAD_HEIGHT * params.pin_diameter, layout.bottom("coupler")
+    return low, high
+
+
+def _pins(params: FourBarParams, layout: Layout) -> list[Part]:
+    diameter, clamp = params.pin_diameter, clamp_of_design(params)
+    head = (HEAD * diameter, HEAD_HEIGHT * diameter)
     parts = []
     for name, joint in joints_of(params).items():
-        length = pin_length(params, layers, name)
-        instance = Instance(joint.frame, layers.spans[name][1] + joint.above * diameter - length)
-        head = (HEAD * diameter, HEAD_HEIGHT * diameter) if joint.head else (0.0, 0.0)
-        parts.append(pin_part(name, diameter, length, (instance,), *head))
+        length, (low, high) = pin_length(params, name), span_of(params, layout, name)
+        if joint.stud and clamp is not None:
+            at = Instance("coupler" if name == "pin-a" else "coupler-b", low - head[1])
+            parts.append(stud_part(name, diameter, length, head, clamp, at))
+            continue
+        instance = Instance(joint.frame, high + joint.above * diameter - length)
+        parts.append(pin_part(name, diameter, length, (instance,), *(head if joint.head else (0.0, 0.0))))
     return parts
 
 
-def _bushings(params: FourBarParams, layers: Stack) -> list[Part]:
+def bushed(params: FourBarParams) -> dict[str, tuple[str, complex, str]]:
+    """Frames of the bores of links that have a bushing: body, place in it, mm, and plate."""
+    found: dict[str, tuple[str, complex, str]] = {}
+    for name, own, frame, end in (
+        ("A", "coupler", "crank-a", ("crank", complex(params.crank))),
+        ("B", "coupler-b", "follower-b", ("follower", complex(params.follower))),
+    ):
+        if slotted(params, name):
+            found[frame] = (*end, end[0])
+        else:
+            found[own] = ("coupler", complex(params.coupler) if name == "B" else 0j, "coupler")
+    found |= {name: ("coupler", at, "coupler") for name, at in spare_frames(params).items()}
+    if sides_of(params) == 1:
+        found["follower"] = ("follower", 0j, "follower")
+    return found
+
+
+def _bushings(params: FourBarParams, layout: Layout) -> list[Part]:
     if params.bushing_wall == 0:
         return []
     bore, outside = params.pin_diameter + params.running_fit, turning_bore(params)
-    ends = ("coupler", "coupler-b", *spare_frames(params))
-    thin = [Instance(name, layers.bottom("coupler")) for name in ends]
-    thick = [Instance("ground", layers.bottom("ground"))]
+    thin = [Instance(name, layout.bottom(plate)) for name, (_, _, plate) in bushed(params).items()]
+    thick = [Instance("ground", layout.bottom("ground"))]
     if sides_of(params) == 2:
-        thick.append(Instance("ground-b0", layers.bottom("ground-2")))
-    else:
-        thin.append(Instance("follower", layers.bottom("follower")))
+        thick.append(Instance("ground-b0", layout.bottom("ground-2")))
     if params.thickness == params.ground_thickness:
         return [bushing_part("bushing", bore, outside, params.thickness, thin + thick)]
     return [
         bushing_part("bushing", bore, outside, params.thickness, thin),
         bushing_part("bushing-ground", bore, outside, params.ground_thickness, thick),
     ]
+
+
+def _clamps(params: FourBarParams, layout: Layout) -> list[Part]:
+    """Screws and washers on the coupler."""
+    clamp, top = clamp_of_design(params), layout.bottom("coupler") + params.thickness
+    frames = [frame for name, frame in (("A", "coupler"), ("B", "coupler-b")) if slotted(params, name)]
+    if clamp is None or not frames:
+        return []
+    return screw_parts("clamp", clamp, [Instance(frame, top) for frame in frames])
 
 
 def _posts(params: FourBarParams, layers: Stack) -> list[Part]:

@@ -6,10 +6,10 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mechwright import Parameters
+from mechwright.mechanics.adjustable.requirement import Coordinate, PhasedPath
 from mechwright.mechanics.planar.course import MOST_RATIO
 from mechwright.units import Degrees, Millimetres, Unit
 
-Coordinate = Annotated[float, Field(ge=-10000, le=10000), Unit("mm")]
 Turn = Annotated[float, Field(ge=-3600, le=3600), Unit("deg")]
 AccelerationRatio = Annotated[float, Field(ge=-MOST_RATIO, le=MOST_RATIO), Unit("")]
 
@@ -18,10 +18,6 @@ NEAREST_POLE = 0.01
 
 MOST_STARTS = 1_000_000
 """More random starts take minutes and find nothing new."""
-
-
-SAME_PLACE = 1e-6
-"""mm. Points nearer to each other than this are one: so much is lost in decimals."""
 
 
 class PathRequirement(Parameters):
@@ -89,7 +85,7 @@ _BEAN = (
 )
 
 
-class AdjustablePathRequirement(Parameters):
+class AdjustablePathRequirement(PhasedPath):
     """The table ``[requirement]`` of the kind ``adjustable-path``: one path per phase, on one machine.
 
     Examples
@@ -110,36 +106,6 @@ class AdjustablePathRequirement(Parameters):
         description="Pivots that are set: A and B on the coupler, A0 and B0 in the ground, or both; crank "
         "and follower keep their lengths.",
     )
-    full_turn: bool = Field(True, description="Whether the crank turns fully in every phase.")
-    tolerance: Millimetres = Field(
-        0.1, ge=0, le=100, description="Distance in the mean that counts as met; a worse design is a warning."
-    )
-    least_transmission_angle: Degrees = Field(
-        30.0, ge=1, le=80, description="Least transmission angle of the designs, in every phase."
-    )
-    longest_link: Millimetres = Field(500.0, ge=1, le=5000, description="Longest link, ground included.")
-    shortest_link: Millimetres = Field(15.0, ge=1, le=1000, description="Shortest link, ground included.")
-    least_chord: Millimetres = Field(
-        12.5,
-        ge=0,
-        le=500,
-        description="Least distance of the places of one pivot in two phases: bore and rim; 0 for any.",
-    )
-    starts: int = Field(2000, ge=100, le=100_000, description="Random linkages to try for the first phase.")
-    designs: int = Field(3, ge=1, le=20, description="Most machines to give; each has a design per phase.")
-    seed: int = Field(0, ge=0, le=1_000_000, description="Seed of the random starts.")
-
-    @model_validator(mode="after")
-    def _together(self) -> Self:
-        first = complex(*self.phases[0][0])
-        if any(abs(complex(*points[0]) - first) > SAME_PLACE for points in self.phases):
-            raise ValueError("phases begin at different points; all begin where the machine is set")
-        for number, points in enumerate(self.phases, start=1):
-            if len(set(points)) < len(points):
-                raise ValueError(f"phases: phase {number} holds a point twice; leave one out")
-        if self.shortest_link >= self.longest_link:
-            raise ValueError("shortest_link must be below longest_link")
-        return self
 
 
 class PolesRequirement(Parameters):

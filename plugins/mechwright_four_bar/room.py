@@ -10,7 +10,6 @@ from mechwright.tolerances import falls_short
 from mechwright_four_bar.joints import bosses
 from mechwright_four_bar.layout import link_outline
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import in_one_place
 from mechwright_four_bar.plates import TRIED, bosses_of
 
 
@@ -36,19 +35,21 @@ def above(value: float) -> str:
 def _crowded(params: FourBarParams, plates: dict[str, tuple[Boss, ...]]) -> dict[str, list[Finding]]:
     """The plates whose bores are too near to each other, with what there is to say."""
     found = {
-        name: [one for pair in combinations(own, 2) for one in _between(params, name, *pair)]
+        name: [one for pair in combinations(_plain(own), 2) for one in _between(params, name, *pair)]
         for name, own in plates.items()
     }
     return {name: some for name, some in found.items() if some}
+
+
+def _plain(plate: tuple[Boss, ...]) -> list[Boss]:
+    """The bosses with a bore that no other phase shares: places of phases are judged by themselves."""
+    return [boss for boss in plate if boss.bore and not boss.tag.endswith("-spare")]
 
 
 def _between(params: FourBarParams, name: str, one: Boss, two: Boss) -> Iterator[Finding]:
     distance = abs(one.centre - two.centre)
     needed = (one.bore + two.bore) / 2 + params.rim
     if not falls_short(distance, needed):
-        return
-    if one.tag.endswith("-spare") or two.tag.endswith("-spare"):
-        yield in_one_place(params, one, two, distance, needed)
         return
     point = "coupler-point" in (one.tag, two.tag)
     yield Finding.error(

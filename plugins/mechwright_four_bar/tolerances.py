@@ -20,7 +20,7 @@ import numpy as np
 
 from mechwright import Array, DesignError, Output, ToleranceModel, Tolerances
 from mechwright.mechanics.planar import Plane
-from mechwright_four_bar.loop import directions
+from mechwright.mechanics.planar.dyad import directions
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.plates import joints_of, sides_of
 from mechwright_four_bar.reach import bar_of, course_of

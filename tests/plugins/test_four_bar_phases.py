@@ -13,7 +13,7 @@ from mechwright.contracts.finding import errors
 from mechwright.designs.text import table_lines
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.phases import in_phase
+from mechwright_four_bar.phases import in_phase, set_joints, settings_of
 
 FACTS = {
     fact["name"]: fact
@@ -86,14 +86,69 @@ def test_the_chords_of_the_holes_are_told():
     assert not errors(FourBars().check(small()))
 
 
-def test_pivots_in_one_place_are_refused_with_what_helps():
-    close_by = ({"crank_turn": 12, "follower_turn": 14},)
-    found = errors(FourBars().check(small(phases=close_by, pin_diameter=6)))
+NEAR = ({"crank_turn": 12, "follower_turn": 14}, {"crank_turn": -9, "follower_turn": -6})
+
+
+def clamped(**changes) -> FourBarParams:
+    """Phases so near to each other that pins of 6 mm leave no land between holes."""
+    return reference(**({"phases": NEAR, "rim": 3, "clearance": 0.5, "speed": 30} | changes))
+
+
+def test_near_places_are_set_in_arc_slots_about_a0_and_b0():
+    params = clamped()
+    assert not errors(FourBars().check(params))
+    ways = set_joints(params)
+    a, b = ways["A"].slot, ways["B"].slot
+    assert (a.radius, b.radius) == pytest.approx((30, 80))
+    assert (math.degrees(a.sweep), math.degrees(b.sweep)) == pytest.approx((21, 20))
+    for one, places in settings_of(params):
+        assert max(one.slot.distance(place) for place in places) < 1e-9
+    parts = {part.name: part for part in FourBars().parts(params)}
+    assert sorted(len(loop.segments) for loop in parts["coupler"].outline.inner) == [1, 4, 4]
+    assert [detail.name for detail in parts["coupler"].details] == ["scale-a", "scale-b"]
+    assert parts["clamp-screw"].bought.standard == "ISO 4762"
+    # The studs turn on bushings of crank and follower, and their heads lie below these.
+    assert {one.body for one in parts["bushing"].instances} >= {"crank-a", "follower-b"}
+    head = parts["pin-a"].turned.steps[0].length
+    assert parts["pin-a"].instances[0].z + head == pytest.approx(parts["crank"].instances[0].z)
+    assert parts["coupler"].instances[0].z > parts["follower"].instances[0].z
+    said = [one.message for one in FourBars().check(params) if one.code == "four-bar.setting"]
+    assert "2. loosen the clamp of A, turn the crank by +12 degrees to 82 and fasten A" in said[0]
+
+
+def test_the_plates_of_a_clamped_machine_are_the_same_in_all_phases():
+    found = []
+    for phase in (1, 2, 3):
+        parts = {part.name: part for part in FourBars().parts(clamped(phase=phase))}
+        plates = {name: part for name, part in parts.items() if part.outline is not None}
+        found.append({
+            name: (part.outline.area, part.outline.outer.area, part.instances[0].z)
+            for name, part in plates.items()
+        })  # fmt: skip
+    for other in found[1:]:
+        for name, sizes in found[0].items():
+            assert other[name] == pytest.approx(sizes, rel=1e-9), name
+
+
+def test_slots_that_leave_no_land_to_the_point_are_refused():
+    found = errors(FourBars().check(clamped(coupler_point_x=1, coupler_point_y=7)))
     assert [one.code for one in found] == ["four-bar.phases"]
+    assert found[0].value < found[0].limit
     assert "pivots in one place" in found[0].message
-    assert found[0].value == pytest.approx(2 * 30 * math.sin(math.radians(6)))
-    mended = float(found[0].remedy.split("at most ")[1].split(" mm")[0])
-    assert not errors(FourBars().check(small(phases=close_by, pin_diameter=mended)))
+
+
+def test_pins_too_thin_for_a_clamp_are_refused_with_those_that_are_not():
+    close_by = ({"crank_turn": 5, "follower_turn": 4},)
+    found = errors(FourBars().check(small(phases=close_by)))
+    assert [one.code for one in found] == ["four-bar.phases"]
+    assert "no screw clamps a stud of 3 mm" in found[0].message
+    change = {key.removeprefix("parameters."): value for key, value in found[0].proposed[0].items()}
+    assert not errors(FourBars().check(small(phases=close_by, **change)))
+
+
+def test_a_second_ground_plate_over_clamps_is_refused():
+    found = errors(FourBars().check(clamped(frame="two")))
+    assert [one.code for one in found] == ["four-bar.layers"]
 
 
 def test_an_equal_pivot_is_one_hole():

@@ -66,6 +66,16 @@ class Shape:
     pieces: tuple[Revolve | Prism, ...]
     less: tuple[Revolve | Prism, ...] = ()
 
+    def turned_over(self) -> "Shape":
+        """The same upside down: what pointed up points down."""
+
+        def over(piece: Revolve | Prism) -> Revolve | Prism:
+            if isinstance(piece, Prism):
+                return Prism(piece.corners, -piece.high, -piece.low)
+            return Revolve(tuple((r, -z) for r, z in piece.profile[::-1]), piece.axis, piece.sweep)
+
+        return Shape(tuple(map(over, self.pieces)), tuple(map(over, self.less)))
+
     def solid(self) -> "cq.Solid":
         """One solid."""
         import cadquery as cq

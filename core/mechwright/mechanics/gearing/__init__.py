@@ -16,6 +16,7 @@ from mechwright.mechanics.gearing.pair import Pair
 from mechwright.mechanics.gearing.pitch_curve import Frame, PitchCurve
 from mechwright.mechanics.gearing.proof import MeshProof, prove_mesh
 from mechwright.mechanics.gearing.rack import SIDES, Rack
+from mechwright.mechanics.gearing.round import Round, RoundPair
 from mechwright.mechanics.gearing.teeth import Teeth
 
 __all__ = [
@@ -27,6 +28,8 @@ __all__ = [
     "Pair",
     "PitchCurve",
     "Rack",
+    "Round",
+    "RoundPair",
     "Teeth",
     "gear_loop",
     "mesh",

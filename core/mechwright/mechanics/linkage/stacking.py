@@ -52,7 +52,7 @@ class Stack:
 def stack(
     plates: Sequence[Plate],
     spindles: Sequence[Spindle],
-    poses: Mapping[str, Poses],
+    poses: Mapping[str, Poses] | Sequence[Mapping[str, Poses]],
     clearance: float,
     gap: float,
     neighbours: Sequence[tuple[str, str]] = (),
@@ -67,7 +67,7 @@ def stack(
     spindles
         What joins them.
     poses
-        Body to its poses over one turn, both ends included.
+        Body to its poses over one turn, both ends included; or one such for each phase of a machine.
     clearance
         Least distance in plan, mm, of what shares a height and does not touch by design.
     gap
@@ -83,8 +83,12 @@ def stack(
         There is no way; the message names the pairs that no layers keep apart.
     """
     choices = [plate.layers or tuple(range(1, max(2, len(plates)))) for plate in plates]
-    close = Closeness(plates, spindles, poses, clearance)
-    conflicts = _conflicts(plates, spindles, choices, close, {frozenset(pair) for pair in neighbours})
+    phases = [poses] if isinstance(poses, Mapping) else poses
+    pairs = {frozenset(pair) for pair in neighbours}
+    conflicts = _Conflicts(set(), {}, {})
+    for one in phases:
+        close = Closeness(plates, spindles, one, clearance)
+        conflicts = conflicts.joined(_conflicts(plates, spindles, choices, close, pairs))
     layer = _flattest(plates, spindles, choices, conflicts, together)
     if layer is None:
         raise GeometryError(_reason(plates, spindles, conflicts))
@@ -108,6 +112,18 @@ class _Conflicts:
     clashes: set[frozenset[str]]
     blocked: dict[str, set[str]]
     covered: dict[str, set[str]]
+
+    def joined(self, other: "_Conflicts") -> "_Conflicts":
+        """What may not stand together in either of two motions."""
+
+        def both(one: dict[str, set[str]], two: dict[str, set[str]]) -> dict[str, set[str]]:
+            return {name: one.get(name, set()) | two.get(name, set()) for name in (*one, *two)}
+
+        return _Conflicts(
+            self.clashes | other.clashes,
+            both(self.blocked, other.blocked),
+            both(self.covered, other.covered),
+        )
 
     def allow(self, layer: Mapping[str, int], ends: Mapping[str, tuple[int, int]]) -> bool:
         """Whether spindles that end in these layers meet none of their plates in between, nor above."""

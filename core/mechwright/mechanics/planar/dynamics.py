@@ -9,7 +9,8 @@ pin
 slide
     A joint along a direction that carries a normal force and a moment (two unknowns).
 drive
-    The moment from the ground that keeps one link moving as it does (one unknown).
+    The moment from the ground that keeps a link moving as it does (one unknown). Of links that gears turn
+    with each other each has its own; what the first one's shaft takes is their sum, each times its ratio.
 
 With the centre of mass G of a link, Σ F = m a_G and Σ (r - G) × F + Σ M = I α. A linkage with one degree of
 freedom and one drive has as many unknowns as equations.
@@ -105,28 +106,37 @@ class Forces:
         Name of a joint to its force (n,) on its body ``two``, mN.
     moments
         Name of a slide to its moment (n,) on its body ``two`` about the slide's place, mN mm.
-    drive
-        Moment (n,) of the ground on the driven link, mN mm.
+    drives
+        Driven link to the moment (n,) of the ground on it, mN mm.
     shaking
         Force (n,) of the moving links' inertia on the ground, - Σ m a_G, mN; the loads are not in it.
     """
 
     joints: dict[str, Plane]
     moments: dict[str, Array]
-    drive: Array
+    drives: dict[str, Array]
     shaking: Plane
+
+    @property
+    def drive(self) -> Array:
+        """Moment (n,) on the first driven link, mN mm."""
+        return next(iter(self.drives.values()))
 
     def scaled(self, factor: float) -> "Forces":
         """The same in another unit: with 1e-3 in N and N mm."""
         joints = {name: force * factor for name, force in self.joints.items()}
         moments = {name: moment * factor for name, moment in self.moments.items()}
-        return Forces(joints, moments, self.drive * factor, self.shaking * factor)
+        drives = {name: moment * factor for name, moment in self.drives.items()}
+        return Forces(joints, moments, drives, self.shaking * factor)
 
 
 def forces(
-    links: Sequence[Link], joints: Sequence[Pin | Slide], driven: str, loads: Sequence[Load] = ()
+    links: Sequence[Link],
+    joints: Sequence[Pin | Slide],
+    driven: str | Sequence[str],
+    loads: Sequence[Load] = (),
 ) -> Forces:
-    """Forces in all joints, and the moment that drives the link ``driven``.
+    """Forces in all joints, and the moments that drive the link ``driven``, or the links.
 
     Raises
     ------
@@ -146,17 +156,20 @@ def forces(
     """
     row = {link.name: 3 * number for number, link in enumerate(links)}
     count = 3 * len(links)
-    if 2 * len(joints) + 1 != count:
+    driving = (driven,) if isinstance(driven, str) else tuple(driven)
+    unknowns = 2 * len(joints) + len(driving)
+    if unknowns != count:
+        said = "a drive" if len(driving) == 1 else f"{len(driving)} drives"
         raise KinematicsError(
-            f"{len(links)} links give {count} equations, but {len(joints)} joints and a drive have "
-            f"{2 * len(joints) + 1} unknowns; the linkage needs one degree of freedom"
+            f"{len(links)} links give {count} equations, but {len(joints)} joints and {said} have "
+            f"{unknowns} unknowns; the linkage needs one degree of freedom for each drive"
         )
     named = {name for joint in joints for name in (joint.one, joint.two)} | {load.body for load in loads}
-    missing = (named | {driven}) - set(row) - {GROUND}
-    if missing or driven == GROUND:
-        raise KinematicsError(f"no moving link is called {', '.join(sorted(missing)) or driven}")
+    missing = (named | set(driving)) - set(row) - {GROUND}
+    if missing or GROUND in driving:
+        raise KinematicsError(f"no moving link is called {', '.join(sorted(missing)) or GROUND}")
     centres = {link.name: link.centre_motion for link in links}
-    matrix = _matrix(joints, centres, row, driven)
+    matrix = _matrix(joints, centres, row, driving)
     try:
         solved = np.linalg.solve(matrix, _right(links, loads, centres, row)[:, :, None])
     except np.linalg.LinAlgError as error:
@@ -173,7 +186,10 @@ def forces(
             (normal,) = _directions(joint, len(solution))
             found[joint.name], moments[joint.name] = one * normal, two
     shaking: Plane = -np.sum([link.mass * centres[link.name].acceleration for link in links], axis=0)
-    return Forces(found, moments, solution[:, -1], shaking)
+    drives: dict[str, Array] = {
+        name: solution[:, 2 * len(joints) + number] for number, name in enumerate(driving)
+    }
+    return Forces(found, moments, drives, shaking)
 
 
 def _right(
@@ -198,7 +214,10 @@ def _right(
 
 
 def _matrix(
-    joints: Sequence[Pin | Slide], centres: Mapping[str, PointMotion], row: Mapping[str, int], driven: str
+    joints: Sequence[Pin | Slide],
+    centres: Mapping[str, PointMotion],
+    row: Mapping[str, int],
+    driven: Sequence[str],
 ) -> Array:
     """What the unknowns of joints and drive do to each link, (n, 3 per link, unknowns)."""
     samples, count = next(iter(centres.values())).position.size, 3 * len(row)
@@ -214,7 +233,8 @@ def _matrix(
                 matrix[:, first + 2, column] = sign * _cross(lever, vector)
             if isinstance(joint, Slide):
                 matrix[:, first + 2, 2 * number + 1] = sign
-    matrix[:, row[driven] + 2, -1] = 1.0
+    for number, name in enumerate(driven, start=2 * len(joints)):
+        matrix[:, row[name] + 2, number] = 1.0
     return matrix
 
 

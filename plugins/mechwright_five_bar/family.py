@@ -1,0 +1,59 @@
+"""The family ``five-bar``."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from mechwright import Family, Finding, Parameters, refuse
+from mechwright.contracts.finding import errors
+from mechwright_five_bar.params import FiveBarParams
+from mechwright_five_bar.requirements import AdjustablePathRequirement
+
+if TYPE_CHECKING:
+    from mechwright import Motion, Part, Progress, Synthesis
+
+
+class FiveBars(Family[FiveBarParams]):
+    """A crank and an arm that gears turn with it drive a coupler and a rocker."""
+
+    name = "five-bar"
+    title = "Geared five-bar linkage"
+    summary = "A crank, an arm that gears turn with it, and a coupler that carries a point between them."
+    Params = FiveBarParams
+    requirements: ClassVar = {"adjustable-path": AdjustablePathRequirement}
+
+    def check(self, params: FiveBarParams) -> Sequence[Finding]:
+        """Closure, transmission angle, gears, room for holes and slots, layers, clamps, order of setting."""
+        from mechwright_five_bar.checks import findings
+        from mechwright_five_bar.clamp_checks import setting_findings
+        from mechwright_five_bar.phases import in_phase
+
+        own = tuple(setting_findings(params))
+        if errors(own):
+            return own
+        return (*findings(in_phase(params)), *own)
+
+    def solve(self, params: FiveBarParams, samples: int) -> "Motion":
+        """The turns of the crank that bring the linkage back, or its swing there and back."""
+        from mechwright_five_bar.motion import motion_of
+        from mechwright_five_bar.phases import in_phase
+
+        return motion_of(in_phase(params), samples)
+
+    def parts(self, params: FiveBarParams) -> "Sequence[Part]":
+        """Ground, gears and links as plates, their shafts, pins, studs, bushings, clamps and posts."""
+        from mechwright_five_bar.phases import in_phase
+        from mechwright_five_bar.plates import parts_of
+
+        refuse(self.check(params))
+        return parts_of(in_phase(params))
+
+    def synthesise(
+        self,
+        kind: str,  # noqa: ARG002 - there is one
+        requirement: Parameters,
+        progress: "Progress",
+    ) -> "Synthesis[FiveBarParams]":
+        """Machines whose coupler point follows a path in each of several phases."""
+        from mechwright_five_bar.adjustable_synthesis import through_phases
+
+        return through_phases(AdjustablePathRequirement.model_validate(requirement), progress)

@@ -1,0 +1,33 @@
+"""Sizes that plates and joints share: bores, heads, and the clamp that belongs to the pins."""
+
+from mechwright.mechanics.linkage.clamp import Clamp, clamps
+from mechwright_five_bar.params import FiveBarParams
+
+HEAD, HEAD_HEIGHT = 1.6, 0.3
+"""Diameter and height of a pin's head, in pin diameters: those of small rivets and clevis pins."""
+
+SHAFT = 3.0
+"""Length of the drive shaft below its gear, in pin diameters: room for a coupling."""
+
+
+def turning_bore(params: FiveBarParams) -> float:
+    """Diameter of a plate's bore in which a pin turns, with or without a bushing, mm."""
+    if params.bushing_wall > 0:
+        return params.pin_diameter + 2 * params.bushing_wall
+    return params.pin_diameter + params.running_fit
+
+
+def running_bore(params: FiveBarParams) -> float:
+    """Diameter of what a pin turns in, mm."""
+    return params.pin_diameter + params.running_fit
+
+
+def head_of(params: FiveBarParams) -> tuple[float, float]:
+    """Diameter and height of a head, mm."""
+    return HEAD * params.pin_diameter, HEAD_HEIGHT * params.pin_diameter
+
+
+def clamp_of_design(params: FiveBarParams) -> Clamp | None:
+    """The largest clamp for studs that reach from their heads through a link to the coupler, or None."""
+    length = params.thickness + params.washer + head_of(params)[1]
+    return next(iter(clamps(params.pin_diameter, params.thickness, length)), None)

@@ -1,0 +1,80 @@
+"""The motion of a design: channels, poses and figures over one period of the crank."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from mechwright import Channel, KinematicsError, Motion, Scalar, Stage, Trace
+from mechwright.contracts.finding import errors
+from mechwright.mechanics.planar.channels import point_channels, turning_channels
+from mechwright_five_bar.checks import findings
+from mechwright_five_bar.frames import frames_of, held_by, pivot_of
+from mechwright_five_bar.masses import MILLI, masses_of
+from mechwright_five_bar.params import FiveBarParams
+from mechwright_five_bar.peaks import JOINTS, carried, peaks_of, period_of, rate_peaks
+from mechwright_five_bar.reach import bar_of, course_of, is_lever, transmission_of
+
+
+def motion_of(params: FiveBarParams, samples: int) -> Motion:
+    """Sample the turns of the crank that bring the linkage back, or one swing there and back, ends included.
+
+    Forces and masses are those of the real parts, and left out where ``check`` finds that there can be none.
+
+    Raises
+    ------
+    KinematicsError
+        ``check`` finds an error of the motion; the message is that of the first one.
+    """
+    found = findings(params)
+    for finding in errors(found, Stage.MOTION):
+        raise KinematicsError(f"{finding.parameter}: {finding.message}; {finding.remedy}")
+    period = period_of(params, samples)
+    drive, bodies, loop = period.drive, period.bodies, period.loop
+    channels = {
+        "theta": Channel(drive.theta, "rad"),
+        "time": Channel(period.time, "s"),
+        "omega_a": Channel(drive.omega, "rad/s"),
+    }
+    if is_lever(params):
+        channels |= {"alpha_a": Channel(drive.alpha, "rad/s^2"), "jerk_a": Channel(drive.jerk, "rad/s^3")}
+    for name, angle, suffix in (("coupler", "sigma", "_c"), ("rocker", "psi", "_r"), ("arm", "phi", "_b")):
+        channels |= turning_channels(bodies[name].turning, angle, suffix)
+    cosine = (loop.coupler.direction * np.conj(loop.rocker.direction)).real
+    channels["transmission_angle"] = Channel(np.arccos(np.minimum(1.0, np.abs(cosine))), "rad")
+    point = params.coupler_point
+    moving = bodies["coupler"].point(point)
+    channels |= point_channels("P", replace(moving, position=moving.position + pivot_of(params)))
+    figures = _figures(params)
+    if not errors(found):
+        forces = carried(params, period)
+        for name in JOINTS:
+            channels[f"force_{name}"] = Channel(forces.joint(name), "N")
+        channels["shaking_force"] = Channel(np.asarray(np.abs(forces.forces.shaking)) * MILLI, "N")
+        channels["arm_torque"] = Channel(forces.arm_torque, "N*m")
+        channels["drive_torque"] = Channel(forces.drive, "N*m")
+        figures |= {f"{name}_max": value for name, value in peaks_of(params).items()}
+        figures |= {f"mass_{name}": Scalar(mass.mass, "kg") for name, mass in masses_of(params).items()}
+    else:
+        figures |= {f"{name}_max": value for name, value in rate_peaks(period_of(params).bodies).items()}
+    trace = Trace("coupler", (point.real, point.imag, 0.0))
+    return Motion("theta", channels, frames_of(params, bodies), figures, {"P": trace}, held_by(params))
+
+
+def _figures(params: FiveBarParams) -> dict[str, Scalar]:
+    least, greatest = transmission_of(params)
+    figures = {
+        "least_transmission_angle": Scalar(least, "rad"),
+        "greatest_transmission_angle": Scalar(greatest, "rad"),
+        "ratio": Scalar(params.ratio, ""),
+    }
+    if is_lever(params):
+        course = course_of(params)
+        ends = sorted((course.start, course.start + course.travel))
+        figures |= {
+            "swing_from": Scalar(math.degrees(ends[0]), "deg"),
+            "swing_to": Scalar(math.degrees(ends[1]), "deg"),
+        }
+    else:
+        figures["turns"] = Scalar(float(bar_of(params).turns), "")
+    return figures

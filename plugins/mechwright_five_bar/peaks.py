@@ -1,0 +1,68 @@
+"""One period of a design, and the peaks of its channels."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mechwright import Array, Scalar
+from mechwright.mechanics.planar import BodyMotion, Turning
+from mechwright_five_bar.loop import Loop, close
+from mechwright_five_bar.masses import MILLI, Carried, carried_of, masses_of, wheel_force
+from mechwright_five_bar.params import FiveBarParams
+from mechwright_five_bar.reach import bar_of, course_of
+
+PEAK_SAMPLES = 1441
+"""Positions per turn at which peaks are sought: four a degree."""
+
+JOINTS = ("A0", "A", "C", "B1", "B0")
+
+
+@dataclass(frozen=True)
+class Period:
+    """One period of the crank: times (n,), s, the crank, the links, and their motion over time."""
+
+    time: Array
+    drive: Turning
+    loop: Loop
+    bodies: dict[str, BodyMotion]
+
+
+def period_of(params: FiveBarParams, samples: int | None = None) -> Period:
+    """The period of a design whose links can be joined; by default as fine as peaks are sought."""
+    bar, course = bar_of(params), course_of(params)
+    if samples is None:
+        samples = math.ceil(PEAK_SAMPLES * max(1.0, abs(course.travel) / math.tau))
+    time, drive = course.period(samples, params.speed * math.tau / 60)
+    loop = close(bar, drive.theta)
+    return Period(time, drive, loop, loop.bodies(bar, drive))
+
+
+def carried(params: FiveBarParams, period: Period) -> Carried:
+    """Forces of a period; the parts can be made."""
+    return carried_of(params, bar_of(params), period.loop, period.bodies, masses_of(params))
+
+
+def peaks_of(params: FiveBarParams) -> dict[str, Scalar]:
+    """Largest sizes over a period of rates, joint forces and torques."""
+    period = period_of(params)
+    found = carried(params, period)
+    return {
+        **rate_peaks(period.bodies),
+        "drive_torque": most(found.drive, "N*m"),
+        "arm_torque": most(found.arm_torque, "N*m"),
+        "tooth_force": most(wheel_force(params, found.arm_torque), "N"),
+        "shaking_force": most(np.abs(found.forces.shaking) * MILLI, "N"),
+        **{f"force_{name}": most(found.joint(name), "N") for name in JOINTS},
+    }
+
+
+def rate_peaks(bodies: dict[str, BodyMotion]) -> dict[str, Scalar]:
+    """Largest sizes of the coupler's angular velocity and acceleration."""
+    turning = bodies["coupler"].turning
+    return {"omega_c": most(turning.omega, "rad/s"), "alpha_c": most(turning.alpha, "rad/s^2")}
+
+
+def most(values: Array, unit: str) -> Scalar:
+    """The largest size among values, in their unit."""
+    return Scalar(float(np.abs(values).max()), unit)

@@ -1,0 +1,143 @@
+"""The gears between crank and arm: sizes, where their axes stand, and how their teeth meet.
+
+A gear's frame has a tooth on its x axis. With the pitch point in the direction α from a gear at θ1, its mate
+has a space there where θ2 = α + π - π/z2 + (α - θ1) z1/z2.
+
+Glossary
+--------
+pinion, idler, wheel
+    On the crank's shaft, on a pin of the ground, on the arm's shaft.
+"""
+
+import cmath
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+from mechwright import GeometryError, kept
+from mechwright.geometry import Loop
+from mechwright.mechanics.gearing import Rack, Round, RoundPair, Teeth, gear_loop
+from mechwright_five_bar.params import FiveBarParams
+
+PRESSURE_ANGLE = math.radians(20)
+ADDENDUM, DEDENDUM, TIP_RADIUS = 1.0, 1.25, 0.38
+"""Basic rack of ISO 53, profile A, in modules."""
+
+IN_LINE = 1e-9
+"""Share of the ground by which a train may miss it: rounding of the module."""
+
+
+@dataclass(frozen=True)
+class Train:
+    """Lengths in mm; places x + i y in the ground's frame: origin A0, x to B0.
+
+    Parameters
+    ----------
+    module
+        Of all gears.
+    teeth
+        Of each gear, by name.
+    places
+        Its axis, by name, from the pinion to the wheel.
+    """
+
+    module: float
+    teeth: dict[str, int]
+    places: dict[str, complex]
+
+    def radius(self, name: str) -> float:
+        """Of the pitch circle."""
+        return self.module * self.teeth[name] / 2
+
+    def tip(self, name: str) -> float:
+        """Of the tip circle."""
+        return self.radius(name) + ADDENDUM * self.module
+
+    def root(self, name: str) -> float:
+        """Of the root circle."""
+        return self.radius(name) - DEDENDUM * self.module
+
+    def meshes(self) -> list[tuple[str, str]]:
+        """Pairs that mesh, the driver first."""
+        names = list(self.places)
+        return list(pairwise(names))
+
+    def angles(self, crank: float) -> dict[str, float]:
+        """Angles of all gears from the ground's x axis with the crank at an angle from it, rad."""
+        found = {"pinion": crank}
+        for one, two in self.meshes():
+            towards = cmath.phase(self.places[two] - self.places[one])
+            turn = (towards - found[one]) * self.teeth[one] / self.teeth[two]
+            found[two] = towards + math.pi - math.pi / self.teeth[two] + turn
+        return found
+
+    def ratio(self, name: str) -> float:
+        """Turns of a gear per turn of the crank."""
+        sign = -1 if list(self.places).index(name) % 2 else 1
+        return sign * self.teeth["pinion"] / self.teeth[name]
+
+    def pair(self, one: str, two: str) -> RoundPair:
+        """Two gears that mesh, for the proof of their teeth."""
+        return RoundPair.of(self.radius(one), self.radius(two), math.pi - math.pi / self.teeth[two])
+
+
+@kept
+def train_of(params: FiveBarParams) -> Train:
+    """The gears of a design.
+
+    Raises
+    ------
+    GeometryError
+        They do not fill the ground, or two that shall not mesh do; the message names the parameter.
+    """
+    ground = params.ground
+    if not params.idler_teeth:
+        fits = 2 * ground / (params.crank_teeth + params.arm_teeth)
+        module = fits if params.module is None else params.module
+        if abs(module - fits) > IN_LINE * ground:
+            raise GeometryError(
+                f"module: without an idler the gears fill the ground of {ground:g} mm with a module of "
+                f"{fits:g} "
+                f"mm, not {module:g}; leave module out, or give an idler"
+            )
+        teeth = {"pinion": params.crank_teeth, "wheel": params.arm_teeth}
+        return Train(module, teeth, {"pinion": 0j, "wheel": complex(ground)})
+    teeth = {"pinion": params.crank_teeth, "idler": params.idler_teeth, "wheel": params.arm_teeth}
+    least = 2 * ground / (params.crank_teeth + 2 * params.idler_teeth + params.arm_teeth)
+    module = least if params.module is None else params.module
+    if module < least * (1 - IN_LINE):
+        raise GeometryError(
+            f"module: gears of {module:g} mm do not reach over the ground of {ground:g} mm; their module "
+            "is at "
+            f"least {least:.6g} mm"
+        )
+    most = ground / ((params.crank_teeth + params.arm_teeth) / 2 + 2 * ADDENDUM + 1)
+    if module > most:
+        raise GeometryError(
+            f"module: with {module:.6g} mm the gears of crank and arm meet, which turn the same way; it is "
+            "at most "
+            f"{most:.6g} mm, or give the idler more teeth"
+        )
+    one, two = (module * (params.idler_teeth + z) / 2 for z in (params.crank_teeth, params.arm_teeth))
+    x = (ground**2 + one**2 - two**2) / (2 * ground)
+    aside = math.sqrt(max(0.0, one**2 - x**2)) if params.module is not None else 0.0
+    return Train(module, teeth, {"pinion": 0j, "idler": complex(x, -aside), "wheel": complex(ground)})
+
+
+def rack_of(params: FiveBarParams) -> Rack:
+    """The rack that makes all gears."""
+    m = train_of(params).module
+    return Rack(m, PRESSURE_ANGLE, ADDENDUM * m, DEDENDUM * m, TIP_RADIUS * m, params.backlash)
+
+
+@kept
+def gear_outlines(params: FiveBarParams) -> dict[str, Loop]:
+    """The toothed outside of each gear, in its frame."""
+    train, rack = train_of(params), rack_of(params)
+    return {name: _outside(train.radius(name), rack, count) for name, count in train.teeth.items()}
+
+
+@lru_cache(32)
+def _outside(radius: float, rack: Rack, count: int) -> Loop:
+    return gear_loop(Teeth(Round(radius), rack, count, 0.0))[0]

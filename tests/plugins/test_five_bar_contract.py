@@ -1,0 +1,56 @@
+"""The five-bar under the kit that third parties use."""
+
+from typing import ClassVar
+
+from mechwright.testing import FamilyContract
+from mechwright_five_bar.family import FiveBars
+
+LEVER = {
+    "crank": 100, "arm": 100, "coupler": 90, "rocker": 130, "ground": 125, "arm_angle": 3.5,
+    "coupler_point_x": 30, "coupler_point_y": 85, "swing_from": 83, "swing_to": -37,
+}  # fmt: skip
+"""The reference of the adjustable five-bars."""
+
+
+class TestFiveBars(FamilyContract):
+    family = FiveBars
+    examples = (
+        {},
+        {"idler_teeth": 0, "arm_teeth": 20, "direction": "cw", "pivot_x": 5, "module": 5.25, "crank": 12, "arm": 12},
+        {
+            **LEVER,
+            "setting_angle": 83,
+            "phases": [{"crank_turn": 6, "rocker_turn": -9, "swing_from": 89, "swing_to": -31}],
+            "phase": 2,
+        },
+    )  # fmt: skip
+    refused = (
+        ({"swing_from": 10}, "swing_to"),
+        ({"coupler": 10, "rocker": 20}, "coupler"),
+        ({"crank": 10}, "crank"),
+        ({"module": 2.0}, "module"),
+        ({"module": 3.2}, "module"),
+        ({"idler_teeth": 12}, "idler_teeth"),
+        ({"idler_teeth": 0, "module": 2.0}, "module"),
+        ({**LEVER, "swing_to": -150}, "swing_to"),
+        ({"coupler_point_x": 3, "coupler_point_y": 0}, "coupler_point_x"),
+    )
+    derivatives = (
+        ("theta", "omega_a"),
+        ("sigma", "omega_c"),
+        ("omega_c", "alpha_c"),
+        ("alpha_c", "jerk_c"),
+        ("psi", "omega_r"),
+        ("omega_r", "alpha_r"),
+        ("phi", "omega_b"),
+        ("omega_b", "alpha_b"),
+    )
+    input_rate = "omega_a"
+    samples = 721
+    variations: ClassVar = {
+        "ground_angle": (30,),
+        "load_x": (20,),
+        "module": (2.2,),
+        "phases": ([{"crank_turn": 40, "rocker_turn": 12}],),
+    }
+    requirements: ClassVar = {"adjustable-path": ({"starts": 400, "designs": 1},)}
