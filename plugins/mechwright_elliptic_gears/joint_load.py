@@ -2,7 +2,7 @@
 
 The power that goes through it is what the bodies behind it take up: T ω4 = J4 α4 ω4 + J5 α5 ω5 for the gears,
 m v·a + J ω6 α6 for the coupler, with v, a of its centre of mass. It grows with the square of the speed. Pins,
-shafts and friction are left out; ``MARGIN`` is for them and for what hangs on Q.
+shafts and friction are left out; the safety of a joint is for them and for what hangs on Q.
 """
 
 import math
@@ -18,9 +18,6 @@ from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.peak import Peak, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
-
-MARGIN = 2.0
-"""What a joint must bear over the greatest torque of inertia."""
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,15 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.holes import joined
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
 from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
 from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
-from mechwright_cad.interference.report import Collision, Gap, Instant, Report
+from mechwright_cad.interference.report import Collision, Gap, Instant, Report, settings_findings
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
 
 FEWEST_SAMPLES = 181
@@ -181,8 +182,25 @@ def _reach(parts: Sequence[Part]) -> float:
 def interference_findings(
     family: Family[Any], params: Parameters, parts: Sequence[Part], *, solids: bool
 ) -> list[Finding]:
-    """What the check says of the parts of a design whose own check found no error."""
+    """What the check says of the parts of a design whose own check found no error, in all its settings.
+
+    What is pressed or screwed into a hole of ``parts`` is meant to stand there: they are taken as they are.
+    """
     if sum(len(part.instances) for part in parts) < 2:
         return []
-    motion = faithful_motion(family, params, parts)
-    return list(interference(parts, motion, solids=solids).findings())
+    found = [*_report(family, params, parts, solids).findings()]
+    found += settings_findings(_settings(family, params, solids))
+    return found
+
+
+def _report(family: Family[Any], params: Parameters, parts: Sequence[Part], solids: bool) -> Report:
+    return interference(parts, faithful_motion(family, params, parts), solids=solids)
+
+
+def _settings(family: Family[Any], params: Parameters, solids: bool) -> dict[str, Report | list[Finding]]:
+    """What the machine is set to besides, and the report of each setting, or why it cannot be built."""
+    found: dict[str, Report | list[Finding]] = {}
+    for name, setting in family.settings(params).items():
+        wrong = errors(family.check(setting), Stage.PARTS)
+        found[name] = wrong or _report(family, setting, [joined(p) for p in family.parts(setting)], solids)
+    return found
