@@ -18,7 +18,6 @@ from mechwright_elliptic_gears.clamp import (
     clamp_of,
     least_thread,
     mark_of,
-    ring_and_length,
 )
 from mechwright_elliptic_gears.clamp_parts import scale_reach
 from mechwright_elliptic_gears.gear import rack_of
@@ -32,7 +31,7 @@ from mechwright_elliptic_gears.phase_checks import rounded_down, window_note
 def clamp_findings(params: EllipticGearParams) -> Iterator[Finding]:
     """Room for the clamp, room for its scale, torque, and the setting."""
     layout = Layout.of(params)
-    found = [*_length(params), *_room(params, layout)]
+    found = list(_room(params, layout)) or list(_length(params))
     yield from found
     if errors(found):
         return
@@ -58,7 +57,12 @@ def _length(params: EllipticGearParams) -> Iterator[Finding]:
     clamp, t = clamp_of(params), params.thickness
     if clamp.length is not None:
         return
-    fitting = [size for size in cap_screws() if ring_and_length(params, size)[1] is not None]
+    others = [params.model_copy(update={"clamp_screw": size}) for size in cap_screws()]
+    fitting = [
+        clamp_of(one).screw
+        for one in others
+        if clamp_of(one).length is not None and not any(_room(one, Layout.of(one)))
+    ]
     better = min(fitting, key=lambda size: abs(size - clamp.screw), default=None)
     bites, grip = least_thread(params, clamp.screw), clamp.ring + t + params.spacing
     if bites > t:
