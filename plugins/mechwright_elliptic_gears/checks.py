@@ -29,6 +29,7 @@ from mechwright_elliptic_gears.gear import (
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import prove
+from mechwright_elliptic_gears.strength_checks import strength_findings
 from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
 
@@ -70,6 +71,7 @@ def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
         train_findings,
         _drive,
         _mesh,
+        strength_findings,
         _figures,
     )
 

@@ -158,6 +158,11 @@ class EllipticGearParams(Parameters):
     speed: RevPerMin = Field(
         60.0, ge=0.001, le=20000, description="Constant speed of gear 2.", json_schema_extra=FIRST
     )
+    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+        0.0,
+        description="Constant torque against the turning of the last gear, 4 of a pair or 5 of a train.",
+        json_schema_extra=FIRST,
+    )
     point_along: Ratio = Field(
         0.5, ge=-1, le=2, description="Where point Q stands along the coupler: 0 at J, 1 at K."
     )

@@ -21,7 +21,7 @@ class Allowed:
     key
         Pressure of a key on the hub, one direction.
     root
-        At the root of a tooth, one direction, safety of 1.5 in it.
+        At the root of a tooth, one direction, with :data:`ROOT_SAFETY`.
     contact
         Hertz pressure of what runs for long.
     head
@@ -46,6 +46,9 @@ ALLOWED = {
 REVERSING_KEY, SHOCK_KEY, REVERSING_ROOT = 0.6, 0.5, 0.7
 """What is left where a torque changes its direction, or comes in shocks."""
 
+ROOT_SAFETY = 1.5
+"""That is in what a tooth's root bears."""
+
 PIN_SHEAR = {
     "steady": 80.0,
     "swelling": 60.0,
@@ -55,6 +58,9 @@ PIN_SHEAR = {
 }
 """Shear of pins, MPa: unhardened under three kinds of load, and hardened, of which half is left as well where
 the load changes its sign."""
+
+PIN_BENDING = 250.0
+"""MPa of a hardened dowel whose load turns over: a quarter of its strength."""
 
 
 def allowed(name: str) -> Allowed:
