@@ -34,7 +34,8 @@ def stud_findings(m: Mechanism) -> Iterator[Finding]:
     less = [Way("speed", params.speed, up=False), Way("load_inertia", params.load_inertia, up=False)]
     if params.load_torque:
         less.append(Way("load_torque", params.load_torque, up=False))
-    yield from judged("geneva.stud", params, stud_stresses, [pin, *less], said)
+    deep = Way("crank_thickness", params.crank_thickness)
+    yield from judged("geneva.stud", params, stud_stresses, [pin, deep, *less], said)
     yield from judged("geneva.stud-slope", params, stud_slopes, [pin, *less], said)
     key = [Way("thickness", params.thickness), Way("crank_thickness", params.crank_thickness), *less]
     yield from judged("geneva.key", params, key_stresses, key)

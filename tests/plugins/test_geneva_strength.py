@@ -49,15 +49,8 @@ def test_the_contact_gives_the_wheel_the_torque_that_it_takes():
         sizes = sized(Params(**table, load_torque=0.0))
         mechanism = mechanism_of(sizes)
         motion = Geneva().solve(Params(**table, load_torque=0.0), 7201)
-        alpha = (
-            max(abs(motion.channels["wheel_acceleration"].values))
-            if ("wheel_acceleration" in motion.channels)
-            else None
-        )
-        found = loads(mechanism).wheel_torque
-        assert found > 0
-        if alpha is not None:
-            assert found == pytest.approx(sizes.load_inertia * alpha, rel=2e-3)
+        alpha = np.abs(motion.channels["alpha_w"].values).max()
+        assert loads(mechanism).wheel_torque == pytest.approx(sizes.load_inertia * alpha, rel=2e-3)
     slow = sizes_of(load_torque=3.0, load_inertia=0.0)
     assert loads(mechanism_of(slow)).wheel_torque == pytest.approx(3.0)
 
