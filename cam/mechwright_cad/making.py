@@ -88,7 +88,7 @@ def collisions(design: Design, parts: "Sequence[Part]", *, solids: bool) -> list
     from mechwright_cad.interference import interference_findings
 
     met = [joined(part) for part in parts]
-    return interference_findings(design.solve, met, solids=solids)
+    return interference_findings(design, met, solids=solids)
 
 
 def motion_page(design: Design, parts: "Sequence[Part]", *, solids: bool) -> dict[str, bytes]:

@@ -121,7 +121,7 @@ def pairs_of(params: EllipticGearParams, made: Mapping[str, Sequence[MadePart]])
     for gear in gears_of(params):
         copies = made.get(gear.name, ())
         for number, (body, _) in enumerate(gear.bodies):
-            bores[body] = gear.bore or params.bore
+            bores[body] = params.bore if gear.seat is None else gear.seat.middle
             if copies:
                 bodies[body] = copies[min(number, len(copies) - 1)]
     wanted = [("gear-2", "gear-4")] if params.stages == 1 else [("gear-2", "gear-3"), ("gear-4", "gear-5")]

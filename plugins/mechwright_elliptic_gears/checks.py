@@ -38,6 +38,7 @@ from mechwright_elliptic_gears.gear import (
 from mechwright_elliptic_gears.kinematics import steepest_shaft_pressure_angle
 from mechwright_elliptic_gears.params import LEAST_MODULE, EllipticGearParams
 from mechwright_elliptic_gears.proof import prove
+from mechwright_elliptic_gears.strength_checks import strength_findings
 from mechwright_elliptic_gears.train_checks import train_findings
 from mechwright_elliptic_gears.undercut import undercut_findings
 
@@ -72,7 +73,7 @@ def judged(params: EllipticGearParams) -> tuple[Finding, ...]:
 
 @kept
 def _of_the_parts(params: EllipticGearParams) -> tuple[Finding, ...]:
-    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive)
+    checks = (_rack, undercut_findings, _tip, opening_findings, train_findings, _drive, strength_findings)
     return tuple(at_stage(Stage.PARTS, until_error(params, *checks)))
 
 

@@ -9,21 +9,18 @@ import math
 from dataclasses import dataclass
 
 from mechwright import kept
+from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
+from mechwright.mechanics.strength.allowed import allowed
+from mechwright.mechanics.strength.bolts import (
+    face_torque,
+    head_pressure,
+    preload,
+    stress_area,
+    tightening_torque,
+)
+from mechwright.standards.screws import ENGAGEMENT, ScrewSize, lengths, screw_size
 from mechwright_elliptic_gears.kinematics import phase_offset
-from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.screws import SCREWS
-
-YIELD = 640.0
-"""MPa, of screws of class 8.8 (ISO 898-1)."""
-
-TIGHTENED = 0.7
-"""Share of the yield that a screw is tightened to."""
-
-FRICTION = 0.12
-"""Of clean, dry metal, the low end; one face counts, as the ring may give by the play of its screws."""
-
-UNDER_HEAD = {"aluminium": 200.0, "brass": 250.0, "steel": 355.0, "pom": 40.0}
-"""MPa that the ring bears under the heads; screws are tightened no farther."""
+from mechwright_elliptic_gears.params import EllipticGearParams, cap_screws
 
 MARK = math.pi / 2
 """Direction of the ring's mark from the far vertex of gear 3, rad. The scale of phases up to half a turn then
@@ -37,6 +34,9 @@ HEAD_GAP = 0.5
 
 FACE = 4.0
 """Width of the friction face, mm."""
+
+LEAST_RING = 3.0
+"""Height of a ring, mm, below which it bends between its screws."""
 
 LETTER = 2.5
 """Height of the scale's numbers, mm."""
@@ -64,6 +64,8 @@ class Clamp:
         Radius of ring and flange.
     ring
         Height of the ring.
+    length
+        Of the screws as they are sold; None if none goes through the clamp and finds enough thread.
     """
 
     screw: float
@@ -72,26 +74,22 @@ class Clamp:
     register: float
     outside: float
     ring: float
+    length: float | None = None
 
     @property
-    def pitch(self) -> float:
-        """Of the thread."""
-        return SCREWS[self.screw][0]
-
-    @property
-    def head(self) -> tuple[float, float]:
-        """Diameter and height."""
-        return SCREWS[self.screw][1:3]
+    def of(self) -> ScrewSize:
+        """What belongs to the thread."""
+        return screw_size(self.screw)
 
     @property
     def hole(self) -> float:
         """Diameter of the clearance holes."""
-        return SCREWS[self.screw][3]
+        return self.of.clearance()
 
     @property
     def crown(self) -> float:
         """From gear 4 to the coupler: ring, heads, and a gap."""
-        return self.ring + self.head[1] + HEAD_GAP
+        return self.ring + self.of.head_height + HEAD_GAP
 
     @property
     def scale(self) -> float:
@@ -103,30 +101,65 @@ class Clamp:
         """Of the screws on gear 3, rad; none stands under the mark."""
         return [MARK + (i + 0.5) * math.tau / self.screws for i in range(self.screws)]
 
+    @property
+    def seat(self) -> Fit:
+        """Limits of gear 4's bore, which turns on the register while the clamp is open."""
+        return hole_fit(2 * self.register, "H7")
+
+    @property
+    def spigot(self) -> Fit:
+        """Limits of the register's outside."""
+        return shaft_fit(2 * self.register, "g6")
+
     def preload(self, material: str) -> float:
         """Force of a screw, N: what it bears, or the ring under its head."""
-        stress_area = math.pi / 4 * (self.screw - 0.9382 * self.pitch) ** 2
-        seat = math.pi / 4 * (self.head[0] ** 2 - self.hole**2)
-        return min(TIGHTENED * YIELD * stress_area, UNDER_HEAD[material] * seat)
+        force = preload(stress_area(self.screw, self.of.pitch))
+        return force * min(1.0, allowed(material).head / head_pressure(force, self.of.head, self.hole))
+
+    def tightening(self, material: str) -> float:
+        """Torque, N m, that gives a screw that force."""
+        return tightening_torque(self.preload(material), self.screw, self.of.pitch, self.of.head, self.hole)
 
     def torque(self, material: str) -> float:
-        """What the clamp holds by friction, N m: n F μ 2/3 (ro³ - ri³)/(ro² - ri²)."""
-        ro, ri = self.outside, self.register
-        mean = 2 / 3 * (ro**3 - ri**3) / (ro**2 - ri**2)
-        return self.screws * self.preload(material) * FRICTION * mean / 1000
+        """What the clamp holds by friction, N m.
+
+        One face counts, as the ring may give by the play of its screws.
+        """
+        return face_torque(self.preload(material), self.screws, self.outside, self.register)
 
 
 @kept
 def clamp_of(params: EllipticGearParams) -> Clamp:
     """As small as screws of that size allow; left out, four that are a third of the bore."""
-    screw = params.clamp_screw or max((size for size in SCREWS if 3 * size <= params.bore), default=2.0)
-    screws = params.clamp_screws or 4
-    head, hole = SCREWS[screw][1], SCREWS[screw][3]
-    beside = (head + HEAD_GAP) / (2 * math.sin(math.pi / screws))
+    sizes = cap_screws()
+    screw = params.clamp_screw or max((size for size in sizes if 3 * size <= params.bore), default=sizes[0])
+    screws, of = params.clamp_screws or 4, screw_size(screw)
+    hole = of.clearance()
+    beside = (of.head + HEAD_GAP) / (2 * math.sin(math.pi / screws))
     circle = _up(max(params.bore / 2 + (WALL + 0.5) * hole, beside))
     register = _up(circle + (WALL + 0.5) * hole)
-    outside = max(register + FACE, _up(circle + head / 2))
-    return Clamp(screw, screws, circle, register, outside, max(3.0, screw))
+    outside = max(register + FACE, _up(circle + of.head / 2))
+    return Clamp(screw, screws, circle, register, outside, *ring_and_length(params, screw))
+
+
+def ring_and_length(params: EllipticGearParams, screw: float) -> tuple[float, float | None]:
+    """Height of the ring and length of the screws, mm, for a thread.
+
+    The shortest screw that is sold and finds enough thread in gear 3. Where it would come out below, the ring
+    is made higher, so that it ends flush.
+    """
+    ring = max(LEAST_RING, screw)
+    grip = ring + params.thickness + params.spacing
+    bites = least_thread(params, screw)
+    sold = [length for length in lengths(screw) if length >= grip + bites]
+    if bites > params.thickness or not sold:
+        return ring, None
+    return ring + max(0.0, sold[0] - grip - params.thickness), float(sold[0])
+
+
+def least_thread(params: EllipticGearParams, screw: float) -> float:
+    """Length of thread, mm, that screws need in gear 3."""
+    return ENGAGEMENT[params.material] * screw
 
 
 def _up(radius: float) -> float:

@@ -7,22 +7,31 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.strength.bolts import CLAMP_SAFETY
+from mechwright.standards.screws import lengths
 from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
-from mechwright_elliptic_gears.clamp import HEAD_GAP, LETTER, SETTING, clamp_of, mark_of
+from mechwright_elliptic_gears.clamp import (
+    HEAD_GAP,
+    LETTER,
+    SETTING,
+    clamp_of,
+    least_thread,
+    mark_of,
+)
 from mechwright_elliptic_gears.clamp_parts import scale_reach
 from mechwright_elliptic_gears.gear import rack_of
-from mechwright_elliptic_gears.joint_load import MARGIN, greatest_torque
+from mechwright_elliptic_gears.joint_load import greatest_torque
 from mechwright_elliptic_gears.kinematics import phase_offset
 from mechwright_elliptic_gears.layout import SPACER, Layout
-from mechwright_elliptic_gears.params import EllipticGearParams
+from mechwright_elliptic_gears.params import EllipticGearParams, cap_screws
 from mechwright_elliptic_gears.phase_checks import rounded_down, window_note
 
 
 def clamp_findings(params: EllipticGearParams) -> Iterator[Finding]:
     """Room for the clamp, room for its scale, torque, and the setting."""
     layout = Layout.of(params)
-    found = list(_room(params, layout))
+    found = list(_room(params, layout)) or list(_length(params))
     yield from found
     if errors(found):
         return
@@ -41,6 +50,43 @@ def clamp_findings(params: EllipticGearParams) -> Iterator[Finding]:
         "deg",
     )
     yield window_note(params, SETTING / clamp.scale, f"a mark that is set {SETTING:g} mm wrong")
+
+
+def _length(params: EllipticGearParams) -> Iterator[Finding]:
+    """A screw that is sold goes through the clamp and finds enough thread in gear 3."""
+    clamp, t = clamp_of(params), params.thickness
+    if clamp.length is not None:
+        return
+    others = [params.model_copy(update={"clamp_screw": size}) for size in cap_screws()]
+    fitting = [
+        clamp_of(one).screw
+        for one in others
+        if clamp_of(one).length is not None and not any(_room(one, Layout.of(one)))
+    ]
+    better = min(fitting, key=lambda size: abs(size - clamp.screw), default=None)
+    bites, grip = least_thread(params, clamp.screw), clamp.ring + t + params.spacing
+    if bites > t:
+        words, value, limit, key = (
+            f"gear 3 is {t:g} mm thick: M{clamp.screw:g} needs {bites:g} mm of thread",
+            t,
+            bites,
+            "thickness",
+        )
+    else:
+        longest = lengths(clamp.screw)[-1]
+        words = f"the longest screw M{clamp.screw:g} is {longest} mm; {grip + bites:g} mm are needed"
+        value, limit, key = grip + bites, float(longest), "clamp_screw"
+    yield Finding.error(
+        "train.clamp-length",
+        key,
+        words,
+        value,
+        limit,
+        "mm",
+        ("" if better is None else f"set clamp_screw = {better:g}, or ")
+        + ("make thickness larger" if key == "thickness" else "make thickness or gap smaller"),
+        proposed=() if better is None else ({"parameters.clamp_screw": better},),
+    )
 
 
 def _room(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
@@ -88,10 +134,11 @@ def _torque(params: EllipticGearParams) -> Iterator[Finding]:
     holds = clamp.torque(params.material)
     phases = {*params.set_phases, params.phase_degrees}
     worst = max(sorted(phases), key=lambda phase: greatest_torque(params, phase).value)
-    needed = MARGIN * greatest_torque(params, worst).value
+    needed = CLAMP_SAFETY * greatest_torque(params, worst).value
     words = (
-        f"{clamp.screws} screws M{clamp.screw:g}, tightened to {clamp.preload(params.material):.0f} N, hold "
-        f"{holds:.3g} N m; at a phase of {worst:g} degrees inertia takes {needed / MARGIN:.3g} N m"
+        f"{clamp.screws} screws M{clamp.screw:g}, tightened with {clamp.tightening(params.material):.2g} N m "
+        f"to {clamp.preload(params.material):.0f} N, hold {holds:.3g} N m; at a phase of "
+        f"{worst:g} degrees inertia takes {needed / CLAMP_SAFETY:.3g} N m"
     )
     if needed <= holds:
         yield Finding.note("train.clamp-torque", words, holds, "N m")
@@ -100,7 +147,7 @@ def _torque(params: EllipticGearParams) -> Iterator[Finding]:
     yield Finding.error(
         "train.clamp-torque",
         "speed",
-        f"{words}, and a margin of {MARGIN:g} is due",
+        f"{words}, and a margin of {CLAMP_SAFETY:g} is due",
         params.speed,
         most,
         "rev/min",

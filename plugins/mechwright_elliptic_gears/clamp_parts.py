@@ -6,19 +6,14 @@ from mechwright import Bore, Colour, Instance, Outline, Part, Profile, circle
 from mechwright.contracts.details import Detail, Engraving, Thread
 from mechwright.geometry import Loop
 from mechwright.geometry.lettering import lettering
+from mechwright.standards.screws import screw
 from mechwright_elliptic_gears.clamp import HEAD_GAP, LETTER, MARK, REGISTER_LOW, Clamp, clamp_of, mark_of
 from mechwright_elliptic_gears.layout import Layout, clamp_screws
 from mechwright_elliptic_gears.params import EllipticGearParams
-from mechwright_elliptic_gears.turned import MATERIAL, headed
+from mechwright_elliptic_gears.turned import MATERIAL
 
 LINE, DEEP = 0.6, 0.2
 """Greatest width and depth of engraved lines, mm."""
-
-ENGAGED = 2.0
-"""Depth of the threads in diameters: more than a screw of class 8.8 needs in aluminium."""
-
-RUNNING = 0.02
-"""By how much, mm, the register is thinner than gear 4's hole, which turns on it while the clamp is open."""
 
 MARK_LENGTH = 2.0
 """Of a line of scale and mark, mm."""
@@ -37,7 +32,7 @@ def clamp_plates(params: EllipticGearParams, layout: Layout) -> tuple[Part, ...]
         _disc(
             params,
             "clamp-register",
-            clamp.register - RUNNING / 2,
+            clamp.spigot.middle / 2,
             layout.thickness - REGISTER_LOW,
             layout.upper,
         ),
@@ -87,15 +82,15 @@ def screw_holes(clamp: Clamp, diameter: float, height: float) -> tuple[Bore, ...
 
 def core_of(clamp: Clamp) -> float:
     """Diameter of the holes of gear 3 before they are threaded, mm."""
-    return round(Thread("thread", (0.0, 0.0), clamp.screw, clamp.pitch, 1.0).core, 6)
+    return round(Thread("thread", (0.0, 0.0), clamp.screw, clamp.of.pitch, 1.0).core, 6)
 
 
 def threads(params: EllipticGearParams) -> tuple[Thread, ...]:
-    """Of gear 3, from its upper side."""
+    """Of gear 3, from its upper side: a pitch deeper than the screws come."""
     clamp = clamp_of(params)
-    depth = min(params.thickness, ENGAGED * clamp.screw)
+    depth = min(params.thickness, engaged(params) + clamp.of.pitch)
     return tuple(
-        Thread(f"thread-{hole.name}", hole.centre, clamp.screw, clamp.pitch, depth)
+        Thread(f"thread-{hole.name}", hole.centre, clamp.screw, clamp.of.pitch, depth)
         for hole in screw_holes(clamp, core_of(clamp), params.thickness)
     )
 
@@ -127,11 +122,16 @@ def _ray(angle: float, start: float, end: float) -> tuple[tuple[float, float], .
 
 
 def clamp_screw_part(params: EllipticGearParams, layout: Layout) -> Part:
-    """Screws from the ring into gear 3, a pitch shorter than the threads, turned or cut to that length."""
+    """Screws from the ring into gear 3, bought in the length that the clamp is made for."""
     clamp = clamp_of(params)
-    deep = min(params.thickness, ENGAGED * clamp.screw) - clamp.pitch
-    foot = layout.lower + layout.thickness - deep
-    shank = layout.upper + layout.thickness + clamp.ring - foot
-    turned = headed(clamp.screw, clamp.head[0], shank, clamp.head[1])
-    at = tuple(Instance(body, foot) for body in clamp_screws(params))
-    return Part("clamp-screw", None, 0.0, MATERIAL, instances=at, colour=(0.36, 0.38, 0.42), turned=turned)
+    assert clamp.length is not None  # noqa: S101 - check has found one
+    bought = screw(clamp.screw, clamp.length).bought
+    under_head = layout.upper + layout.thickness + clamp.ring
+    at = tuple(Instance(body, under_head) for body in clamp_screws(params))
+    return Part("clamp-screw", None, 0.0, MATERIAL, instances=at, colour=(0.36, 0.38, 0.42), bought=bought)
+
+
+def engaged(params: EllipticGearParams) -> float:
+    """How far the screws stand in gear 3, mm."""
+    clamp = clamp_of(params)
+    return (clamp.length or 0.0) - clamp.ring - params.thickness - params.spacing

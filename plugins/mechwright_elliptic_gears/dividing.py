@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.contracts.fits import Fit, hole_fit, shaft_fit
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.gear import rack_of
 from mechwright_elliptic_gears.kinematics import phase_offset
@@ -25,9 +25,6 @@ PITCH = 1.5
 
 RINGS = 2
 """Circles of holes at the most."""
-
-_G6 = ((3.0, 2, 6), (6.0, 4, 8), (10.0, 5, 9), (18.0, 6, 11), (30.0, 7, 13), (50.0, 9, 16))
-"""Basic sizes up to, upper limit deviation below it and grade IT6 of g6, mm, µm, µm (ISO 286-2)."""
 
 NEAREST_STEP = 0.5
 """Step, degrees, in which a phase that works is sought: as fine as holes are worth telling apart."""
@@ -93,15 +90,9 @@ class Dividing:
         return hole_fit(self.diameter, "H7")
 
     @property
-    def pin_limits(self) -> tuple[float, float]:
-        """Least and greatest diameter of the pin, mm: g6, which goes in by hand."""
-        upper, grade = next((upper, grade) for most, upper, grade in _G6 if self.diameter <= most)
-        return self.diameter - (upper + grade) / 1000, self.diameter - upper / 1000
-
-    @property
-    def pin(self) -> float:
-        """Diameter of the pin in the middle of its tolerance, mm."""
-        return round(sum(self.pin_limits) / 2, 6)
+    def pin_size(self) -> Fit:
+        """Limits of the pin: g6, which goes in by hand."""
+        return shaft_fit(self.diameter, "g6")
 
 
 def direction(phase: float, eccentricity: float) -> float:

@@ -64,6 +64,14 @@ class EllipticGears(Family[EllipticGearParams]):
 
         return mounting_of(params)
 
+    def settings(self, params: EllipticGearParams) -> Mapping[str, EllipticGearParams]:
+        """The other phases that the joint of gears 3 and 4 is set to."""
+        return {
+            f"phase = {phase:g} deg": params.model_copy(update={"phase": phase})
+            for phase in (params.set_phases if params.adjustable else ())
+            if (phase - params.phase_degrees) % 360 != 0
+        }
+
     def check_cut(
         self, params: EllipticGearParams, cut: "Mapping[str, shapely.Polygon]"
     ) -> Sequence[Finding]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from mechwright import Bore, Colour, Feature, Instance, Loop, Outline, Part, Point, Profile, circle, kept
 from mechwright.contracts.details import Detail
+from mechwright.contracts.fits import Fit
 from mechwright_elliptic_gears.clamp import clamp_of
 from mechwright_elliptic_gears.clamp_parts import (
     clamp_plates,
@@ -48,8 +49,8 @@ class Gear:
         Direction of the keyway from the far vertex, counter-clockwise seen from above, rad; None without one.
     holes
         Holes beside the bore.
-    bore
-        Diameter, mm, where it is not that of the shaft.
+    seat
+        Limits of the bore where it is not that of the shaft.
     details
         Threads and engraved lines.
     """
@@ -58,7 +59,7 @@ class Gear:
     bodies: tuple[tuple[str, float], ...]
     key: float | None = None
     holes: tuple[Bore, ...] = ()
-    bore: float | None = None
+    seat: Fit | None = None
     details: tuple[Detail, ...] = ()
 
 
@@ -95,7 +96,7 @@ def gears_of(params: EllipticGearParams) -> tuple[Gear, ...]:
         return (
             Gear("gear-2", (("gear-2", low),), key),
             Gear("gear-3", (("gear-3", low),), None, drilled, None, threads(params)),
-            Gear("gear-4", (("gear-4", high),), None, (joint,), 2 * clamp.register, (scale(params),)),
+            Gear("gear-4", (("gear-4", high),), None, (joint,), clamp.seat, (scale(params),)),
             last,
         )
     if key is not None:
@@ -154,7 +155,8 @@ def gear_opening(params: EllipticGearParams, gear: Gear) -> Loop | None:
     if opening is None:
         return None
     if gear.key is None:
-        return Loop((circle((0.0, 0.0), (gear.bore or opening.bore) / 2, clockwise=True, tag="bore"),))
+        bore = opening.bore if gear.seat is None else gear.seat.middle
+        return Loop((circle((0.0, 0.0), bore / 2, clockwise=True, tag="bore"),))
     return opening.loop().moved(0.0, 0.0, gear.key)
 
 
@@ -166,7 +168,8 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
     opening = gear_opening(params, gear)
     if opening is not None:
         inner.append(opening)
-        features.append(Bore("bore", (0.0, 0.0), gear.bore or params.bore, 0, depth))
+        bore = params.bore if gear.seat is None else gear.seat.middle
+        features.append(Bore("bore", (0.0, 0.0), bore, 0, depth, gear.seat))
         if gear.key is not None:
             features.append(Profile("keyway", opening, "inside", 0, depth))
     features += gear.holes
@@ -204,7 +207,7 @@ def parts_of(params: EllipticGearParams) -> tuple[Part, ...]:
     layout, opening = Layout.of(params), opening_of(params)
     assert opening is not None  # noqa: S101 - a train has a bore
     plates: tuple[Part, ...] = (coupler_part(params, layout), base_part(params, layout))
-    pin = dividing_of(params).pin if params.phase_joint == "pins" else None
+    pin = dividing_of(params).pin_size if params.phase_joint == "pins" else None
     turned = round_parts(layout, opening, keyed=params.keyed_phase, dowelled=params.dowelled, phase_pin=pin)
     if params.phase_joint == "clamp":
         plates += clamp_plates(params, layout)

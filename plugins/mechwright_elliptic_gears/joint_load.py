@@ -1,8 +1,9 @@
-"""Torque that the joint of gears 3 and 4 carries at constant speed of gear 2, by inertia alone.
+"""Torque that the joint of gears 3 and 4 carries at constant speed of gear 2, by inertia and load.
 
 The power that goes through it is what the bodies behind it take up: T ω4 = J4 α4 ω4 + J5 α5 ω5 for the gears,
-m v·a + J ω6 α6 for the coupler, with v, a of its centre of mass. It grows with the square of the speed. Pins,
-shafts and friction are left out; ``MARGIN`` is for them and for what hangs on Q.
+m v·a + J ω6 α6 for the coupler, with v, a of its centre of mass, and the load |ω5|. Inertia grows with the
+square of the speed. Pins,
+shafts and friction are left out; the safety of a joint is for them and for what hangs on Q.
 """
 
 import math
@@ -19,8 +20,8 @@ from mechwright_elliptic_gears.peak import Peak, peak
 from mechwright_elliptic_gears.plates import coupler_part
 from mechwright_elliptic_gears.point import point_of_coupler
 
-MARGIN = 2.0
-"""What a joint must bear over the greatest torque of inertia."""
+TO_NM = 1e-6
+"""From kg mm²/s² to N m."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,15 @@ def masses_of(params: EllipticGearParams) -> Masses:
     area, x, y, xx, yy, _ = link.outline.moments
     mass, length = float(area) * layout.coupler * density, 2 * layout.semi_major
     polar = float(xx + yy - (x * x + y * y) / area) * layout.coupler * density
-    gear = outline_of(params).polar_moment * params.thickness * density
-    return Masses(gear, mass, polar, complex(x / area, y / area) / length)
+    return Masses(gear_inertia(params), mass, polar, complex(x / area, y / area) / length)
+
+
+def gear_inertia(params: EllipticGearParams) -> float:
+    """Moment of inertia of a full gear about its axis, kg mm²."""
+    # The outline is the same for all loads and thicknesses, which are tried one after the other.
+    plain = params.model_copy(update={"load_torque": 0.0, "speed": 60.0, "thickness": 10.0})
+    density = material(params.material).density * 1e-6  # g/cm³ to kg/mm³
+    return outline_of(plain).polar_moment * params.thickness * density
 
 
 def joint_torque(
@@ -71,8 +79,9 @@ def joint_torque(
     centre = point_of_coupler(four, five, a, e, masses.centre)
     power = masses.gear * five.alpha * five.omega + masses.turning * link.omega * link.alpha
     power += masses.coupler * np.real(np.conj(centre.velocity) * centre.acceleration)
+    power += params.load_torque / TO_NM * np.abs(five.omega)
     torque: Array = power / four.omega + (masses.gear * four.alpha if driver else 0.0)
-    return torque * 1e-6  # kg mm²/s² to N m
+    return torque * TO_NM
 
 
 def greatest_torque(params: EllipticGearParams, phase: float) -> Peak:

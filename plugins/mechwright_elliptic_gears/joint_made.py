@@ -54,20 +54,17 @@ def joint_figures(params: EllipticGearParams, made: Mapping[str, Sequence[MadePa
     three, four = made.get("gear-3", ()), made.get("gear-4", ())
     if not (three and four):
         return []
-    middle = dividing.hole_size.middle
+    hole_size, pin = dividing.hole_size, dividing.pin_size
+    thin, thick = pin.size + pin.lower, pin.size + pin.upper
     at = dividing.rings[hole.ring] * np.exp(1j * START)
     places = ((three[0], dividing.centre(hole)), (four[0], complex(at)))
-    found = [part.hole_at(point.real, point.imag, middle) for part, point in places]
-    sizes = [middle if one is None else one.diameter for one in found]
+    found = [part.hole_at(point.real, point.imag, hole_size.middle) for part, point in places]
+    sizes = [hole_size.middle if one is None else one.diameter for one in found]
     wide = sum(sizes) / 2
     corridor = three[0].corridor + four[0].corridor
-    thin, thick = dividing.pin_limits
-    limits = [
-        dividing.hole_size.size + limit for limit in (dividing.hole_size.lower, dividing.hole_size.upper)
-    ]
     design, as_made = pin_play(params), pin_play(params, wide)
     low, high = pin_play(params, wide - corridor, thick), pin_play(params, wide + corridor, thin)
-    widest = pin_play(params, limits[1], thin)
+    widest = pin_play(params, hole_size.size + hole_size.upper, thin)
     plays = [widest, design, as_made, low, high]
     speed = 50 * phase_sensitivity(params)  # percent by half of the play, either way
     return [

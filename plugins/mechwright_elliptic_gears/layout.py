@@ -14,9 +14,6 @@ from mechwright_elliptic_gears.dividing import Dividing, circle_for, placed
 from mechwright_elliptic_gears.gear import ellipse_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 
-GAP = 2.0
-"""Height of spacers, mm: chips and a little wobble of a plate on its shaft have room."""
-
 COUPLER_THICKNESS, BASE_THICKNESS = 6.0, 10.0
 """Thickness of coupler and base plate, mm: stock sizes."""
 
@@ -90,7 +87,7 @@ class Layout:
         bore = params.bore
         pin = _or(params.pin_diameter, _stock_size(bore / 2))
         dowel = _or(params.dowel_diameter, _stock_size(bore / 3))
-        gap = _or(params.gap, GAP)
+        gap = params.spacing
         return cls(
             ellipse_of(params).semi_major,
             params.eccentricity,

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, field_validator, model_validator
 
 from mechwright import FIRST, MaterialName, Parameters
+from mechwright.standards.screws import screw_sizes
 from mechwright.units import Degrees, Millimetres, Ratio, RevPerMin, Unit
-from mechwright_elliptic_gears.screws import SCREWS
 
 LEAST_MODULE = 0.1
 """mm. Finer teeth are below what the smallest end mills can cut, and near the outline's own tolerance."""
@@ -28,6 +28,9 @@ REPORTED_PHASES = (0.0, 45.0, 90.0, 135.0, 180.0)
 
 USUAL_PHASE = 90.0
 """Degrees: the published train with the longest window of near-constant speed."""
+
+USUAL_GAP = 2.0
+"""Height of spacers, mm: chips and a little wobble of a plate on its shaft have room."""
 
 MOST_PHASES = 36
 """Marks of a joint that people can still tell apart: every ten degrees."""
@@ -49,6 +52,11 @@ TRAIN_ONLY = (
     "dowel_circle",
 )
 """Fields that a single pair has no use for."""
+
+
+def cap_screws() -> list[float]:
+    """Threads of the screws that can clamp, mm: those with a socket head."""
+    return [one.size for one in screw_sizes() if one.head]
 
 
 class EllipticGearParams(Parameters):
@@ -150,6 +158,11 @@ class EllipticGearParams(Parameters):
     speed: RevPerMin = Field(
         60.0, ge=0.001, le=20000, description="Constant speed of gear 2.", json_schema_extra=FIRST
     )
+    load_torque: Annotated[float, Field(ge=0, le=1e5), Unit("N*m")] = Field(
+        0.0,
+        description="Constant torque against the turning of the last gear, 4 of a pair or 5 of a train.",
+        json_schema_extra=FIRST,
+    )
     point_along: Ratio = Field(
         0.5, ge=-1, le=2, description="Where point Q stands along the coupler: 0 at J, 1 at K."
     )
@@ -190,8 +203,8 @@ class EllipticGearParams(Parameters):
         ),
     )
 
-    clamp_screw: Annotated[float, Field(ge=2, le=10), Unit("mm")] | None = Field(
-        None, description="Thread of the clamp's screws, M2 to M10; left out, at most a third of the bore."
+    clamp_screw: Annotated[float, Field(ge=2, le=12), Unit("mm")] | None = Field(
+        None, description="Thread of the clamp's screws, M2 to M12; left out, at most a third of the bore."
     )
     clamp_screws: Annotated[int, Field(ge=3, le=8)] | None = Field(
         None, description="Number of the clamp's screws; left out, 4."
@@ -243,8 +256,9 @@ class EllipticGearParams(Parameters):
         for name in ("dowel_diameter", "dowel_circle"):
             if getattr(self, name) is not None and clamped:
                 raise ValueError(f"{name} has no place in a clamp; leave it out")
-        if self.clamp_screw is not None and self.clamp_screw not in SCREWS:
-            nearest = min(SCREWS, key=lambda size: abs(size - (self.clamp_screw or 0)))
+        sizes = cap_screws()
+        if self.clamp_screw is not None and self.clamp_screw not in sizes:
+            nearest = min(sizes, key=lambda size: abs(size - (self.clamp_screw or 0)))
             raise ValueError(f"clamp_screw is no thread of a screw; the nearest is {nearest:g}")
         if self.phases is None:
             return
@@ -256,6 +270,11 @@ class EllipticGearParams(Parameters):
         twice = [one for one, other in pairwise(turned) if one == other]
         if twice:
             raise ValueError(f"phases has {twice[0]:g} degrees twice, 0 and 360 are one; leave one out")
+
+    @property
+    def spacing(self) -> float:
+        """Height of the spacers between the plates of a train, mm."""
+        return USUAL_GAP if self.gap is None else self.gap
 
     @property
     def adjustable(self) -> bool:

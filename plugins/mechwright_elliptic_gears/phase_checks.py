@@ -7,22 +7,19 @@ import numpy as np
 
 from mechwright import Finding
 from mechwright.contracts.finding import errors
+from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_KEY, allowed
+from mechwright.mechanics.strength.bolts import CLAMP_SAFETY, lash
+from mechwright.mechanics.strength.fastening import pin_pressure, pin_shear, ring_force
 from mechwright.tolerances import falls_short
 from mechwright_elliptic_gears.bore_checks import LEAST_RIM, room
 from mechwright_elliptic_gears.dividing import PITCH, START, phases_that_work
 from mechwright_elliptic_gears.figures import point_window
 from mechwright_elliptic_gears.gear import rack_of
-from mechwright_elliptic_gears.joint_load import MARGIN, greatest_torque
+from mechwright_elliptic_gears.joint_load import greatest_torque
 from mechwright_elliptic_gears.kinematics import phase_offset, ratio
-from mechwright_elliptic_gears.layout import DOWEL_GAP, Layout, dividing_of
+from mechwright_elliptic_gears.layout import DOWEL_GAP, PIN_HEAD, Layout, dividing_of
 from mechwright_elliptic_gears.params import EllipticGearParams
 from mechwright_elliptic_gears.window import Window
-
-PIN_SHEAR = 60.0
-"""MPa. A hardened pin carries 120 at rest; half of that where the torque changes its sign each turn."""
-
-HUB_PRESSURE = {"steel": 60.0, "aluminium": 48.0, "brass": 30.0, "pom": 12.0}
-"""MPa on the wall of a hole: what keys are allowed (100, 80, 50, 20), 0.6 of it as the sign changes."""
 
 
 def pin_findings(params: EllipticGearParams) -> Iterator[Finding]:
@@ -34,6 +31,7 @@ def pin_findings(params: EllipticGearParams) -> Iterator[Finding]:
         return
     yield from _strength(params, layout)
     yield _note(params)
+    yield _held(layout)
     yield window_note(params, pin_play(params) / 2, "the play of the pin")
 
 
@@ -44,8 +42,8 @@ def pin_play(params: EllipticGearParams, holes: float | None = None, pin: float 
     """
     dividing = dividing_of(params)
     holes = dividing.hole_size.middle if holes is None else holes
-    pin = dividing.pin if pin is None else pin
-    return 2 * (holes - pin) / dividing.radius_at(params.phase_degrees)
+    pin = dividing.pin_size.middle if pin is None else pin
+    return lash(2 * (holes - pin), dividing.radius_at(params.phase_degrees))
 
 
 def _holes(params: EllipticGearParams) -> Iterator[Finding]:
@@ -129,17 +127,19 @@ def _strength(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     """Shear of the pin and pressure in its holes at the worst of all phases."""
     dividing, d = dividing_of(params), layout.dowel
     forces = {
-        phase: MARGIN * 1000 * greatest_torque(params, phase).value / dividing.radius_at(phase)
+        phase: CLAMP_SAFETY
+        * ring_force(greatest_torque(params, phase).value, 1, 2 * dividing.radius_at(phase))
         for phase in params.set_phases
     }
     worst = max(forces, key=lambda phase: forces[phase])
     force = forces[worst]
-    shear, pressure = 4 * force / (math.pi * d * d), force / (d * params.thickness)
-    allowed = HUB_PRESSURE[params.material]
-    used = max(shear / PIN_SHEAR, pressure / allowed)
+    shear, pressure = pin_shear(force, d), pin_pressure(force, d, params.thickness)
+    most_shear = PIN_SHEAR["hardened, alternating"]
+    most_pressure = REVERSING_KEY * allowed(params.material).key
+    used = max(shear / most_shear, pressure / most_pressure)
     words = (
-        f"at a phase of {worst:g} degrees inertia loads the pin with {force / MARGIN:.3g} N: with a margin "
-        f"of {MARGIN:g} {shear:.3g} MPa of shear and {pressure:.3g} MPa on its holes"
+        f"at a phase of {worst:g} degrees inertia loads the pin with {force / CLAMP_SAFETY:.3g} N: with a "
+        f"margin of {CLAMP_SAFETY:g} {shear:.3g} MPa of shear and {pressure:.3g} MPa on its holes"
     )
     if used <= 1:
         yield Finding.note("train.phase-pin", words, shear, "MPa")
@@ -148,7 +148,7 @@ def _strength(params: EllipticGearParams, layout: Layout) -> Iterator[Finding]:
     yield Finding.error(
         "train.phase-pin",
         "speed",
-        f"{words}, above {PIN_SHEAR:g} and {allowed:g} MPa",
+        f"{words}, above {most_shear:g} and {most_pressure:g} MPa",
         params.speed,
         most,
         "rev/min",
@@ -181,6 +181,18 @@ def _note(params: EllipticGearParams) -> Finding:
         f"{turn:.3f} degrees ahead of gear 3; phases and degrees of all holes: {table}",
         turn,
         "deg",
+    )
+
+
+def _held(layout: Layout) -> Finding:
+    """Nothing but its weight keeps the pin from going up; the coupler passes over its head."""
+    up = (1 - PIN_HEAD) * layout.crown
+    return Finding.note(
+        "train.phase-pin-up",
+        f"its weight alone holds the pin down, {up:g} mm below the coupler: run the train with its axes "
+        "upright and the coupler above, or take a clamp",
+        up,
+        "mm",
     )
 
 

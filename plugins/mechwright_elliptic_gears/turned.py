@@ -4,7 +4,7 @@ They get no milling program.
 """
 
 from mechwright import Colour, Instance, KeySeat, Part, Step, Turned
-from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.fits import Fit, shaft_fit
 from mechwright.contracts.turned import tube
 from mechwright.geometry.keyway import Opening
 from mechwright.standards.parts import dowel_part, key_part
@@ -32,12 +32,12 @@ def round_parts(
     *,
     keyed: bool,
     dowelled: bool,
-    phase_pin: float | None = None,
+    phase_pin: Fit | None = None,
 ) -> tuple[Part, ...]:
     """Everything that is no plate.
 
-    ``keyed`` and ``dowelled`` say whether keys or dowels join gears 3 and 4, ``phase_pin`` is the diameter,
-    mm, of the pin that joins them by a dividing circle; where nothing does, a clamp has its own spacer there.
+    ``keyed`` and ``dowelled`` say whether keys or dowels join gears 3 and 4, ``phase_pin`` has the limits
+    of the pin that joins them by a dividing circle; where nothing does, a clamp has its own spacer there.
     """
     joined = keyed or dowelled or phase_pin is not None
     low, high, t = layout.lower, layout.upper, layout.thickness
@@ -89,7 +89,8 @@ def round_parts(
             keys += [Instance("gear-3", low), Instance("gear-3", high)]
         parts.append(key_part("key", opening, t, tuple(keys), _DARK))
     if phase_pin is not None:
-        pin = headed(phase_pin, HEAD * layout.dowel, high - low + t, PIN_HEAD * layout.gap)
+        shank = Step(phase_pin.middle, high - low + t, phase_pin)
+        pin = Turned((shank, Step(HEAD * layout.dowel, PIN_HEAD * layout.gap)))
         parts.append(_part(PHASE_PIN, pin, (Instance(PHASE_PIN, low),), _DARK))
     elif dowelled:
         at = tuple(Instance(body, low) for body in DOWELS)
@@ -121,8 +122,3 @@ def _pin(diameter: float, seat: float, running: float) -> Turned:
     pressed = Step(diameter, seat, shaft_fit(diameter, "m6"))
     head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
     return Turned((pressed, _running(diameter, running), head))
-
-
-def headed(diameter: float, head: float, shank: float, height: float) -> Turned:
-    """A cylinder with a head on its upper end."""
-    return Turned((Step(diameter, shank), Step(head, height)))

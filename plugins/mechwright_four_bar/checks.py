@@ -11,12 +11,11 @@ from mechwright import Finding, GeometryError, Severity, Stage, kept, of_stage, 
 from mechwright.contracts.finding import Change
 from mechwright.mechanics.planar import swing
 from mechwright.mechanics.planar.accelerating import of_acceleration
-from mechwright.tolerances import exceeds, falls_short
+from mechwright.tolerances import falls_short
 from mechwright_four_bar.dimensions import FourBar, Kind
 from mechwright_four_bar.params import FourBarParams
-from mechwright_four_bar.peaks import peaks_of
 from mechwright_four_bar.phase_checks import clamps_hold, places_apart
-from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none, sides_of
+from mechwright_four_bar.plates import hidden_point, layout_of, layout_or_none
 from mechwright_four_bar.reach import (
     TURN_BACK,
     bar_of,
@@ -28,6 +27,7 @@ from mechwright_four_bar.reach import (
     within,
 )
 from mechwright_four_bar.room import above, room_findings
+from mechwright_four_bar.strength_checks import bearing_findings, strength_findings
 
 LEAST_ROOM = 1e-6
 """Share of the longest link by which the dyad must clear the diagonal: less is lost in any tolerance, and
@@ -39,19 +39,13 @@ GOOD_TRANSMISSION = 40.0
 LEAST_TRANSMISSION = math.degrees(TURN_BACK)
 """Degrees below which play and bending let the linkage change its branch."""
 
-SLOWEST = 1.0
-"""rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
-
-BEARING_PRESSURE = 10.0
-"""N/mm² that a greased plain bushing carries for long (bronze, handbook value)."""
-
 
 @kept
 def findings(params: FourBarParams) -> tuple[Finding, ...]:
     """Everything that is to be said about a design. No error among it means that the parts can be built."""
     return until_error(
         params, _joined, _accelerates, _turning, _transmission, room_findings, places_apart, _layers,
-        _figures, _bearings, clamps_hold,
+        _figures, bearing_findings, strength_findings, clamps_hold,
     )  # fmt: skip
 
 
@@ -282,69 +276,4 @@ def _swing(params: FourBarParams, bar: FourBar) -> Finding:
         f"back; transmission angle {math.degrees(least):.3f} to {math.degrees(most):.3f} degrees",
         math.degrees(least),
         "deg",
-    )
-
-
-def _stronger(params: FourBarParams, over: float) -> tuple[Change, ...]:
-    """Larger bearings, or less of what they carry, which is so many times ``over`` its limit.
-
-    Larger ones make heavier plates, so that more than the first may be needed.
-    """
-    pin, plate = params.pin_diameter, params.thickness
-    found: list[Change] = []
-    for share in (1.05, 1.2, 1.5):
-        much = over * share
-        found += [
-            {"parameters.pin_diameter": _half(much * pin)},
-            {"parameters.thickness": _half(much * plate)},
-            {
-                "parameters.pin_diameter": _half(math.sqrt(much) * pin),
-                "parameters.thickness": _half(math.sqrt(much) * plate),
-            },
-        ]
-    for share in (1.05, 1.2):
-        if params.load_torque != 0:
-            found.append({"parameters.load_torque": float(f"{params.load_torque / over / share:.2g}")})
-        if (speed := params.speed / math.sqrt(over) / share) >= SLOWEST:
-            found.append({"parameters.speed": float(f"{speed:.2g}")})
-    return tuple(found)
-
-
-def _half(size: float) -> float:
-    """The next half millimetre."""
-    return math.ceil(2 * size) / 2
-
-
-@of_stage(Stage.PARTS)
-def _bearings(params: FourBarParams) -> Iterator[Finding]:
-    peaks = peaks_of(params)
-    widths = dict.fromkeys(("A", "B", "B0"), params.thickness) | {"A0": params.ground_thickness}
-    if sides_of(params) == 2:
-        widths["B0"] = params.ground_thickness
-    joint, pressure = max(
-        (
-            (joint, peaks[f"force_{joint}"].value / (params.pin_diameter * width))
-            for joint, width in widths.items()
-        ),
-        key=lambda pair: pair[1],
-    )
-    force = peaks[f"force_{joint}"].value
-    if exceeds(pressure, BEARING_PRESSURE):
-        yield Finding.warning(
-            "four-bar.bearing-pressure",
-            "pin_diameter",
-            f"joint {joint} carries up to {force:.4g} N, {pressure:.4g} N/mm² on its bearing",
-            pressure,
-            BEARING_PRESSURE,
-            "N/mm^2",
-            "take thicker pins or plates, a smaller load or a lower speed",
-            proposed=_stronger(params, pressure / BEARING_PRESSURE),
-        )
-    yield Finding.note(
-        "four-bar.forces",
-        f"the drive needs up to {peaks['drive_torque'].value:.4g} N m; joint {joint} carries up to "
-        f"{force:.4g} N, and the moving masses shake the ground with up to "
-        f"{peaks['shaking_force'].value:.4g} N",
-        peaks["drive_torque"].value,
-        "N*m",
     )

@@ -51,6 +51,14 @@ class FourBars(Family[FourBarParams]):
         refuse(self.check(params))
         return parts_of(in_phase(params))
 
+    def settings(self, params: FourBarParams) -> Mapping[str, FourBarParams]:
+        """The other phases that the pivots of the coupler are set to."""
+        return {
+            f"phase = {phase}": params.model_copy(update={"phase": phase})
+            for phase in range(1, 2 + len(params.phases))
+            if phase != params.phase
+        }
+
     def as_made(self, params: FourBarParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the follower and of the coupler point, from bores and pins."""
         from mechwright_four_bar.as_made import as_made

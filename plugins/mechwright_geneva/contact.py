@@ -197,8 +197,8 @@ class Loads:
 
     Parameters
     ----------
-    force, pressure, crank_torque
-        Largest: N, MPa, N·m.
+    force, pressure, crank_torque, wheel_torque
+        Largest: N, MPa, N·m; the last one is that of the contact on the wheel.
     force_at, pressure_at
         Crank angle of the first two, rad.
     island
@@ -217,6 +217,7 @@ class Loads:
     island: bool
     steep: float
     carried: float
+    wheel_torque: float
 
 
 @kept
@@ -247,6 +248,7 @@ def loads(mechanism: Mechanism) -> Loads:
         island and not mechanism.straight,
         time * float(np.mean(first.pressure_angle > math.pi / 4)),
         float(run.theta[zone[-1]] - run.theta[zone[0]]) if zone.size else 0.0,
+        max(float((one.force * one.lever).max()) for _, one in found) / 1e3,
     )
 
 

@@ -14,6 +14,7 @@ from mechwright_geneva.figures import peaks_of, straight_peaks
 from mechwright_geneva.horns import clear
 from mechwright_geneva.mechanism import Mechanism
 from mechwright_geneva.sound import LEAST_BITE, sound
+from mechwright_geneva.stud_checks import stud_findings
 from mechwright_geneva.walls import switches
 
 
@@ -24,6 +25,7 @@ def load_findings(m: Mechanism) -> Iterator[Finding]:
         yield from _middle(m)
         yield from _ramp(m)
     yield from _pressure(m)
+    yield from stud_findings(m)
     yield _walls(m)
 
 

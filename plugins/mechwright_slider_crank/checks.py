@@ -27,6 +27,7 @@ from mechwright_slider_crank.forces import balance, joint_forces
 from mechwright_slider_crank.params import SliderCrankParams
 from mechwright_slider_crank.plates import TURN_SAMPLES, Layout, layout_of, masses_of, rod_outline
 from mechwright_slider_crank.sizes import sizes_of
+from mechwright_slider_crank.strength_checks import strength_findings
 
 TURN_MARGIN = 5e-4
 """The rod is longer than crank and offset by at least this part: then it stays 1.8° away from standing across
@@ -45,9 +46,6 @@ MAX_PRESSURE = 20.0
 SLOWEST = 1.0
 """rev/min. A mechanism that would have to run slower is no longer the one that was asked for."""
 
-MAX_BENDING = 250.0
-"""Bending stress of a pin, MPa: a quarter of a hardened dowel's strength, since the load alternates."""
-
 MOST_BEND = 0.5
 """Bend of a rod over its length: at more its legs are steeper than 45° and carry bending before all."""
 
@@ -55,7 +53,9 @@ MOST_BEND = 0.5
 @kept
 def findings(params: SliderCrankParams) -> tuple[Finding, ...]:
     """All findings; where the crank cannot turn or a plate cannot be drawn, only those that say so."""
-    return until_error(params, _joined, _accelerates, _turns, _webs, _drawn, _carried, _figures)
+    return until_error(
+        params, _joined, _accelerates, _turns, _webs, _drawn, _carried, strength_findings, _figures
+    )
 
 
 def _joined(params: SliderCrankParams) -> Iterator[Finding]:
@@ -288,20 +288,6 @@ def _carried(params: SliderCrankParams) -> Iterator[Finding]:
             "MPa",
             "thicker pins, a thicker plate, or less load or speed",
             proposed=_stronger(params, force / (MAX_PRESSURE * params.thickness), pressure / MAX_PRESSURE),
-        )
-    # The pin is a cantilever from the plate it is pressed into to the middle of the rod: σ = 32 F l / (π d³).
-    lever = params.gap + params.thickness / 2
-    bending = 32 * force * lever / (math.pi * sizes.pin**3)
-    if exceeds(bending, MAX_BENDING):
-        yield Finding.warning(
-            "slider-crank.pin-bending",
-            "pin",
-            f"{force:.4g} N bend the pins with {bending:.4g} MPa, the limit is {MAX_BENDING:g} MPa",
-            bending,
-            MAX_BENDING,
-            "MPa",
-            "thicker pins, or less load or speed",
-            proposed=_stronger(params, sizes.pin * (bending / MAX_BENDING) ** (1 / 3), bending / MAX_BENDING),
         )
 
 

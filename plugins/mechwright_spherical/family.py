@@ -43,6 +43,13 @@ class Spherical(Family[SphericalParams]):
         refuse(findings(params))
         return parts_of(params)
 
+    def settings(self, params: SphericalParams) -> Mapping[str, SphericalParams]:
+        """The other phase of an adjustable five-bar."""
+        if params.kind != "five-bar":
+            return {}
+        other = params.five_bar.model_copy(update={"phase": 3 - params.five_bar.phase})
+        return {f"five_bar.phase = {other.phase}": params.model_copy(update={"five_bar": other})}
+
     def as_made(self, params: SphericalParams, made: "Mapping[str, Sequence[MadePart]]") -> "AsMade":
         """Error of the output, in angles, from the bores of flat strips."""
         from mechwright_spherical.as_made import as_made

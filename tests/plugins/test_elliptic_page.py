@@ -92,6 +92,8 @@ def test_the_page_needs_nothing_else():
     assert not re.search(r"<(link|img|iframe|script src)", text)
     assert "default-src 'none'" in text
     assert re.findall(r'data-gamma="([^"]*)"', text) == ["10.0", "120.0"]
+    assert text.count('<table id="machine">') == 1
+    assert '<table id="machine">' not in page.html("fixed", Params(stages=2))
     assert 'id="gamma" type="range" min="0" max="360" step="0.5" value="10.0"' in text
 
 
@@ -118,9 +120,17 @@ def test_a_browser_fills_both_tables_without_a_complaint(tmp_path):
     )
     assert [line for line in done.stderr.splitlines() if "CONSOLE" in line] == []
     rows = re.findall(r'<tr data-cell="([^"]*)"([^>]*)>(.*?)</tr>', done.stdout)
-    assert len(rows) == 2 * 5 * 4
-    assert [cell for cell, marked, _ in rows if "now" in marked] == ["90 0.4"] * 2
-    # Table 2, then table 3 of the published train with the longest window.
+    assert len(rows) == 5 + 2 * 5 * 4
+    assert [cell for cell, marked, _ in rows if "now" in marked] == ["90 0.4"] * 3
+    # The machine, table 2, then table 3 of the published train with the longest window.
     shown = [re.findall(r">([^<>]+)</t[hd]>", cells) for cell, _, cells in rows if cell == "90 0.4"]
-    assert shown[0][4] == "2.204"
-    assert shown[1][2:5] == ["701.53", "0.519", "13.7105"]
+    assert shown[1][4] == "2.204"
+    assert shown[2][2:5] == ["701.53", "0.519", "13.7105"]
+    machine = [re.findall(r">([^<>]+)</t[hd]>", cells) for _, _, cells in rows[:5]]
+    assert [(one[0], one[2], one[5], one[6], one[7]) for one in machine] == [
+        ("0°", "0.000°", "1.334", "945.13", "70.1728"),
+        ("45°", "88.048°", "1.758", "937.96", "31.8687"),
+        ("90°", "133.603°", "2.204", "701.53", "13.7105"),
+        ("135°", "159.867°", "0.538", "551.13", "13.0708"),
+        ("180°", "180.000°", "0.553", "444.58", "12.8889"),
+    ]

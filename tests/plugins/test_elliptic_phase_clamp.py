@@ -12,6 +12,7 @@ from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.holes import joined
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
+from mechwright.standards.screws import ENGAGEMENT, LENGTHS
 from mechwright_cad.interference import faithful_motion, interference
 from mechwright_elliptic_gears.clamp import MARK, SETTING, Clamp, clamp_of
 from mechwright_elliptic_gears.family import EllipticGears
@@ -99,17 +100,22 @@ def test_the_clamp_is_screwed_together():
         holes = {f.name: f.diameter for f in parts[name].features if f.name.startswith("screw-")}
         assert holes == {f"screw-{n}": 4.5 for n in range(1, 5)}, name
     assert {i.body for i in parts["clamp-screw"].instances} == {f"clamp-screw-{n}" for n in range(1, 5)}
-    box, foot = parts["clamp-screw"].build().BoundingBox(), parts["clamp-screw"].instances[0].z
-    # It ends in its thread, 8 mm deep, and its head below the coupler.
-    assert layout.lower + 10 - 8 < foot < layout.lower + 10 - 1.5 * 4
-    assert foot + box.zmax == pytest.approx(layout.link - 0.5)
+    screw, under_head = parts["clamp-screw"], parts["clamp-screw"].instances[0].z
+    assert screw.bought.designation == "ISO 4762 - M4 x 25 - 8.8"
+    box = screw.build().BoundingBox()
+    # 9 mm of it stand in gear 3, whose thread is a pitch deeper, and its head is below the coupler.
+    assert under_head + box.zmin == pytest.approx(layout.lower + 10 - 9)
+    assert [thread.depth for thread in threads] == pytest.approx([9.7] * 4)
+    assert under_head + box.zmax == pytest.approx(layout.link - 0.5)
     # The ring presses on gear 4, not on the register.
     register = parts["clamp-register"]
     assert (
         register.instances[0].z + register.thickness < layout.upper + 10 == parts["clamp-ring"].instances[0].z
     )
     (bore,) = [feature for feature in parts["gear-4"].features if feature.name == "bore"]
-    assert bore.diameter == 2 * clamp.register
+    assert (bore.fit.text, bore.diameter) == ("30 H7 (0/+0.021)", 30.0105)
+    assert register.outline.bounds[2] == pytest.approx(clamp.spigot.middle / 2)
+    assert clamp.spigot.text == "30 g6 (-0.02/-0.007)"
     # No screw under the mark.
     assert min(abs((one - MARK + math.pi) % math.tau - math.pi) for one in clamp.directions) > 0.3
 
@@ -130,6 +136,42 @@ def test_a_clamp_without_room_is_refused():
     assert (fault.code, fault.parameter, fault.value) == ("train.clamp", "phases", 300.0)
     (change,) = fault.proposed
     assert errors(FAMILY.check(Params(**table, phases=change["parameters.phases"]))) == []
+
+
+SOLD = {2.0: 20, 2.5: 25, 3.0: 30, 4.0: 40, 5.0: 50, 6.0: 50, 8.0: 50, 10.0: 50, 12.0: 50}
+"""Thread to the longest screw that is kept, mm."""
+
+
+@pytest.mark.parametrize("material", sorted(ENGAGEMENT))
+@pytest.mark.parametrize("thickness", [3.0, 7.3, 10.0, 16.0, 21.0])
+@pytest.mark.parametrize("screw", sorted(SOLD))
+def test_screws_are_of_a_sold_length_and_find_their_thread(material, thickness, screw):
+    params = Params(**CLAMP, material=material, thickness=thickness, clamp_screw=screw)
+    clamp = clamp_of(params)
+    grip = clamp.ring + thickness + 2.0
+    if clamp.length is None:
+        shortest = max(3.0, screw) + thickness + 2.0 + ENGAGEMENT[material] * screw
+        assert thickness < ENGAGEMENT[material] * screw or shortest > SOLD[screw]
+        return
+    assert clamp.length in LENGTHS
+    assert clamp.length <= SOLD[screw]
+    assert ENGAGEMENT[material] * screw - 1e-9 <= clamp.length - grip <= thickness + 1e-9
+    assert clamp.ring == max(3.0, screw) or clamp.length - grip == pytest.approx(thickness)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"thickness": 5.0}, "gear 3 is 5 mm thick: M4 needs 6 mm of thread"),
+        ({"thickness": 25.0, "clamp_screw": 3.0}, "the longest screw M3 is 30 mm; 34.5 mm are needed"),
+    ],
+)
+def test_a_clamp_without_a_screw_is_refused_with_one_that_works(table, words):
+    (fault,) = errors(FAMILY.check(Params(**CLAMP | table)))
+    assert (fault.code, fault.message) == ("train.clamp-length", words)
+    (change,) = fault.proposed
+    better = Params(**CLAMP | table | {"clamp_screw": change["parameters.clamp_screw"]})
+    assert errors(FAMILY.check(better)) == []
 
 
 def test_what_a_mark_that_is_set_wrong_costs():

@@ -7,13 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from designed import designed
 from pydantic import ValidationError
 
-from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.finding import Finding, Severity, Stage, errors
+from mechwright.contracts.holes import joined
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
-from mechwright_cad.interference import faithful_motion, interference
+from mechwright_cad.interference import faithful_motion, interference, interference_findings
 from mechwright_elliptic_gears.dividing import PITCH, START, direction
 from mechwright_elliptic_gears.family import EllipticGears
 from mechwright_elliptic_gears.figures import point_peaks, point_window
@@ -169,6 +171,51 @@ def test_nothing_collides_at_any_phase(phase):
     assert {finding.severity for finding in FAMILY.check(params)} == {Severity.NOTE}
 
 
+@pytest.mark.parametrize("joint", ["pins", "clamp"])
+def test_every_phase_of_the_joint_is_looked_at_for_interference(joint):
+    params = VARIABLE.model_copy(update={"phase_joint": joint})
+    others = FAMILY.settings(params)
+    assert list(others) == [f"phase = {phase} deg" for phase in (0, 45, 135, 180)]
+    assert {one.phase for one in others.values()} == {0.0, 45.0, 135.0, 180.0}
+    (note,) = [one for one in found_of(params) if one.code == "interference.settings"]
+    assert all(name in note.message for name in others)
+    fixed = VARIABLE.model_copy(update={"phase_joint": None, "phases": None})
+    assert FAMILY.settings(fixed) == {}
+    assert "interference.settings" not in {one.code for one in found_of(fixed)}
+
+
+def found_of(params, family=FAMILY):
+    parts = [joined(part) for part in family.parts(params)]
+    return interference_findings(designed(family, params), parts, solids=False)
+
+
+def test_a_collision_at_another_phase_is_an_error_that_says_which():
+    class Lifted(EllipticGears):
+        """At 135 degrees gear 3 stands 5 mm higher, and at 45 degrees it cannot be made."""
+
+        def check(self, params):
+            no = Finding.error("gear.made-up", "phase", "gear 3 is gone", remedy="none", stage=Stage.PARTS)
+            return (*super().check(params), *([no] if params.phase == 45 else []))
+
+        def parts(self, params):
+            lifted = params.phase == 135
+            return [
+                dataclasses.replace(
+                    part, instances=tuple(dataclasses.replace(one, z=one.z + 5) for one in part.instances)
+                )
+                if lifted and part.name == "gear-3"
+                else part
+                for part in super().parts(params)
+            ]
+
+    first, *found = errors(found_of(VARIABLE, Lifted()))
+    assert str(first) == "error [gear.made-up] phase: set to phase = 45 deg: gear 3 is gone; none"
+    assert found
+    assert {one.code for one in found} == {"interference.collision"}
+    assert all(one.message.startswith("set to phase = 135 deg: ") for one in found)
+    assert any("gear-3" in one.message for one in found)
+
+
 def test_no_solid_stands_in_another_with_the_pin_in():
     parts = FAMILY.parts(VARIABLE)
     report = interference(parts, faithful_motion(FAMILY, VARIABLE, parts))
@@ -191,8 +238,7 @@ def test_holes_are_h7_and_have_their_walls():
     least = min(abs(one - two) for k, one in enumerate(centres) for two in centres[:k])
     assert PITCH * 4 <= least < PITCH * 4 + 0.2
     assert dividing.rings == (17.5,)
-    # g6 for 4 mm: -4 and -12 µm.
-    assert dividing.pin_limits == pytest.approx((3.988, 3.996))
+    assert dividing.pin_size.text == "4 g6 (-0.012/-0.004)"
 
 
 def test_holes_that_are_too_near_go_to_a_second_circle():
@@ -380,4 +426,6 @@ def test_the_pin_has_its_head_below_the_coupler():
     (instance,) = pin.instances
     assert instance.z + box.zmax == pytest.approx(layout.link - layout.gap / 2)
     assert (box.xmax, box.zmin) == pytest.approx((3.0, 0.0))
+    (note,) = [one for one in FAMILY.check(VARIABLE) if one.code == "train.phase-pin-up"]
+    assert note.value == pytest.approx(layout.link - instance.z - box.zmax)
     assert dataclasses.asdict(instance)["body"] == "phase-pin"

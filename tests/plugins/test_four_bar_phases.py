@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from designed import designed
 from pydantic import ValidationError
 
 from mechwright.contracts.finding import errors
 from mechwright.designs.text import table_lines
+from mechwright_cad.interference import interference_findings
 from mechwright_four_bar.family import FourBars
 from mechwright_four_bar.params import FourBarParams
 from mechwright_four_bar.phases import in_phase, set_joints, settings_of
@@ -84,6 +86,18 @@ def test_the_chords_of_the_holes_are_told():
     assert "12.99 mm (A) and 19.5 mm (B)" in notes[0].message
     assert "18.04 mm (A) and 12.55 mm (B)" in notes[1].message
     assert not errors(FourBars().check(small()))
+
+
+def test_every_phase_is_looked_at_for_interference():
+    family = FourBars()
+    for phase in (1, 2, 3):
+        params = small(phase=phase)
+        others = family.settings(params)
+        assert list(others) == [f"phase = {one}" for one in (1, 2, 3) if one != phase]
+        found = interference_findings(designed(family, params), family.parts(params), solids=False)
+        (note,) = [one for one in found if one.code == "interference.settings"]
+        assert all(name in note.message for name in others)
+    assert family.settings(FourBarParams()) == {}
 
 
 NEAR = ({"crank_turn": 12, "follower_turn": 14}, {"crank_turn": -9, "follower_turn": -6})

@@ -9,14 +9,16 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding
+from mechwright.contracts.finding import Finding, Stage, errors
+from mechwright.contracts.holes import joined
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Instance, Part
+from mechwright.designs.design import Design
 from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
 from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
-from mechwright_cad.interference.report import Collision, Gap, Instant, Report
+from mechwright_cad.interference.report import Collision, Gap, Instant, Report, settings_findings
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
 
 FEWEST_SAMPLES = 181
@@ -183,11 +185,26 @@ def _reach(parts: Sequence[Part]) -> float:
     return float(np.hypot(1, 1) * max(far, default=_USUAL))
 
 
-def interference_findings(
-    solve: Callable[[int], Motion], parts: Sequence[Part], *, solids: bool
-) -> list[Finding]:
-    """What the check says of the parts of a design whose own check found no error."""
+def interference_findings(design: Design, parts: Sequence[Part], *, solids: bool) -> list[Finding]:
+    """What the check says of the parts of a design whose own check found no error, in all its settings.
+
+    What is pressed or screwed into a hole of ``parts`` is meant to stand there: they are taken as they are.
+    """
     if sum(len(part.instances) for part in parts) < 2:
         return []
-    motion = smooth_motion(solve, parts)
-    return list(interference(parts, motion, solids=solids).findings())
+    found = [*_report(design, parts, solids).findings()]
+    found += settings_findings(_settings(design, solids))
+    return found
+
+
+def _report(design: Design, parts: Sequence[Part], solids: bool) -> Report:
+    return interference(parts, smooth_motion(design.solve, parts), solids=solids)
+
+
+def _settings(design: Design, solids: bool) -> dict[str, Report | list[Finding]]:
+    """What the machine is set to besides, and the report of each setting, or why it cannot be built."""
+    found: dict[str, Report | list[Finding]] = {}
+    for name, setting in design.settings().items():
+        wrong = errors(setting.check(), Stage.PARTS)
+        found[name] = wrong or _report(setting, [joined(part) for part in setting.parts()], solids)
+    return found

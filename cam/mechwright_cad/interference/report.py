@@ -1,10 +1,10 @@
 """What an interference check says."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
-from mechwright.contracts.finding import Finding, Stage, of_stage
+from mechwright.contracts.finding import Finding, Severity, Stage, of_stage
 
 MOST = 5
 """Collisions that are printed one by one, the deepest ones: a design with more has one cause for many."""
@@ -116,3 +116,30 @@ class Report:
                 message += f"; the smallest gap seen is {gap.distance:.3f} mm, between {gap.first} and "
                 message += f"{gap.second} at {gap.instant}"
                 yield Finding.note("interference.clear", message, gap.distance, "mm")
+
+
+@of_stage(Stage.PARTS)
+def settings_findings(reports: "Mapping[str, Report | list[Finding]]") -> Iterator[Finding]:
+    """An error for each of the deepest collisions of other settings of a machine, or one note for all.
+
+    ``reports`` has what is set to the report of that setting, or to the errors that forbid its parts.
+    """
+    wrong = False
+    for name, report in reports.items():
+        found = report.findings() if isinstance(report, Report) else report
+        for finding in found:
+            if finding.severity is Severity.ERROR:
+                wrong = True
+                yield replace(finding, message=f"set to {name}: {finding.message}", proposed=())
+    if reports and not wrong:
+        gaps = [
+            (report.closest.distance, name)
+            for name, report in reports.items()
+            if isinstance(report, Report) and report.closest is not None
+        ]
+        message = f"nor do any collide with the machine set to {', '.join(reports)}"
+        if gaps:
+            message += f"; the smallest gap seen is {min(gaps)[0]:.3f} mm, at {min(gaps)[1]}"
+        yield Finding.note(
+            "interference.settings", message, min(gaps)[0] if gaps else None, "mm" if gaps else ""
+        )

@@ -104,6 +104,25 @@ class Family(Plugin, Generic[P]):
         """
         return None
 
+    def settings(
+        self,
+        params: P,  # noqa: ARG002 - used by families whose machines are set
+    ) -> "Mapping[str, P]":
+        """The designs that the same machine is set to besides this one.
+
+        Parameters
+        ----------
+        params
+            A design whose ``check`` finds no error.
+
+        Returns
+        -------
+        settings
+            What is set, as ``"phase = 45 deg"``, to the design of that setting. Bodies are looked at for
+            interference in each. The default has none.
+        """
+        return {}
+
     def check_cut(
         self,
         params: P,  # noqa: ARG002 - used by families whose parts mate

@@ -118,6 +118,11 @@ class Design:
             motion = around.around(motion)
         return motion
 
+    def settings(self) -> "dict[str, Design]":
+        """What the same machine is set to besides: see :meth:`Family.settings`."""
+        others = self.family.settings(self.params)
+        return {name: replace(self, params=params) for name, params in others.items()}
+
     def changed(self, change: Change) -> "Design":
         """The design that the file would hold with a change; raises as :func:`load` does."""
         content = changed(self.content, change)

@@ -55,20 +55,25 @@ function drawSpeed(samples, found, theta2, now) {
   drawn("path", { class: "trace", d: line(samples.map(({ speed }, k) => [x(2 * Math.PI * k / POINTS), y(speed)])) }, plot);
   drawn("circle", { class: "q", cx: x(theta2), cy: y(now.speed), r: 5 }, plot);
 }
+function row(body, gamma, e, values) {
+  const made = body.insertRow();
+  made.dataset.cell = `${gamma} ${e}`;
+  cell(made, shown(gamma) + "°", "th");
+  cell(made, shown(e));
+  for (const value of values) cell(made, value);
+}
+function machine() {
+  if (data.settable) for (const gamma of data.phases) {
+    const { joint, most, acceleration, window } = figuresOf(designOf(gamma, data.e), data.band);
+    row(by("machine").tBodies[0], gamma, data.e, [degrees(joint), window.start.toFixed(3), (window.start + window.length).toFixed(3), window.length.toFixed(3), most.value.toFixed(2), (acceleration.value / 1000).toFixed(4)]);
+  }
+}
 function tables() {
   const [two, three] = [by("table2").tBodies[0], by("table3").tBodies[0]];
   for (const gamma of data.phases) for (const e of data.eccentricities) {
     const { most, acceleration, window } = figuresOf(designOf(gamma, e), data.band);
-    for (const body of [two, three]) {
-      const row = body.insertRow();
-      row.dataset.cell = `${gamma} ${e}`;
-      cell(row, shown(gamma) + "°", "th");
-      cell(row, shown(e));
-      const values = body === two
-        ? [window.start.toFixed(3), (window.start + window.length).toFixed(3), window.length.toFixed(3), window.low.toFixed(2), (window.low + data.band).toFixed(2)]
-        : [most.value.toFixed(2), most.angle.toFixed(3), (acceleration.value / 1000).toFixed(4), acceleration.angle.toFixed(3)];
-      for (const value of values) cell(row, value);
-    }
+    row(two, gamma, e, [window.start.toFixed(3), (window.start + window.length).toFixed(3), window.length.toFixed(3), window.low.toFixed(2), (window.low + data.band).toFixed(2)]);
+    row(three, gamma, e, [most.value.toFixed(2), most.angle.toFixed(3), (acceleration.value / 1000).toFixed(4), acceleration.angle.toFixed(3)]);
   }
 }
 function update() {
@@ -102,5 +107,6 @@ for (const button of document.querySelectorAll("button[data-gamma]")) button.add
   by("gamma").value = button.dataset.gamma;
   update();
 });
+machine();
 tables();
 update();

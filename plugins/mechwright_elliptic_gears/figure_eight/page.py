@@ -46,6 +46,7 @@ def data_of(params: EllipticGearParams) -> dict[str, Any]:
         "along": params.point_along,
         "across": params.point_across,
         "phases": sorted(phases),
+        "settable": params.adjustable,
         "eccentricities": sorted({*REPORTED_ECCENTRICITIES, params.eccentricity}),
     }
 

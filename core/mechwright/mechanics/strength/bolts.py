@@ -15,14 +15,11 @@ SHARE = 0.7
 FRICTION = 0.12
 """Of oiled steel, in thread, under the head and between faces."""
 
-HEAD_PRESSURE = 200.0
-"""What aluminium bears under a head, MPa; more wants a washer. Handbook."""
-
 _FLANK = 0.577
 """1/(2 cos 30°): friction on flanks of 60° (VDI 2230: 0.58)."""
 
 CLAMP_SAFETY = 2.0
-"""Of a clamp against the peak torque."""
+"""Of a clamp, or of what else joins two parts, against the peak torque."""
 
 
 def stress_area(d: float, pitch: float) -> float:

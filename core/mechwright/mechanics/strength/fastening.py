@@ -79,6 +79,15 @@ def stud_shear(force: float, d: float) -> float:
     return 16 * force / (3 * math.pi * d * d)
 
 
+def stud_pressure(force: float, arm: float, d: float, depth: float) -> float:
+    """At the mouth of the hole that a stud stands in, in which it tilts, MPa: F (6 l + 4 s)/(d s²).
+
+    >>> stud_pressure(100, 0, 5, 10), stud_pressure(100, 5, 5, 10)
+    (8.0, 14.0)
+    """
+    return force * (6 * arm + 4 * depth) / (d * depth * depth)
+
+
 def stud_deflection(force: float, arm: float, d: float, modulus: float) -> tuple[float, float]:
     """Under the load, mm, and the slope there, rad."""
     stiff = modulus * math.pi * d**4 / 64

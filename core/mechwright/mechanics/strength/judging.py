@@ -1,0 +1,188 @@
+"""What a family says of its stresses: which is the worst, how safe it is, and what would make it safe.
+
+A stress up to what is allowed is a note; above that a warning, for it wears or tires; from what the material
+yields or breaks at an error. What a remedy names has been tried.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from mechwright.contracts.finding import Change, Finding, Severity
+from mechwright.contracts.parameters import Parameters
+from mechwright.errors import MechwrightError
+from mechwright.tolerances import exceeds
+
+P = TypeVar("P", bound=Parameters)
+
+STUD_SHARE, SHEAR_SHARE = 0.4, 0.2
+"""Share of the endurance limit of a polished bar that pins, studs and shafts bear in bending and in shear: a
+press fit or a shoulder takes 1.7 of it, and a safety of 1.5. Of steel 120 and 60 MPa, as in
+handbooks."""
+
+_LOOKS = 6
+"""At values of a key, each from the slope of the two before: stresses are powers of it, or nearly so."""
+
+_NEAR = 0.03
+"""Share of what is allowed that a value may leave unused."""
+
+_AIM = 0.005
+"""That is aimed at."""
+
+_FLAT = 0.05
+"""Power of a key below which it does not help: another load is the larger one."""
+
+_LEAST = 1e-12
+"""Share that counts as no load."""
+
+_FARTHEST = math.log(500)
+"""A value is changed up to 500 times, or to a 500th: more is another design."""
+
+_DIGITS = 3
+"""Of a value that is named."""
+
+
+@dataclass(frozen=True)
+class Stress:
+    """One stress of a part.
+
+    Parameters
+    ----------
+    what
+        Where it is and what makes it: ``"bending at the root of gear 2's teeth"``.
+    value, limit
+        The stress, and what is allowed for long, in ``unit``.
+    breaks
+        From where the part yields or breaks; None where more than allowed only wears.
+    unit
+        Of all three.
+    """
+
+    what: str
+    value: float
+    limit: float
+    breaks: float | None = None
+    unit: str = "MPa"
+
+    @property
+    def used(self) -> float:
+        """Share of what is allowed."""
+        return self.value / self.limit
+
+    @property
+    def severity(self) -> Severity:
+        """Of the finding that says it."""
+        if not exceeds(self.value, self.limit):
+            return Severity.NOTE
+        fails = self.breaks is not None and exceeds(self.value, self.breaks)
+        return Severity.ERROR if fails else Severity.WARNING
+
+
+def worst(stresses: Sequence[Stress]) -> Stress:
+    """The one that fails, else that with the greatest share of what is allowed."""
+    return max(stresses, key=lambda one: (one.severity is Severity.ERROR, one.used))
+
+
+@dataclass(frozen=True)
+class Way:
+    """A key of the design that helps, and its value now: ``up`` where more of it does, else less."""
+
+    key: str
+    now: float
+    up: bool = True
+
+
+def judged(
+    code: str, params: P, stresses_of: Callable[[P], Sequence[Stress]], ways: Sequence[Way], load: str = ""
+) -> Iterator[Finding]:
+    """One finding on the worst of a group's stresses.
+
+    Parameters
+    ----------
+    code
+        Of the finding.
+    params
+        The design.
+    stresses_of
+        The stresses of any design; where there are none, or all are 0, there is nothing to say.
+    ways
+        What helps, the best first: those whose values have been found to help are named.
+    load
+        What loads the parts, for the message: ``"408 N at 12 degrees"``.
+    """
+    stresses = stresses_of(params)
+    if not stresses:
+        return
+    one = worst(stresses)
+    if one.value == 0:
+        return
+    under = f"{load}: " if load else ""
+    said = f"{under}{one.what} {one.value:.4g} {one.unit}, {one.limit:g} allowed"
+    if one.severity is Severity.NOTE:
+        yield Finding.note(code, said, one.value, one.unit)
+        return
+    helps = [(way, value) for way in ways if (value := _tried(params, stresses_of, way)) is not None]
+    words = [f"{way.key} at {'least' if way.up == (value > 0) else 'most'} {value:g}" for way, value in helps]
+    changes: list[Change] = [{f"parameters.{way.key}": value} for way, value in helps]
+    fails = one.severity is Severity.ERROR and one.breaks is not None
+    yield Finding(
+        code,
+        one.severity,
+        helps[0][0].key if helps else ways[0].key,
+        said + (f", and it fails from {one.breaks:.4g}" if fails else ""),
+        one.value,
+        one.limit,
+        one.unit,
+        f"make {', or '.join(words)}" if words else "take a stronger material, larger parts or less load",
+        proposed=tuple(changes),
+    )
+
+
+def _tried(params: P, stresses_of: Callable[[P], Sequence[Stress]], way: Way) -> float | None:
+    """The value of a key nearest to what it is with which all stresses are allowed; None without one."""
+    if way.now == 0:
+        return None
+    # Logarithms of the change and of the share that is used; a power law is a straight line in them.
+    at, over = 0.0, _share(stresses_of(params))
+    step = over / 3
+    best: tuple[float, float] | None = None
+    for _ in range(_LOOKS):
+        change = min(at + step, _FARTHEST)
+        value = _rounded(way.now * math.exp(change if way.up else -change), way.up)
+        try:
+            better = type(params).model_validate(params.model_dump() | {way.key: value})
+            used = _share(stresses_of(better))
+        except (ValidationError, MechwrightError):  # there is no such design
+            break
+        if used <= 0:
+            best = min(best or (change, value), (change, value))
+            if used > -_NEAR:
+                break
+        if change == at:
+            break
+        slope = (over - used) / (change - at)
+        at, over = change, used
+        if slope < _FLAT:
+            break
+        step = (used + _AIM) / slope
+    return None if best is None else best[1]
+
+
+def _share(stresses: Sequence[Stress]) -> float:
+    """The logarithm of the greatest share of what is allowed; a hair too much passes, as in a finding."""
+    used = max((one.used for one in stresses), default=0.0)
+    return math.log(max(used, _LEAST)) if exceeds(used, 1.0) else min(0.0, math.log(max(used, _LEAST)))
+
+
+def _rounded(value: float, up: bool) -> float:
+    """To three digits, up or down; of a value below 0 its size is.
+
+    >>> _rounded(12.341, True), _rounded(12.349, False), _rounded(-0.12349, False)
+    (12.4, 12.3, -0.123)
+    """
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - _DIGITS + 1)
+    size = (math.ceil if up else math.floor)(abs(value) / step) * step
+    return math.copysign(float(f"{size:.{_DIGITS}g}"), value)
