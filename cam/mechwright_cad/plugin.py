@@ -12,6 +12,7 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
 )
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+from mechwright_cad.results import Assembled, PartPicture, PartSolid
 from mechwright_cad.turned_drawing.page import TurnedDrawings
 
 
@@ -30,4 +31,7 @@ def mechwright_register() -> list[type[Plugin]]:
         BillOfMaterials,
         TurnedDrawings,
         Interference,
+        PartSolid,
+        PartPicture,
+        Assembled,
     ]

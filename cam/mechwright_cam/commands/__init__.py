@@ -17,7 +17,13 @@ class Cam(Command):
     name = "cam"
     order = 60
 
-    def run(self, design: DesignFile, output: OutputFolder, dxf_curves: Curves = "spline") -> None:
+    def run(
+        self,
+        design: DesignFile,
+        output: OutputFolder,
+        dxf_curves: Curves = "spline",
+        as_json: AsJson = False,
+    ) -> None:
         """Write drawings and proven programs.
 
         DXF, G-code, the tool table of the control, the setup sheet, and the proof.
@@ -27,7 +33,7 @@ class Cam(Command):
         from mechwright.contracts.finding import Stage
 
         nothing = "makes no plate part, so there is nothing to mill; use mechwright model"
-        perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing)
+        perform(design, output, Wanted("cam", curves=dxf_curves), Stage.MACHINING, nothing, as_json)
 
 
 class Verify(Command):

@@ -144,7 +144,9 @@ class Solve(Command):
     name = "solve"
     order = 40
 
-    def run(self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES) -> None:
+    def run(
+        self, design: DesignFile, output: OutputFolder, samples: Samples = SAMPLES, as_json: AsJson = False
+    ) -> None:
         """Write the motion: tables, and a page that moves.
 
         They are motion.csv, summary.json and motion.html; poles.html and
@@ -154,7 +156,7 @@ class Solve(Command):
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("solve", samples), Stage.MOTION)
+        perform(design, output, Wanted("solve", samples), Stage.MOTION, as_json=as_json)
 
 
 class Build(Command):
@@ -171,13 +173,15 @@ class Build(Command):
         also: Also = "",
         dxf_curves: Curves = "spline",
         at: At = "",
+        as_json: AsJson = False,
     ) -> None:
         """Write everything: motion, solids, drawings, programs."""
         from mechwright.build import Wanted
         from mechwright.cli.perform import perform
         from mechwright.contracts.finding import Stage
 
-        perform(design, output, Wanted("build", samples, at, names(also), dxf_curves), Stage.MACHINING)
+        wanted = Wanted("build", samples, at, names(also), dxf_curves)
+        perform(design, output, wanted, Stage.MACHINING, as_json=as_json)
 
 
 class Synthesize(Command):
@@ -193,6 +197,7 @@ class Synthesize(Command):
             typer.Argument(metavar="REQUIREMENT", help="A requirement file (TOML).", show_default=False),
         ],
         output: OutputFolder,
+        as_json: AsJson = False,
     ) -> None:
         """Find designs that meet a requirement.
 
@@ -200,7 +205,7 @@ class Synthesize(Command):
         """
         from mechwright.cli import synthesis
 
-        synthesis.synthesize(requirement, output)
+        synthesis.synthesize(requirement, output, as_json)
 
 
 @hookimpl

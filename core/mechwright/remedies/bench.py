@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import Key, keys_of
 from mechwright.remedies.values import distance
@@ -52,12 +53,15 @@ class Bench:
         Errors of this stage and of earlier ones count.
     limits
         When the search ends.
+    progress
+        Told how near that is.
     """
 
     design: Design
     judge: Judge
     stage: Stage = Stage.MACHINING
     limits: Limits = Limits()
+    progress: Progress = unheard
     tries: int = 0
     keys: dict[str, Key] = field(init=False)
 
@@ -116,6 +120,8 @@ class Bench:
         try:
             design = self.design.changed(change)
             self.tries += 1
+            left = (self._end - time.process_time()) / self.limits.seconds
+            self.progress(max(self.tries / self.limits.tries, 1 - left), "trying changes")
             return tuple(self.judge(design))
         except Exception:  # noqa: BLE001,RUF100 - whatever a design nobody asked for leads to, it is no remedy
             return None

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from mechwright import __version__
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
@@ -25,13 +24,12 @@ def facts(design: Design, found: Host) -> dict[str, Any]:
 def run_facts(name: str, family: Family[Any], inputs: Mapping[str, str], found: Host) -> dict[str, Any]:
     """Facts of a run; ``inputs`` is file name to SHA-256."""
     origin = found.of(Family)[family.name].distribution
-    packages = {"cadquery", "ezdxf", "numpy", "scipy", "shapely", origin} - {"mechwright"}
+    packages = {"cadquery", "ezdxf", "mechwright", "numpy", "scipy", "shapely", origin}
     return {
         "design": name,
         "family": family.name,
         "inputs_sha256": dict(inputs),
         "versions": {
-            "mechwright": __version__,
             "python": ".".join(map(str, sys.version_info[:3])),
             **{package: _version(package) for package in sorted(packages)},
         },
