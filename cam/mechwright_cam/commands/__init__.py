@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from mechwright.cli import completing
 from mechwright.cli.command import AsJson, Command, Curves, DesignFile, OutputFolder, names
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import DesignError
@@ -51,9 +52,22 @@ class Verify(Command):
             ),
         ],
         design: Annotated[
-            Path | None, typer.Option(metavar="DESIGN", help="The design file.", show_default=False)
+            Path | None,
+            typer.Option(
+                metavar="DESIGN",
+                help="The design file.",
+                show_default=False,
+                autocompletion=completing.design_files,
+            ),
         ] = None,
-        part: Annotated[str, typer.Option(metavar="NAME", help="The part of the design that it cuts.")] = "",
+        part: Annotated[
+            str,
+            typer.Option(
+                metavar="NAME",
+                help="The part of the design that it cuts.",
+                autocompletion=completing.part_names,
+            ),
+        ] = "",
         dxf: Annotated[
             Path | None,
             typer.Option(
@@ -93,7 +107,12 @@ class Verify(Command):
             typer.Option("--set", metavar="KEY=VALUE", help="With --dxf: a setting of [cam], hold.tabs=3."),
         ] = [],  # noqa: B006 - typer reads it, nobody changes it
         control: Annotated[
-            str, typer.Option(metavar="NAME", help="The control it is for; by default the design's.")
+            str,
+            typer.Option(
+                metavar="NAME",
+                help="The control it is for; by default the design's.",
+                autocompletion=completing.controls,
+            ),
         ] = "",
         page: Annotated[
             Path | None, typer.Option(metavar="FILE", help="Write the report as a page.", show_default=False)

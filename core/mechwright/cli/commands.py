@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from mechwright.build.build import SAMPLES
+from mechwright.cli import completing
 from mechwright.cli.command import (
     Also,
     AsJson,
@@ -34,6 +35,28 @@ class Families(Command):
         listing.families(as_json)
 
 
+class Demo(Command):
+    """``mechwright demo``."""
+
+    name = "demo"
+    order = 5
+
+    def run(
+        self,
+        folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Where it goes.")] = Path(
+            "mechwright-demo"
+        ),
+        show: Annotated[
+            bool | None,
+            typer.Option("--open/--no-open", help="Open the page on which it moves.", show_default=False),
+        ] = None,
+    ) -> None:
+        """Build an example, and open it in the browser."""
+        from mechwright.cli import demo
+
+        demo.demo(folder, show)
+
+
 class New(Command):
     """``mechwright new``."""
 
@@ -42,13 +65,25 @@ class New(Command):
 
     def run(
         self,
-        family: Annotated[str, typer.Argument(help="A family's name; see `families`.", show_default=False)],
+        family: Annotated[
+            str,
+            typer.Argument(
+                help="A family's name; see `families`.",
+                show_default=False,
+                autocompletion=completing.families,
+            ),
+        ],
         output: Annotated[
             Path | None,
             typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
         ] = None,
         requirement: Annotated[
-            str, typer.Option(metavar="KIND", help="A requirement file instead, for `synthesize`.")
+            str,
+            typer.Option(
+                metavar="KIND",
+                help="A requirement file instead, for `synthesize`.",
+                autocompletion=completing.requirement_kinds,
+            ),
         ] = "",
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
@@ -69,7 +104,12 @@ class Schema(Command):
 
     def run(
         self,
-        family: Annotated[str, typer.Argument(help="A family's name; all families if not given.")] = "",
+        family: Annotated[
+            str,
+            typer.Argument(
+                help="A family's name; all families if not given.", autocompletion=completing.families
+            ),
+        ] = "",
         output: Annotated[
             Path | None,
             typer.Option("--output", "-o", metavar="FILE", help="The file; printed if not given."),
@@ -121,7 +161,13 @@ class Fix(Command):
         self,
         design: DesignFile,
         to: Annotated[
-            str, typer.Option("--to", metavar="STAGE", help="How far it has to build: parts or machining.")
+            str,
+            typer.Option(
+                "--to",
+                metavar="STAGE",
+                help="How far it has to build: parts or machining.",
+                autocompletion=completing.stages,
+            ),
         ] = "machining",
         output: Annotated[
             Path | None, typer.Option("--output", "-o", metavar="FILE", help="A new file for the result.")
@@ -194,7 +240,12 @@ class Synthesize(Command):
         self,
         requirement: Annotated[
             Path,
-            typer.Argument(metavar="REQUIREMENT", help="A requirement file (TOML).", show_default=False),
+            typer.Argument(
+                metavar="REQUIREMENT",
+                help="A requirement file (TOML).",
+                show_default=False,
+                autocompletion=completing.requirement_files,
+            ),
         ],
         output: OutputFolder,
         as_json: AsJson = False,
@@ -211,4 +262,4 @@ class Synthesize(Command):
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Families, New, Schema, Check, Fix, Solve, Build, Synthesize]
+    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize]

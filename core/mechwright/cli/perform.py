@@ -10,9 +10,9 @@ import typer
 from mechwright.build import Wanted
 from mechwright.cli import telling
 from mechwright.cli.hosting import open_host
-from mechwright.cli.progress import fraction
+from mechwright.cli.progress import fraction, standing
 from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.finding import Finding, Severity, Stage, errors
+from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.refused import RefusedError
 from mechwright.errors import PluginError
 from mechwright.plugins.host import Host
@@ -40,17 +40,17 @@ def perform(
     """
     found = open_host()
     _check_formats(found, wanted.formats)
-    with Mechanism(path, found, wanted) as build:
+    with standing(folder), Mechanism(path, found, wanted) as build:
         try:
-            with fraction(folder) as progress:
+            with fraction() as progress:
                 written = build.write(folder, stage, progress, empty)
         except RefusedError as refused:
             if as_json:
-                _print(_data(build, Written(folder, (), refused.findings)))
+                _print(_data(build, Written(folder, (), refused.findings), ok=False))
                 raise typer.Exit(1) from None
             refuse(refused.findings, path)
         if as_json:
-            _print(_data(build, written))
+            _print(_data(build, written, ok=True))
         else:
             _say(path, stage, written)
 
@@ -72,10 +72,11 @@ def _say(path: Path, stage: Stage, written: Written) -> None:
     typer.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
 
 
-def _data(build: Mechanism, written: Written) -> dict[str, Any]:
+def _data(build: Mechanism, written: Written, *, ok: bool) -> dict[str, Any]:
+    """What is told as JSON; ``ok`` is what the exit code says, whatever findings stopped nothing."""
     return {
         "design": build.design.name,
-        "ok": not errors(written.findings),
+        "ok": ok,
         "findings": [finding.as_dict() for finding in written.findings],
         "folder": str(written.folder),
         "files": list(written.files),

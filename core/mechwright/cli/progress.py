@@ -20,16 +20,11 @@ class StoppedError(Exception):
 
 
 @contextmanager
-def fraction(folder: Path | None = None) -> "Iterator[Progress]":
-    """Show how far a piece of work is, 0 to 1, what it is at, and the time that remains.
-
-    Shown on standard error, if that is a terminal. Raises StoppedError where the keyboard stops the work,
-    with what stands in the ``folder`` that it writes.
-    """
+def standing(folder: Path | None = None) -> Iterator[None]:
+    """Run a block; raises StoppedError where the keyboard stops it, with what stands in ``folder``."""
     before = _stamp(folder)
     try:
-        with _shown() as progress:
-            yield progress
+        yield
     except KeyboardInterrupt:
         if folder is None:
             raise StoppedError(NOTHING) from None
@@ -47,7 +42,11 @@ def _stamp(folder: Path | None) -> tuple[int, int] | None:
 
 
 @contextmanager
-def _shown() -> "Iterator[Progress]":
+def fraction() -> "Iterator[Progress]":
+    """Show how far a piece of work is, 0 to 1, what it is at, and the time that remains.
+
+    It is shown on standard error, if that is a terminal, and gone when the work is done.
+    """
     if not sys.stderr.isatty():
         yield lambda done, what: None  # noqa: ARG005 - nothing is shown
         return

@@ -6,7 +6,7 @@ from pathlib import Path
 import typer
 
 from mechwright.cli.hosting import open_host
-from mechwright.cli.progress import fraction
+from mechwright.cli.progress import fraction, standing
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.synthesis import Candidate
 from mechwright.designs.requirement import load_requirement
@@ -22,7 +22,7 @@ def synthesize(path: Path, folder: Path, as_json: bool) -> None:
     installed = open_host()
     asked = load_requirement(path, installed)
     check_folder(folder)
-    with fraction(folder) as progress:
+    with standing(folder), fraction() as progress:
         found = sought(asked, installed, progress)
         failed = bool(errors(found.result.findings))
         files = () if failed else found.write(folder)
