@@ -52,7 +52,15 @@ def test_a_design_from_a_file_and_from_keywords_are_the_same(tmp_path, pair):
     opened = mw.load(str(path))
     assert opened.design.params == pair.design.params
     assert opened.design.tables == pair.design.tables
-    assert opened.design.digest == pair.design.digest, "the manifest of both is the same"
+    manifests = [
+        json.loads(
+            (
+                one.asked(command="solve", samples=9).write(tmp_path / name).folder / "manifest.json"
+            ).read_text()
+        )
+        for one, name in ((opened, "opened"), (pair, "made"))
+    ]
+    assert manifests[0] == manifests[1]
     with pytest.raises(mw.OutputError, match="is there already"):
         pair.save(path)
 
@@ -63,7 +71,6 @@ def test_another_parameter_is_another_mechanism_and_leaves_the_first_alone(pair)
     assert other.programs  # planned for the other control
     assert other.design.tables["cam"] != pair.design.tables["cam"]
     assert (pair.design.params.eccentricity, pair.design.params.teeth) == (0.4, 25)
-    assert other.design.digest != pair.design.digest
     assert mw.load(EXAMPLE).with_(eccentricity=0.3).design.params.speed == 60
 
 

@@ -6,8 +6,10 @@ from mechwright.output import svg
 
 MARGIN = 0.08
 """Of the greater side, around the plate."""
-HIDDEN = 0.15
-"""mm: how far curves may be off, well below the width of a line on a screen."""
+HIDDEN = 1 / 2000
+"""Of the greater side: how far curves may be off, well below the width of a line on a screen."""
+CHARACTER = 0.6
+"""Width of a letter in heights, on the wide side."""
 WIDTH = "24em"
 
 
@@ -19,18 +21,20 @@ def part_picture(part: Part) -> str:
 def _plate(part: Part, outline: Outline) -> str:
     x0, y0, x1, y1 = outline.bounds
     size = max(x1 - x0, y1 - y0)
-    margin, letter = MARGIN * size, 0.045 * size
+    margin, hidden = MARGIN * size, HIDDEN * size
+    wide = max(x1 - x0, 0.8 * size)
     look = {"stroke": "#1d3557", "stroke_width": svg.number(size / 300)}
-    rim = "".join(svg.path(loop.flatten(HIDDEN), close=True) for loop in outline.loops)
+    rim = "".join(svg.path(loop.flatten(hidden), close=True) for loop in outline.loops)
     drawn = [svg.element("path", d=rim, fill="#dbe4ec", fill_rule="evenodd", **look)]
     for feature in part.features:
         if isinstance(feature, Pocket):
             loops = (feature.boundary, *feature.islands)
-            data = "".join(svg.path(loop.flatten(HIDDEN), close=True) for loop in loops)
+            data = "".join(svg.path(loop.flatten(hidden), close=True) for loop in loops)
             drawn.append(svg.element("path", d=data, fill="#b9c8d6", fill_rule="evenodd", **look))
     words = f"{part.name}: {x1 - x0:.4g} × {y1 - y0:.4g} × {part.thickness:.4g} mm, {part.material}"
+    letter = min(0.045 * size, wide / (CHARACTER * len(words)))
     drawn.append(svg.text(x0, y0 - margin / 2 - letter, words, letter, fill="#333"))
-    box = (x0 - margin, -y1 - margin, x1 - x0 + 2 * margin, y1 - y0 + 2 * margin + 2 * letter)
+    box = (x0 - margin, -y1 - margin, wide + 2 * margin, y1 - y0 + 2 * margin + 2 * letter)
     return _sized(svg.picture("".join(drawn), box, words))
 
 
@@ -39,7 +43,14 @@ def _projected(part: Part) -> str:
 
     from mechwright_cad.solids.solid import part_solid
 
-    options = {"width": 400, "height": 300, "showAxes": False, "showHidden": False}
+    options = {
+        "width": 400,
+        "height": 300,
+        "showHidden": False,
+        "marginLeft": 20,
+        "marginTop": 20,
+        "showAxes": False,
+    }
     drawn: str = getSVG(part_solid(part), options)  # type: ignore[no-untyped-call]
     return drawn[drawn.index("<svg") :]
 

@@ -45,7 +45,7 @@ class Design:
     params
         The table ``[parameters]``.
     digest
-        SHA-256 of the bytes of the file ``path``.
+        SHA-256 of the bytes of the file ``path``; empty for a design that no file holds.
     tables
         Name to value of every table that is registered; see :meth:`table`.
     readers

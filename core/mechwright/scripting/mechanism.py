@@ -8,7 +8,6 @@ from typing import Any
 from mechwright.build import Build, Inspection, Page
 from mechwright.contracts.finding import Finding, Findings, Stage, errors
 from mechwright.contracts.synthesis import Progress, unheard
-from mechwright.designs.files import digest_of
 from mechwright.errors import MechwrightError
 from mechwright.output.folder import write_new
 from mechwright.scripting.changes import change_of
@@ -55,7 +54,7 @@ class Mechanism(Build):
             One line for each thing that is wrong.
         """
         design = self.design.changed(change_of(self.host, changes))
-        return Mechanism(replace(design, digest=digest_of(design.text)), self.host, self.wanted)
+        return Mechanism(replace(design, digest=""), self.host, self.wanted)
 
     def asked(self, **wanted: Any) -> "Mechanism":
         """The same design with other wishes, such as ``samples=3601, at="40 deg"``: see :class:`Wanted`."""

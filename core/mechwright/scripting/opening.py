@@ -1,14 +1,12 @@
 """Where a script begins: a design file, or a family and its parameters."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from mechwright.designs.change import changed
 from mechwright.designs.design import design_of
-from mechwright.designs.files import digest_of
 from mechwright.designs.schema import FORMAT
 from mechwright.plugins.host import Host, host
 from mechwright.scripting.changes import change_of
@@ -66,5 +64,4 @@ def design(family: str, /, *, name: str = "", **parameters: object) -> Mechanism
 
 def opened(content: Mapping[str, Any], path: Path, installed: Host) -> Mechanism:
     """The mechanism of what a file ``path`` would hold; raises DesignError for what is wrong with it."""
-    made = design_of(content, path, "", installed)
-    return Mechanism(replace(made, digest=digest_of(made.text)), installed)
+    return Mechanism(design_of(content, path, "", installed), installed)

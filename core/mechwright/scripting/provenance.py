@@ -8,13 +8,13 @@ from typing import Any
 from mechwright.contracts.family import Family
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
-from mechwright.designs.files import read_text
+from mechwright.designs.files import digest_of, read_text
 from mechwright.plugins.host import Host
 
 
 def facts(design: Design, found: Host) -> dict[str, Any]:
     """Facts of a run on a design: the hash of its file and of all that its tables name."""
-    inputs = {design.path.name: design.digest}
+    inputs = {design.path.name: design.digest or digest_of(design.text)}
     for name, value in design.tables.items():
         named = found.get(Table, name).inputs(value, design.path)
         inputs |= {name: read_text(file)[1] for name, file in named.items()}
